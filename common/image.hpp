@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A picture in memory: rows of pixels, the top row first.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+/// A width x height array of pixels, stored row by row from the top-left corner, without padding.
+///
+/// The pixel (x, y) covers the square from (x, y) to (x + 1, y + 1) of screen space.
+template <typename Pixel>
+class Image {
+  public:
+    Image() = default;
+
+    /// @param size  Width and height in pixels, each >= 0.
+    explicit Image(ivec2 size, Pixel value = Pixel{}) : size_(size) {
+        assert(size.x >= 0 && size.y >= 0 && "an image has no negative side");
+        pixels_.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), value);
+    }
+
+    ivec2 size() const { return size_; }
+    bool contains(ivec2 p) const { return p.x >= 0 && p.y >= 0 && p.x < size_.x && p.y < size_.y; }
+
+    /// @param p  A pixel inside the picture.
+    Pixel& operator[](ivec2 p) { return pixels_[index(p)]; }
+    const Pixel& operator[](ivec2 p) const { return pixels_[index(p)]; }
+
+    /// All pixels, row by row.
+    std::span<Pixel> pixels() { return pixels_; }
+    std::span<const Pixel> pixels() const { return pixels_; }
+
+    bool operator==(const Image&) const = default;
+
+  private:
+    std::size_t index(ivec2 p) const {
+        assert(contains(p) && "the pixel lies outside the image");
+        return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(size_.x) +
+               static_cast<std::size_t>(p.x);
+    }
+
+    ivec2 size_{0, 0};
+    std::vector<Pixel> pixels_;
+};
+
+}  // namespace rasterbook
