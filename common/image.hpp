@@ -8,9 +8,16 @@
 #include <span>
 #include <vector>
 
+#include <glm/common.hpp>
+
 #include "common/math/types.hpp"
 
 namespace rasterbook {
+
+/// The pixel in which a point of screen space lies.
+///
+/// @param position_screen  Finite, each coordinate within the range of int.
+inline ivec2 pixel_of(vec2 position_screen) { return ivec2(glm::floor(position_screen)); }
 
 /// A width x height array of pixels, stored row by row from the top-left corner, without padding.
 ///

@@ -10,7 +10,8 @@
 
 namespace rasterbook {
 
-/// Thrown for input that cannot be read; what() is "FILE:LINE: what is wrong" or "FILE: what is wrong".
+/// Thrown for input that cannot be read; what() is "FILE:LINE: what is wrong" or "FILE: what is
+/// wrong".
 class InputError : public std::runtime_error {
   public:
     InputError(const std::filesystem::path& file, const std::string& what)

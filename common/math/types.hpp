@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The vectors and matrices of the course: GLM's types under the conventions of docs/conventions.md.
+/// The vectors and matrices of the course: GLM's types under the conventions of
+/// docs/conventions.md.
 #pragma once
 
 #include <glm/gtc/type_precision.hpp>

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The material libraries. Colours are linear; maps of colours are sRGB, all other maps linear.
+///
+/// A material asks for no more than it needs: what has no map_Ks shines evenly, what has no norm is
+/// smooth. Ka repeats Kd: ambient light meets the same surface.
+#pragma once
+
+#include <string>
+
+#include "assets/generate/brick.hpp"
+#include "assets/generate/model.hpp"
+
+namespace rasterbook::assets {
+
+inline const std::string porcelain = R"(
+newmtl glaze
+Ka 0.015 0.13 0.16
+Kd 0.015 0.13 0.16
+Ks 0.45 0.45 0.45
+Ns 90
+illum 2
+
+newmtl gilt
+Ka 0.46 0.25 0.06
+Kd 0.46 0.25 0.06
+Ks 0.8 0.6 0.3
+Ns 60
+illum 2
+)";
+
+inline const std::string tea_in_spout = R"(
+newmtl tea
+Ka 0.12 0.035 0.008
+Kd 0.12 0.035 0.008
+Ks 0.4 0.4 0.4
+Ns 200
+illum 2
+)";
+
+inline const std::string hammered_copper = R"(
+newmtl copper
+Ka 0.6 0.6 0.6
+Kd 0.6 0.6 0.6
+Ks 1 0.7 0.5
+Ns 40
+illum 2
+map_Kd ../textures/hammered.png
+map_Ks ../textures/hammered_specular.png
+norm ../textures/hammered_normal.png
+)";
+
+inline const std::string wooden_crate = R"(
+newmtl crate
+Ka 1 1 1
+Kd 1 1 1
+illum 1
+map_Kd ../textures/wood.png
+)";
+
+inline const std::string brick_crate = R"(
+newmtl brick
+Ka 1 1 1
+Kd 1 1 1
+Ks 1 1 1
+Ns 12
+illum 2
+map_Kd ../textures/brick.png
+map_Ks ../textures/brick_specular.png
+norm ../textures/brick_normal.png
+)";
+
+inline const std::string brick_crate_with_heights = R"(
+# -bm: how far height 1 lies above height 0, in sides of the texture.
+newmtl brick
+Ka 1 1 1
+Kd 1 1 1
+Ks 1 1 1
+Ns 12
+illum 2
+map_Kd ../textures/brick.png
+map_Ks ../textures/brick_specular.png
+map_Bump -bm )" + text_of(brick_relief) + " ../textures/brick_height.png\n";
+
+inline const std::string smooth_tiles = R"(
+newmtl tiles
+Ka 0.8 0.8 0.8
+Kd 0.8 0.8 0.8
+Ks 0.2 0.2 0.2
+Ns 60
+illum 2
+map_Kd ../textures/tiles.png
+)";
+
+inline const std::string bumpy_tiles = R"(
+newmtl tiles
+Ka 0.8 0.8 0.8
+Kd 0.8 0.8 0.8
+Ks 1 1 1
+Ns 60
+illum 2
+map_Kd ../textures/tiles.png
+map_Ks ../textures/tiles_specular.png
+norm ../textures/tiles_normal.png
+)";
+
+inline const std::string checkered_floor = R"(
+newmtl checker
+Ka 0.8 0.8 0.8
+Kd 0.8 0.8 0.8
+illum 1
+map_Kd ../textures/checker.png
+)";
+
+}  // namespace rasterbook::assets

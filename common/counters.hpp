@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a lesson did to make its picture, counted for --stats; free when nobody asks.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace rasterbook {
+
+enum class Counter {
+    lines,
+    line_pixels,
+    triangles_in,
+    triangles_culled_by_facing,
+    fragments_tested,  ///< Compared with the depth buffer.
+    fragments_shaded,  ///< Written into the picture.
+    count
+};
+
+/// The counters' names in the order of Counter.
+constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)> counter_names = {
+    "lines",
+    "line_pixels",
+    "triangles_in",
+    "triangles_culled_by_facing",
+    "fragments_tested",
+    "fragments_shaded"};
+
+/// Counts.
+struct Counters {
+    std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> values{};
+
+    void add(Counter counter) { ++values[static_cast<std::size_t>(counter)]; }
+    std::uint64_t operator[](Counter counter) const {
+        return values[static_cast<std::size_t>(counter)];
+    }
+};
+
+/// Takes the place of Counters where nothing is to be counted: compiles to nothing.
+struct NoCounters {
+    void add(Counter) {}
+};
+
+}  // namespace rasterbook

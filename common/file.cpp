@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "common/file.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "common/input_error.hpp"
+
+namespace rasterbook {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The system's own words for the operation that has just failed.
+std::string system_reason() { return std::generic_category().message(errno); }
+
+/// A name beside the target that no other thread or process uses; whatever bears it at the end is
+/// removed. After a rename that is nothing.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const fs::path& target) {
+        static std::atomic<int> count{0};
+        path_ = target.parent_path() / (".rasterbook_" + std::to_string(getpid()) + "_" +
+                                        std::to_string(count++) + ".part");
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+/// The file that a name stands for, once it is certain that a file may be put there.
+fs::path writable_target(const fs::path& file) {
+    std::error_code error;
+    const fs::path target = fs::exists(file, error) ? fs::canonical(file, error) : file;
+    if (error) throw InputError(file, "cannot be written: " + error.message());
+    if (fs::exists(target, error) && !fs::is_regular_file(target, error))
+        throw InputError(file, "cannot be written: not a regular file");
+
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    if (!fs::is_directory(folder, error))
+        throw InputError(file, "cannot be written: there is no folder " + folder.string());
+    return target;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> read_whole_file(const fs::path& file, std::uintmax_t max_bytes) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (status.type() == fs::file_type::not_found) throw InputError(file, "there is no such file");
+    if (status.type() == fs::file_type::none)
+        throw InputError(file, "cannot be read: " + error.message());
+    if (!fs::is_regular_file(status)) throw InputError(file, "not a regular file");
+
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error) throw InputError(file, "cannot be read: " + error.message());
+    if (size > max_bytes)
+        throw InputError(file, "longer than " + std::to_string(max_bytes) + " bytes");
+
+    std::ifstream stream(file, std::ios::binary);
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+    if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+        throw InputError(file, "cannot be read: " + system_reason());
+    return bytes;
+}
+
+void write_whole_file(const fs::path& file, std::span<const std::uint8_t> bytes) {
+    const fs::path target = writable_target(file);
+    const TemporaryFile temporary(target);
+
+    std::ofstream stream(temporary.path(), std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(bytes.data()),
+                 static_cast<std::streamsize>(bytes.size()));
+    stream.close();  // Only now have all bytes reached the system: a full disk shows here.
+    if (!stream) throw InputError(file, "cannot be written: " + system_reason());
+
+    std::error_code error;
+    fs::rename(temporary.path(), target, error);
+    if (error) throw InputError(file, "cannot be written: " + error.message());
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Whole files: read at once, written whole or not at all.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace rasterbook {
+
+/// Reads a file at once. A directory, FIFO or device is refused before it is opened, so that a read
+/// never waits.
+///
+/// @throws InputError  When the file is missing, not regular, longer than max_bytes or unreadable.
+std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file,
+                                          std::uintmax_t max_bytes);
+
+/// Writes a file beside its name and renames it at the end: it appears whole or not at all.
+///
+/// When anything fails, an older file of that name stays as it was and nothing new is left behind.
+/// A symbolic link is followed, so that it still is one afterwards.
+///
+/// @throws InputError  When the folder is missing, the name belongs to something else than a
+/// regular
+///          file, or the bytes cannot be written (no permission, no space).
+void write_whole_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
+}  // namespace rasterbook

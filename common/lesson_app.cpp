@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "common/lesson_app.hpp"
+
+#include <charconv>
+#include <chrono>
+#include <iostream>
+#include <new>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+#include "common/image_io.hpp"
+#include "common/input_error.hpp"
+#include "common/math/color.hpp"
+#include "common/obj.hpp"
+
+namespace rasterbook {
+
+namespace {
+
+constexpr int greatest_side = 16384;
+
+/// Reads "1280x720"; anything else is a usage error.
+ivec2 parse_size(const std::string& text) {
+    ivec2 size;
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.x);
+    const bool has_cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.y) : width;
+    const auto is_side = [](int side) { return side >= 1 && side <= greatest_side; };
+    if (!has_cross || height.ec != std::errc() || height.ptr != end || !is_side(size.x) ||
+        !is_side(size.y))
+        throw CLI::ValidationError("--size", "'" + text +
+                                                 "' is not WIDTHxHEIGHT with sides from 1 to " +
+                                                 std::to_string(greatest_side));
+    return size;
+}
+
+/// The model as named, or else the one of that name among the course's models.
+std::filesystem::path find_model(const std::filesystem::path& name) {
+    const std::filesystem::path own = std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name;
+    for (const auto& candidate : {name, own})
+        if (std::filesystem::exists(candidate)) return candidate;
+    throw InputError(name, "there is no such file; tried " +
+                               std::filesystem::absolute(name).string() +
+                               (own == name ? "" : " and " + own.string()));
+}
+
+double elapsed_ms(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+        .count();
+}
+
+void print_stats(const LessonProgram& program, const Counters& counters, double load_ms,
+                 double render_ms, double write_ms) {
+    std::ostringstream json;
+    json << "{\"lesson\": \"" << program.name << "\", \"width\": " << program.options.size.x
+         << ", \"height\": " << program.options.size.y;
+    for (std::size_t i = 0; i < counter_names.size(); ++i)
+        json << ", \"" << counter_names[i] << "\": " << counters.values[i];
+    json << ", \"load_ms\": " << load_ms << ", \"render_ms\": " << render_ms
+         << ", \"write_ms\": " << write_ms << "}\n";
+    std::cout << json.str() << std::flush;
+}
+
+void make_picture(const LessonProgram& program) {
+    const LessonOptions& options = program.options;
+    const auto load_start = std::chrono::steady_clock::now();
+    const Scene scene = load_obj(find_model(options.model));
+    const double load_ms = elapsed_ms(load_start);
+    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+
+    Counters counters;
+    const auto render_start = std::chrono::steady_clock::now();
+    const Image<vec3> picture = program.render(scene, options.stats ? &counters : nullptr);
+    const double render_ms = elapsed_ms(render_start);
+
+    const auto write_start = std::chrono::steady_clock::now();
+    write_image(options.out, srgb8_from_linear(picture));
+    const double write_ms = elapsed_ms(write_start);
+
+    if (options.stats)
+        print_stats(program, counters, load_ms, render_ms, write_ms);
+    else
+        std::cout << "wrote " << options.out.string() << '\n';
+}
+
+}  // namespace
+
+void Knobs::flag(const std::string& name, bool& value, const std::string& help) {
+    static_cast<CLI::App*>(command_line_)->add_flag(name, value, help);
+}
+
+void Knobs::add_choice(const std::string& name, const std::vector<std::string>& words,
+                       const std::string& preset, const std::string& help,
+                       std::function<void(std::size_t)> choose) {
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : "|") + word;
+    const auto take = [=](const std::string& word) {
+        for (std::size_t i = 0; i < words.size(); ++i)
+            if (words[i] == word) return choose(i);
+        throw CLI::ValidationError(name, "'" + word + "' is not one of " + all);
+    };
+    static_cast<CLI::App*>(command_line_)
+        ->add_option_function<std::string>(name, take, help + " [" + preset + "]")
+        ->type_name(all);
+}
+
+int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
+    LessonOptions& options = program.options;
+    options.out = program.name + ".png";
+    CLI::App line(program.title, program.name);
+    line.add_option("--model", options.model, "The OBJ file to draw [teapot.obj of the course]")
+        ->type_name("FILE.obj");
+    line.add_option("--out", options.out,
+                    "The picture to write: .png, .bmp or .tga [" + options.out.string() + "]")
+        ->type_name("FILE")
+        ->check([](const std::string& name) {
+            try {
+                check_image_name(name);
+                return std::string();
+            } catch (const InputError& error) { return std::string(error.what()); }
+        });
+    line.add_option_function<std::string>(
+            "--size", [&](const std::string& text) { options.size = parse_size(text); },
+            "The picture's size in pixels [1280x720]")
+        ->type_name("WIDTHxHEIGHT");
+    line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
+    Knobs knobs(&line);
+    program.declare_knobs(knobs);
+
+    try {
+        line.parse(argc, argv);
+        make_picture(program);
+        return 0;
+    } catch (const CLI::CallForHelp&) {
+        std::cout << line.help();
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        std::cerr << "error: " << error.what() << " (--help lists what there is)\n";
+        return 2;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "error: not enough memory for this model at this size\n";
+        return 1;
+    } catch (const std::exception& error) {
+        std::cerr << "error: " << error.what() << '\n';
+        return 1;
+    }
+}
+
+}  // namespace rasterbook

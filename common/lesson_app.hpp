@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The program around a lesson's picture: command line, model, output, --stats, errors.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/counters.hpp"
+#include "common/image.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// What every lesson can be asked for. A lesson adds its own knobs in a struct derived from this.
+struct LessonOptions {
+    std::filesystem::path model = "teapot.obj";
+    std::filesystem::path out;  ///< By default NAME.png in the current folder.
+    ivec2 size{1280, 720};      ///< Pixels, each side 1 to 16384.
+    bool stats = false;
+};
+
+/// Where a lesson declares its knobs: one line gives the flag, its help, its check and its default.
+class Knobs {
+  public:
+    explicit Knobs(void* command_line) : command_line_(command_line) {}
+
+    /// `--name`: sets `value` to true.
+    void flag(const std::string& name, bool& value, const std::string& help);
+
+    /// `--name WORD`: one of the words; `value` holds the default and takes the choice.
+    template <typename Value>
+    void choice(const std::string& name, Value& value,
+                std::initializer_list<std::pair<std::string, Value>> words,
+                const std::string& help) {
+        std::vector<std::string> names;
+        std::string preset;
+        for (const auto& [word, meaning] : words) {
+            names.push_back(word);
+            if (meaning == value) preset = word;
+        }
+        const std::vector<std::pair<std::string, Value>> table(words);
+        add_choice(name, names, preset, help,
+                   [&value, table](std::size_t chosen) { value = table[chosen].second; });
+    }
+
+  private:
+    void add_choice(const std::string& name, const std::vector<std::string>& words,
+                    const std::string& preset, const std::string& help,
+                    std::function<void(std::size_t)> choose);
+
+    void* command_line_;  // the library's object, which only lesson_app.cpp knows
+};
+
+/// A lesson, ready to run: run_lesson fills it in.
+struct LessonProgram {
+    std::string name;   ///< NN_name
+    std::string title;  ///< One sentence for --help.
+    LessonOptions& options;
+    std::function<void(Knobs&)> declare_knobs;
+    std::function<Image<vec3>(const Scene&, Counters*)> render;  ///< Counts when not null.
+};
+
+/// @return  The exit status: 0, 1 for bad input, 2 for bad usage; errors are one line on stderr.
+int run_lesson_program(const LessonProgram& program, int argc, char** argv);
+
+/// Runs a lesson: reads the command line and the model, renders, writes the picture.
+///
+/// @tparam Options  Derived from LessonOptions; may have `void declare(Knobs&)`.
+/// @param render    Called once as render(const Options&, const Scene&, counters), where counters
+///                  is a Counters or a NoCounters; gives the picture in linear colour.
+template <typename Options, typename Render>
+int run_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
+    Options options;
+    return run_lesson_program({std::move(name), std::move(title), options,
+                               [&](Knobs& knobs) {
+                                   if constexpr (requires { options.declare(knobs); })
+                                       options.declare(knobs);
+                               },
+                               [&](const Scene& scene, Counters* counters) {
+                                   NoCounters none;
+                                   return counters ? render(options, scene, *counters)
+                                                   : render(options, scene, none);
+                               }},
+                              argc, argv);
+}
+
+}  // namespace rasterbook

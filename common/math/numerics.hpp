@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Arithmetic that stays right where the plain formula does not.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+/// 128-bit integer, for products of two 64-bit ones.
+__extension__ typedef __int128 int128;
+
+/// v scaled to length 1, or `fallback` when v has no direction.
+///
+/// The square of the length is taken in a wider type: it neither overflows nor underflows, so that
+/// 1e-40 and 1e30 are ordinary lengths. (v / length(v) in float gives NaN for 0 and 0 for 1e30.)
+///
+/// @param v         Any values; zero, NaN and infinity have no direction.
+/// @param fallback  Returned as it is.
+/// @return          Each component within 1 ulp.
+template <std::floating_point T>
+glm::vec<3, T> normalize_or(glm::vec<3, T> v, glm::vec<3, T> fallback) {
+    using Wide = std::conditional_t<std::is_same_v<T, float>, double, long double>;
+    const Wide x = v.x, y = v.y, z = v.z;
+    const Wide length = std::sqrt(x * x + y * y + z * z);
+    if (!(length > 0 && length <= std::numeric_limits<Wide>::max())) return fallback;
+    return {static_cast<T>(x / length), static_cast<T>(y / length), static_cast<T>(z / length)};
+}
+
+/// a b - c d within 1.5 ulp, even where the two products nearly cancel.
+///
+/// @param a,b,c,d  Finite, with products that neither overflow nor underflow.
+/// @see Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm for the accurate
+///      computation of 2 x 2 determinants", 2013
+template <std::floating_point T>
+T difference_of_products(T a, T b, T c, T d) {
+    const T cd = c * d;
+    const T error_of_cd = std::fma(-c, d, cd);
+    return std::fma(a, b, -cd) + error_of_cd;
+}
+
+/// How many floats one has to step over from a to b: 0 when equal (-0 equals 0), 1 for neighbours.
+///
+/// @return  The greatest value there is when a or b is NaN.
+inline std::uint32_t ulp_distance(float a, float b) {
+    if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<std::uint32_t>::max();
+    const auto place = [](float x) {  // on a line where neighbours differ by 1
+        const auto bits = std::bit_cast<std::uint32_t>(x);
+        const auto magnitude = static_cast<std::int64_t>(bits & 0x7fffffffu);
+        return bits >> 31 ? -magnitude : magnitude;
+    };
+    const std::int64_t steps = place(a) - place(b);
+    return static_cast<std::uint32_t>(steps < 0 ? -steps : steps);
+}
+
+}  // namespace rasterbook

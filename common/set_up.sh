@@ -1,0 +1,56 @@
+# Installs what is missing on Debian and Ubuntu; sourced by lessons/run and tests/run.
+# Elsewhere the README names the packages, and the presets work by themselves.
+
+packages=(g++ cmake ninja-build libglm-dev libcli11-dev libstb-dev nlohmann-json3-dev
+          libgtest-dev libtinyobjloader-dev libbenchmark-dev)
+
+set_up() {
+    command -v dpkg-query >/dev/null || return 0
+    local package missing=() as_root=()
+    for package in "${packages[@]}"; do
+        [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "error: please install ${missing[*]} (as root: apt-get install ...), then run this again" >&2
+            return 1
+        fi
+        as_root=(sudo)
+    fi
+    echo "Installing ${missing[*]}"
+    local log
+    log=$(mktemp)
+    if ! { "${as_root[@]}" apt-get update && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+           apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+        tail -n 20 "$log" >&2
+        echo "error: apt-get could not install them; its whole output is in $log" >&2
+        return 1
+    fi
+    rm -f "$log"
+}
+
+# Prints the folder of the lesson that $1 names: its number ("02", "2") or its name.
+find_lesson() {
+    local number=$1 folder
+    [[ $number =~ ^[0-9]$ ]] && number=0$number
+    for folder in lessons/[0-9][0-9]_*/; do
+        folder=$(basename "$folder")
+        if [ "$folder" = "$1" ] || [ "${folder%%_*}" = "$number" ]; then echo "$folder"; return; fi
+    done
+    echo "error: there is no lesson '$1'; there are: $(cd lessons && echo [0-9][0-9]_*)" >&2
+    return 1
+}
+
+# Runs a command quietly; shows what it printed when it fails.
+quietly() {
+    local log
+    log=$(mktemp)
+    if ! "$@" >"$log" 2>&1; then
+        cat "$log" >&2
+        rm -f "$log"
+        echo "error: '$*' failed" >&2
+        return 1
+    fi
+    rm -f "$log"
+}

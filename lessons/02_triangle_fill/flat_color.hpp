@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// One colour for a whole triangle, by the way it faces: a stand-in until lesson 06 derives
+/// lighting.
+#pragma once
+
+#include "common/math/numerics.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// The material's diffuse colour under a warm light from the upper left and a cool one from the
+/// sky.
+///
+/// @return  Linear colour. A triangle without area counts as facing up.
+inline vec3 flat_color(const Mesh& mesh, const Triangle& triangle, const Material& material) {
+    constexpr vec3 up(0, 1, 0), sun_color(1.95f, 1.78f, 1.52f), sky_color(0.36f, 0.47f, 0.63f);
+    const vec3 toward_sun = normalize_or(vec3(-0.75f, 0.85f, 0.3f), up);
+    const auto [a, b, c] = triangle.corners;
+    const vec3 origin = mesh.positions[a.position];
+    const vec3 normal = normalize_or(
+        glm::cross(mesh.positions[b.position] - origin, mesh.positions[c.position] - origin), up);
+    const float sun = std::max(glm::dot(normal, toward_sun), 0.0f);
+    const float sky = 0.5f + 0.5f * normal.y;
+    return material.diffuse * (sun * sun_color + sky * sky_color);
+}
+
+}  // namespace rasterbook

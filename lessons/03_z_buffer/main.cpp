@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Lesson 03: the model as filled triangles, of which each pixel keeps the nearest.
+#include "02_triangle_fill/flat_color.hpp"
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "common/backdrop.hpp"
+#include "common/lesson_app.hpp"
+#include "common/parallel_view.hpp"
+
+using namespace rasterbook;
+
+namespace {
+
+struct Options : LessonOptions {
+    bool show_depth = false;
+
+    void declare(Knobs& knobs) {
+        knobs.flag("--depth", show_depth,
+                   "Show the depth buffer: near is bright, nothing is black");
+    }
+};
+
+template <typename Counters>
+Image<vec3> render(const Options& options, const Scene& scene, Counters& counters) {
+    const ParallelView view(scene, options.size);
+    Image<vec3> color = backdrop(options.size);
+    DepthBuffer depth(options.size);
+
+    for (const Mesh& mesh : scene.meshes) {
+        const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
+        for (const Triangle& triangle : mesh.triangles) {
+            counters.add(Counter::triangles_in);
+            const vec3 a = positions_screen[triangle.corners[0].position];
+            const vec3 b = positions_screen[triangle.corners[1].position];
+            const vec3 c = positions_screen[triangle.corners[2].position];
+            const ScreenTriangle on_screen = snap_triangle(a, b, c);
+            if (!is_front_facing(on_screen)) {
+                counters.add(Counter::triangles_culled_by_facing);
+                continue;
+            }
+            const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
+            const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
+            fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 weights) {
+                counters.add(Counter::fragments_tested);
+                if (!depth.test_and_write(pixel, triangle_depth.at(weights))) return;
+                counters.add(Counter::fragments_shaded);
+                color[pixel] = face_color;
+            });
+        }
+    }
+    return options.show_depth ? depth_picture(depth) : color;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return run_lesson<Options>(argc, argv, "03_z_buffer",
+                               "Draws a model as filled triangles with a depth buffer.",
+                               [](const auto& options, const auto& scene, auto& counters) {
+                                   return render(options, scene, counters);
+                               });
+}

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+#include "02_triangle_fill/triangle.hpp"
+
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "common/image.hpp"
+#include "common/math/numerics.hpp"
+#include "support/ascii_picture.hpp"
+#include "support/golden.hpp"
+#include "support/triangulations.hpp"
+
+using namespace rasterbook;
+using rasterbook::test::Pixels, rasterbook::test::same_pixels;
+
+namespace {
+
+Pixels covered(vec2 a, vec2 b, vec2 c, ivec2 size) {
+    Pixels pixels;
+    fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 p, vec3) {
+        EXPECT_TRUE(p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y);
+        EXPECT_TRUE(pixels.insert({p.x, p.y}).second) << "visited twice: " << p.x << ", " << p.y;
+    });
+    return pixels;
+}
+
+/// The sign of the area of a, b, p by the rule of Sarrus, in 128 bits; > 0 where seen
+/// counter-clockwise.
+int exact_side(ivec2 a, ivec2 b, ivec2 p) {
+    const auto product = [](int u, int v) { return int128{u} * v; };
+    const int128 determinant = product(a.x, b.y) + product(b.x, p.y) + product(p.x, a.y) -
+                               product(a.y, b.x) - product(b.y, p.x) - product(p.y, a.x);
+    return determinant < 0   ? 1
+           : determinant > 0 ? -1
+                             : 0;  // y points down: what turns left is negative
+}
+
+/// The oracle: a centre on a side counts as where it gets when nudged right, or else nudged down.
+bool exactly_covered(std::array<ivec2, 3> corners, ivec2 pixel) {
+    auto [a, b, c] = corners;
+    if (exact_side(a, b, c) == 0) return false;
+    if (exact_side(a, b, c) < 0) std::swap(b, c);
+    const ivec2 center = pixel * 256 + 128;
+    const auto inside = [&](ivec2 from, ivec2 to) {
+        for (const ivec2 nudge : {ivec2(0, 0), ivec2(1, 0), ivec2(0, 1)})
+            if (const int side = exact_side(from, to, center + nudge)) return side > 0;
+        return false;
+    };
+    return inside(a, b) && inside(b, c) && inside(c, a);
+}
+
+Pixels exactly_covered_pixels(std::array<ivec2, 3> corners, ivec2 size) {
+    Pixels pixels;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
+            if (exactly_covered(corners, {x, y})) pixels.insert({x, y});
+    return pixels;
+}
+
+/// How often each pixel is visited by the triangles, as long as it is 1: else the count of others.
+struct Hits {
+    int gaps = 0, doubles = 0;
+};
+
+Hits count_hits(const std::vector<std::array<vec2, 3>>& triangles, ivec2 size) {
+    Image<int> hits(size);
+    for (const auto& [a, b, c] : triangles)
+        fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 p, vec3) { ++hits[p]; });
+    Hits result;
+    for (const int count : hits.pixels()) result.gaps += count == 0, result.doubles += count > 1;
+    return result;
+}
+
+// The worked example of the text.
+constexpr vec2 a(1, 1), b(1, 5), c(5, 1);
+constexpr ivec2 snapped_a(256, 256), snapped_b(256, 1280), snapped_c(1280, 256), center(640, 640);
+
+}  // namespace
+
+TEST(TriangleFill, Eq2_1_SidesSeenCounterClockwiseHaveTheInsideOnTheirLeft) {
+    EXPECT_GT(edge_function(snapped_a, snapped_b, snapped_c), 0);
+    EXPECT_LT(edge_function(snapped_a, snapped_c, snapped_b), 0);
+}
+
+TEST(TriangleFill, Eq2_2_EdgeFunctionsOfTheWorkedExample) {
+    constexpr std::int64_t unit = 256 * 256;  // one square pixel
+    EXPECT_EQ(edge_function(snapped_b, snapped_c, center), 4 * unit);
+    EXPECT_EQ(edge_function(snapped_c, snapped_a, center), 6 * unit);
+    EXPECT_EQ(edge_function(snapped_a, snapped_b, center), 6 * unit);
+    EXPECT_EQ(edge_function(snapped_b, snapped_c, {384, 1152}), 0) << "a centre on the side";
+}
+
+TEST(TriangleFill, Eq2_3_EdgeFunctionsAddUpToTwiceTheArea) {
+    EXPECT_EQ(snap_triangle(a, b, c).twice_area, 16 * 256 * 256);
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> any(-(1 << 30) + 1, (1 << 30) - 1);
+    for (int i = 0; i < 100'000; ++i) {
+        const ivec2 p(any(random), any(random)), q(any(random), any(random)),
+            r(any(random), any(random)), s(any(random), any(random));
+        const int128 sum =
+            int128{edge_function(p, q, s)} + edge_function(q, r, s) + edge_function(r, p, s);
+        ASSERT_TRUE(sum == edge_function(p, q, r)) << "case " << i;
+    }
+}
+
+TEST(TriangleFill, Eq2_4_WeightsOfTheWorkedExample) {
+    Image<vec3> weights({8, 8});
+    fill_triangle(snap_triangle(a, b, c), weights.size(), [&](ivec2 p, vec3 w) { weights[p] = w; });
+    EXPECT_EQ(weights[ivec2(2, 2)], vec3(0.25f, 0.375f, 0.375f));
+}
+
+TEST(TriangleFill, Eq2_4_WeightsAreWithinTwoUlpOfTheExactOnes) {
+    constexpr long double two_ulp =
+        2.0L * FLT_EPSILON;  // three roundings of half an ulp each, one of 1/area
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> coordinate(-400, 500);
+    for (int i = 0; i < 2'000; ++i) {
+        const auto point = [&] { return vec2(coordinate(random), coordinate(random)); };
+        const ScreenTriangle t = snap_triangle(point(), point(), point());
+        const auto& [p, q, r] = t.corners;
+        fill_triangle(t, {64, 48}, [&](ivec2 pixel, vec3 weights) {
+            const ivec2 at = pixel * 256 + 128;
+            const auto area = static_cast<long double>(t.twice_area);
+            const long double exact[] = {edge_function(q, r, at) / area,
+                                         edge_function(r, p, at) / area,
+                                         edge_function(p, q, at) / area};
+            for (int k = 0; k < 3; ++k) {
+                ASSERT_GE(weights[k], 0.0f) << "triangle " << i;
+                ASSERT_LE(std::abs(weights[k] - exact[k]), two_ulp * exact[k]) << "triangle " << i;
+            }
+        });
+    }
+}
+
+TEST(TriangleFill, Eq2_4_WeightsDoNotDependOnThePicturesSize) {
+    const ScreenTriangle t = snap_triangle({-700.3f, -20.7f}, {50.1f, 911.9f}, {803.7f, -77.2f});
+    Image<vec3> weights({64, 48});
+    fill_triangle(t, {64, 48}, [&](ivec2 p, vec3 w) { weights[p] = w; });
+    fill_triangle(t, {31, 17}, [&](ivec2 p, vec3 w) { EXPECT_EQ(w, weights[p]); });
+}
+
+TEST(TriangleFill, Eq2_5_EdgeStepsEqualTheEdgeFunctionAtTheNeighbours) {
+    const EdgeWalk edge(snapped_b, snapped_c, 1, {1, 2});
+    EXPECT_EQ(edge.value, edge_function(snapped_b, snapped_c, {384, 640}));
+    EXPECT_EQ(edge.value + edge.step_x, edge_function(snapped_b, snapped_c, {640, 640}));
+    EXPECT_EQ(edge.value + edge.step_y, edge_function(snapped_b, snapped_c, {384, 896}));
+}
+
+TEST(TriangleFill, Eq2_6_ColumnsOfTheWorkedExample) {
+    const EdgeWalk edge(snapped_b, snapped_c, 1, {1, 2});  // a right side, on row 2
+    std::int64_t first = 0, last = 9;
+    edge.narrow(first, last);
+    EXPECT_EQ(first, 0);
+    EXPECT_EQ(last, 1);
+    const EdgeWalk left(snapped_c, snapped_b, 1, {1, 2});  // the same side of the neighbour
+    first = 0, last = 9;
+    left.narrow(first, last);
+    EXPECT_EQ(first, 2);
+    EXPECT_EQ(last, 9);
+}
+
+TEST(TriangleFill, Eq2_7_SharedSideBelongsToOneOfTwoNeighbours) {
+    EXPECT_TRUE(
+        same_pixels(covered(a, b, c, {8, 8}), {{1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2}, {1, 3}}));
+    Pixels expected;
+    for (int y = 1; y <= 4; ++y)
+        for (int x = 5 - y; x <= 4; ++x) expected.insert({x, y});
+    EXPECT_TRUE(same_pixels(covered(b, {5, 5}, c, {8, 8}), expected));
+}
+
+TEST(TriangleFill, Eq2_7_LeftAndTopSidesOwnTheCentresOnThem) {
+    // A square whose sides run through pixel centres: row and column 1 are in, 3 are out.
+    Pixels pixels = covered({1.5f, 1.5f}, {1.5f, 3.5f}, {3.5f, 1.5f}, {8, 8});
+    pixels.merge(covered({1.5f, 3.5f}, {3.5f, 3.5f}, {3.5f, 1.5f}, {8, 8}));
+    EXPECT_TRUE(same_pixels(pixels, {{1, 1}, {2, 1}, {1, 2}, {2, 2}}));
+}
+
+TEST(TriangleFill, Eq2_8_CornersSnapToTheNearest256thOfAPixel) {
+    const ScreenTriangle t = snap_triangle({1.0f, 2.001f}, {-3.003f, 0.5f}, {1000.1f, 7.0f});
+    EXPECT_EQ(t.corners, (std::array<ivec2, 3>{{{256, 512}, {-769, 128}, {256026, 1792}}}));
+}
+
+TEST(TriangleFill, Eq2_9_EdgeFunctionsAreExactUpToTheCoordinateLimit) {
+    constexpr int most = (1 << 30) - 1;
+    EXPECT_EQ(edge_function({-most, -most}, {-most, most}, {most, -most}),
+              4 * std::int64_t{most} * most);
+    std::mt19937 random(3);
+    std::uniform_int_distribution<int> any(-most, most);
+    for (int i = 0; i < 100'000; ++i) {
+        const ivec2 p(any(random), any(random)), q(any(random), any(random)),
+            r(any(random), any(random));
+        const std::int64_t value = edge_function(p, q, r);
+        ASSERT_EQ((value > 0) - (value < 0), exact_side(p, q, r)) << "case " << i;
+    }
+}
+
+TEST(TriangleFill, Eq2_10_FanHasThePolygonsArea) {
+    const std::vector<ivec2> polygon = {
+        {256, 512}, {512, 1792}, {1536, 2048}, {2304, 1024}, {1280, 0}};
+    std::int64_t by_fan = 0, by_sides = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const ivec2 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
+        by_fan += edge_function(polygon[0], p, q);
+        by_sides += std::int64_t{p.y} * q.x - std::int64_t{p.x} * q.y;
+    }
+    EXPECT_EQ(by_fan, by_sides);
+}
+
+TEST(TriangleFill, FacingIsSeenFromTheFront) {
+    EXPECT_TRUE(is_front_facing(snap_triangle(a, b, c)));
+    EXPECT_FALSE(is_front_facing(snap_triangle(a, c, b)));
+    EXPECT_FALSE(is_front_facing(snap_triangle(a, a, b)));
+}
+
+TEST(TriangleFill, ExhaustiveAllTrianglesOfAQuarterPixelLatticeAreExact) {
+    constexpr int side = 9, points = side * side;
+    const auto point = [](int i) {
+        return vec2(static_cast<float>(i % side), static_cast<float>(i / side)) * 0.25f;
+    };
+    int triangles = 0;
+    for (int i = 0; i < points; ++i)
+        for (int j = 0; j < points; ++j)
+            for (int k = 0; k < points; ++k, ++triangles) {
+                const ScreenTriangle t = snap_triangle(point(i), point(j), point(k));
+                unsigned actual = 0, expected = 0;
+                fill_triangle(t, {3, 3}, [&](ivec2 p, vec3) { actual |= 1u << (3 * p.y + p.x); });
+                for (int bit = 0; bit < 9; ++bit)
+                    expected |=
+                        static_cast<unsigned>(exactly_covered(t.corners, {bit % 3, bit / 3}))
+                        << bit;
+                ASSERT_EQ(actual, expected) << "lattice points " << i << ", " << j << ", " << k;
+            }
+    EXPECT_EQ(triangles, 531'441);
+}
+
+TEST(TriangleFill, RandomTrianglesOfAllSizesAreExact) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> exponent(0, 22), sign(-1, 1);
+    for (int i = 0; i < 20'000; ++i) {
+        const auto point = [&] {
+            return vec2(10, 8) + vec2(sign(random) * std::exp2(exponent(random)),
+                                      sign(random) * std::exp2(exponent(random))) *
+                                     0.9f;
+        };
+        const vec2 p = point(), q = point(), r = point();
+        const ScreenTriangle t = snap_triangle(p, q, r);
+        ASSERT_TRUE(
+            same_pixels(covered(p, q, r, {20, 16}), exactly_covered_pixels(t.corners, {20, 16})))
+            << "seed 4, case " << i;
+    }
+}
+
+TEST(TriangleFill, RandomTriangulationsCoverEachPixelOnce) {
+    constexpr ivec2 size(64, 48);
+    for (unsigned seed = 0; seed < 10'000; ++seed) {
+        const Hits hits = count_hits(test::random_triangulation(size, seed), size);
+        ASSERT_EQ(hits.gaps, 0) << "seed " << seed;
+        ASSERT_EQ(hits.doubles, 0) << "seed " << seed;
+    }
+}
+
+TEST(TriangleFill, HardCase_FansAroundPixelCentresCoverEachPixelOnce) {
+    constexpr ivec2 size(256, 192);
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> x(0, size.x - 1), y(0, size.y - 1), spread(-600, 600);
+    for (int i = 0; i < 100; ++i) {
+        // Rim corners on pixel centres too: through many centres in between run sides.
+        std::vector<vec2> rim;
+        for (const vec2 step : {vec2(0, 1), vec2(1, 0), vec2(0, -1), vec2(-1, 0)})
+            for (int k = -600; k < 600; k += 75)
+                rim.push_back(vec2(0.5f) + 600.0f * vec2(-step.y, step.x) +
+                              static_cast<float>(k) * step);
+        const Hits hits = count_hits(test::fan(vec2(x(random), y(random)) + 0.5f, rim), size);
+        ASSERT_EQ(hits.gaps + hits.doubles, 0) << "fan " << i;
+    }
+}
+
+TEST(TriangleFill, HardCase_FansWithFarCornersCoverEachPixelOnce) {
+    constexpr ivec2 size(1280, 960);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> x(0, size.x), y(0, size.y);
+    for (const float radius : {4e3f, 4e4f, 4e5f, 4e6f}) {
+        std::vector<vec2> rim;
+        for (int k = 0; k < 300; ++k) {
+            const double angle = -2 * std::numbers::pi * (k + 0.3) / 300;
+            rim.push_back(radius * vec2(std::cos(angle), std::sin(angle)));
+        }
+        const Hits hits = count_hits(test::fan({x(random), y(random)}, rim), size);
+        EXPECT_EQ(hits.gaps, 0) << "radius " << radius;
+        EXPECT_EQ(hits.doubles, 0) << "radius " << radius;
+    }
+}
+
+TEST(TriangleFill, HardCase_OrientationOfNearlyCollinearPointsIsExact) {
+    // Kettner's grid, on the lattice where edge functions live: p one unit from another, q and r
+    // far.
+    int wrong = 0;
+    for (int i = 0; i < 256; ++i)
+        for (int j = 0; j < 256; ++j) {
+            const ivec2 p((1 << 20) + i, (1 << 20) + j), q(24 << 20, 24 << 20),
+                r(48 << 20, 48 << 20);
+            const std::int64_t value = edge_function(p, q, r);
+            wrong += (value > 0) - (value < 0) != exact_side(p, q, r);
+        }
+    EXPECT_EQ(wrong, 0);
+    // And as it stands: 0.5 plus a few ulp snaps to 0.5, which is collinear with 12 and 24.
+    const float ulp = std::nextafter(0.5f, 1.0f) - 0.5f;
+    for (int i = 0; i < 256; ++i)
+        for (int j = 0; j < 256; ++j) {
+            const vec2 p(0.5f + static_cast<float>(i) * ulp, 0.5f + static_cast<float>(j) * ulp);
+            ASSERT_EQ(snap_triangle(p, {12, 12}, {24, 24}).twice_area, 0);
+        }
+}
+
+TEST(TriangleFill, HardCase_ZeroAreaCoversNothing) {
+    EXPECT_TRUE(covered({2.5f, 2.5f}, {2.5f, 2.5f}, {2.5f, 2.5f}, {8, 8}).empty());
+    EXPECT_TRUE(covered({0.5f, 0.5f}, {7.5f, 7.5f}, {3.5f, 3.5f}, {8, 8}).empty())
+        << "collinear, through centres";
+    EXPECT_TRUE(covered({0.5f, 2.5f}, {7.5f, 2.5f}, {3.5f, 2.5f}, {8, 8}).empty())
+        << "along a row of centres";
+    EXPECT_TRUE(covered({0.5f, 2.5f}, {7.5f, 2.5f}, {3.5f, 2.501f}, {8, 8}).empty())
+        << "only after snapping";
+}
+
+TEST(TriangleFill, HardCase_SliversThinnerThanASubpixelAreExact) {
+    constexpr ivec2 size(40, 30);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> x(0, size.x), y(0, size.y), along(-1, 2),
+        across(-0.02f, 0.02f);
+    int covering = 0;
+    for (int i = 0; i < 5'000; ++i) {
+        const vec2 p(x(random), y(random)), q(x(random), y(random));
+        const vec2 r = glm::mix(p, q, along(random)) + vec2(across(random), across(random));
+        const Pixels expected = exactly_covered_pixels(snap_triangle(p, q, r).corners, size);
+        ASSERT_TRUE(same_pixels(covered(p, q, r, size), expected)) << "seed 7, case " << i;
+        covering += !expected.empty();
+    }
+    EXPECT_GT(covering, 100) << "too few of them cover anything: the test would see nothing";
+}
+
+TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameWeights) {
+    const std::array<vec2, 3> p = {{{3.3f, 1.7f}, {1.2f, 13.9f}, {14.6f, 9.1f}}};
+    const Pixels expected = covered(p[0], p[1], p[2], {16, 16});
+    Image<vec3> weights({16, 16});
+    fill_triangle(snap_triangle(p[0], p[1], p[2]), {16, 16},
+                  [&](ivec2 pixel, vec3 w) { weights[pixel] = w; });
+    for (const auto& [i, j, k] : std::vector<std::array<int, 3>>{
+             {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}) {
+        const auto at = [&](int n) { return p[static_cast<std::size_t>(n)]; };
+        EXPECT_TRUE(same_pixels(covered(at(i), at(j), at(k), {16, 16}), expected)) << i << j << k;
+        fill_triangle(snap_triangle(at(i), at(j), at(k)), {16, 16},
+                      [&, i = i, j = j, k = k](ivec2 pixel, vec3 w) {
+                          EXPECT_EQ(w,
+                                    vec3(weights[pixel][i], weights[pixel][j], weights[pixel][k]));
+                      });
+    }
+}
+
+TEST(TriangleFill, HardCase_NotANumberInfiniteAndHugeCornersCoverNothing) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
+                    infinity = std::numeric_limits<float>::infinity();
+    for (const float bad :
+         {nan, infinity, -infinity, FLT_MAX / 16, -FLT_MAX / 16, FLT_MAX, 4194304.0f, -4194304.0f})
+        for (const int axis : {0, 1})
+            for (int corner = 0; corner < 3; ++corner) {
+                std::array<vec2, 3> p = {{{1, 1}, {1, 7}, {7, 1}}};
+                p[static_cast<std::size_t>(corner)][axis] = bad;
+                const ScreenTriangle t = snap_triangle(p[0], p[1], p[2]);
+                EXPECT_EQ(t.twice_area, 0) << bad;
+                EXPECT_FALSE(is_front_facing(t));
+                EXPECT_TRUE(covered(p[0], p[1], p[2], {8, 8}).empty());
+            }
+}
+
+TEST(TriangleFill, HardCase_TriangleFromAMillionPixelsAwayCoversTheWholePicture) {
+    for (const float far : {1e6f, 4.19e6f}) {
+        std::size_t pixels = 0;
+        fill_triangle(snap_triangle({-far, -far}, {-far, far}, {far, -far}), {640, 480},
+                      [&](ivec2 p, vec3) { pixels += p.x + p.y < 0; });
+        EXPECT_EQ(covered({-far, -far}, {-far, far}, {far, far}, {64, 48}).size() +
+                      covered({-far, -far}, {far, far}, {far, -far}, {64, 48}).size(),
+                  64u * 48u)
+            << far;
+    }
+    EXPECT_EQ(covered({-1e6f, -1e6f}, {0, 2e6f}, {1e6f, -1e6f}, {64, 48}).size(), 64u * 48u);
+}
+
+TEST(TriangleFill, HardCase_EmptyPictureVisitsNothing) {
+    EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {0, 0}).empty());
+    EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {5, 0}).empty());
+    EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {0, 5}).empty());
+}
+
+TEST(TriangleFill, PictureOfTheLesson) {
+    EXPECT_TRUE(test::equals_golden("02_triangle_fill", "02_triangle_fill"));
+}
+
+TEST(TriangleFill, PictureOfTheWeights) {
+    EXPECT_TRUE(test::equals_golden("02_triangle_fill", "02_triangle_fill_weights",
+                                    {"--model", "triangle.obj", "--paint", "weights"}));
+}

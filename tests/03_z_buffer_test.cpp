@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "03_z_buffer/depth_buffer.hpp"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "common/math/numerics.hpp"
+#include "support/golden.hpp"
+
+using namespace rasterbook;
+
+namespace {
+
+struct Patch {
+    std::array<vec3, 3> corners;  ///< x, y in pixels, depth
+    int id;
+};
+
+/// Draws the triangles with depth; each pixel holds the id of the visible one, -1 where there is
+/// none.
+Image<int> visible(const std::vector<Patch>& patches, ivec2 size) {
+    Image<int> ids(size, -1);
+    DepthBuffer depth(size);
+    for (const auto& [p, id] : patches) {
+        const TriangleDepth triangle_depth(vec3(p[0].z, p[1].z, p[2].z));
+        fill_triangle(snap_triangle(p[0], p[1], p[2]), size,
+                      [&, id = id](ivec2 pixel, vec3 weights) {
+                          if (depth.test_and_write(pixel, triangle_depth.at(weights)))
+                              ids[pixel] = id;
+                      });
+    }
+    return ids;
+}
+
+Image<float> depths_of(const std::array<vec3, 3>& p, ivec2 offset, ivec2 size) {
+    Image<float> depths(size, -1.0f);
+    const TriangleDepth triangle_depth(vec3(p[0].z, p[1].z, p[2].z));
+    fill_triangle(snap_triangle(p[0], p[1], p[2]), offset + size, [&](ivec2 pixel, vec3 weights) {
+        depths[pixel - offset] = triangle_depth.at(weights);
+    });
+    return depths;
+}
+
+/// The plane through the snapped corners at a pixel's centre, in long double from exact shares.
+long double exact_depth(const std::array<vec3, 3>& p, ivec2 pixel) {
+    const ScreenTriangle t = snap_triangle(p[0], p[1], p[2]);
+    const auto& [a, b, c] = t.corners;
+    const ivec2 center = pixel * subpixels + subpixels / 2;
+    return (static_cast<long double>(edge_function(b, c, center)) * p[0].z +
+            static_cast<long double>(edge_function(c, a, center)) * p[1].z +
+            static_cast<long double>(edge_function(a, b, center)) * p[2].z) /
+           static_cast<long double>(t.twice_area);
+}
+
+/// Error of TriangleDepth::at: each of two weighted differences within 2 ulp + 2 roundings, their
+/// sum and the sum with the nearest depth one rounding each.
+long double depth_tolerance(const std::array<vec3, 3>& p) {
+    const auto [low, high] = std::minmax({p[0].z, p[1].z, p[2].z});
+    return 6 * FLT_EPSILON * static_cast<long double>(high - low) +
+           FLT_EPSILON / 2 * static_cast<long double>(high);
+}
+
+std::vector<Patch> random_patches(unsigned seed, int count, ivec2 size) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> x(-20, static_cast<float>(size.x) + 20),
+        y(-20, static_cast<float>(size.y) + 20), z(0, 1);
+    std::vector<Patch> patches;
+    for (int i = 0; i < count; ++i) {
+        const auto corner = [&] { return vec3(x(random), y(random), z(random)); };
+        patches.push_back({{corner(), corner(), corner()}, i});
+    }
+    return patches;
+}
+
+constexpr ivec2 pixel(0, 0);
+
+}  // namespace
+
+TEST(ZBuffer, Eq3_1_KeepsTheLeastOfAllDepths) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> any(0, 1);
+    DepthBuffer depth({1, 1});
+    float least = 1;
+    for (int i = 0; i < 1000; ++i) {
+        const float z = any(random);
+        EXPECT_EQ(depth.test_and_write(pixel, z), z < least);
+        least = std::min(least, z);
+        ASSERT_EQ(depth.depths()[pixel], least);
+    }
+}
+
+TEST(ZBuffer, Eq3_2_DepthOfTheWorkedExample) {
+    // Shares 1/4, 3/8, 3/8 of depths 0.25, 0.5, 0.75 at pixel (2, 2).
+    const auto depths = depths_of({{{1, 1, 0.25f}, {1, 5, 0.5f}, {5, 1, 0.75f}}}, {0, 0}, {8, 8});
+    EXPECT_EQ(depths[ivec2(2, 2)], 0.53125f);
+}
+
+TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestCornerIsTheSameDepth) {
+    EXPECT_EQ(TriangleDepth(vec3(0.25f, 0.5f, 0.75f)).at(vec3(0.25f, 0.375f, 0.375f)), 0.53125f);
+    EXPECT_EQ(TriangleDepth(vec3(0.75f, 0.25f, 0.5f)).at(vec3(0.375f, 0.25f, 0.375f)), 0.53125f);
+}
+
+TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
+    for (const auto& [p, id] : random_patches(2, 2'000, {40, 30})) {
+        const auto depths = depths_of(p, {0, 0}, {40, 30});
+        for (int y = 0; y < 30; ++y)
+            for (int x = 0; x < 40; ++x)
+                if (depths[{x, y}] >= 0) {
+                    ASSERT_LE(std::abs(depths[{x, y}] - exact_depth(p, {x, y})), depth_tolerance(p))
+                        << "seed 2, case " << id;
+                    ASSERT_GE(depths[ivec2(x, y)], std::min({p[0].z, p[1].z, p[2].z}))
+                        << "seed 2, case " << id;
+                }
+    }
+}
+
+TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {
+    for (const float z : {0.0f, 0.1f, 0.7f, 0.333333f, 1.0f})
+        for (const auto& [p, id] : random_patches(3, 100, {40, 30})) {
+            const auto depths =
+                depths_of({{vec3(vec2(p[0]), z), vec3(vec2(p[1]), z), vec3(vec2(p[2]), z)}}, {0, 0},
+                          {40, 30});
+            for (const float depth : depths.pixels())
+                ASSERT_TRUE(depth == z || depth == -1.0f) << depth;
+        }
+}
+
+TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
+    DepthBuffer depth({1, 1});
+    EXPECT_TRUE(depth.test_and_write(pixel, 0.5f));
+    EXPECT_FALSE(depth.test_and_write(pixel, 0.5f));
+    EXPECT_TRUE(depth.test_and_write(pixel, std::nextafter(0.5f, 0.0f)));
+    const std::array<vec3, 3> p = {{{1, 1, 0.3f}, {2, 30, 0.9f}, {38, 5, 0.6f}}};
+    const Image<int> ids =
+        visible({{p, 1}, {{p[1], p[2], p[0]}, 2}, {{p[2], p[0], p[1]}, 3}}, {40, 30});
+    for (const int id : ids.pixels()) EXPECT_TRUE(id == 1 || id == -1);
+}
+
+TEST(ZBuffer, HardCase_ClearValueZeroOneAndMinusZero) {
+    DepthBuffer depth({1, 1});
+    EXPECT_EQ(depth.depths()[pixel], 1.0f);
+    EXPECT_FALSE(depth.test_and_write(pixel, 1.0f)) << "the far plane itself is not drawn";
+    EXPECT_TRUE(depth.test_and_write(pixel, std::nextafter(1.0f, 0.0f)));
+    EXPECT_TRUE(depth.test_and_write(pixel, 0.0f));
+    EXPECT_FALSE(depth.test_and_write(pixel, -0.0f)) << "-0 equals 0, and the first stays";
+    EXPECT_FALSE(depth.test_and_write(pixel, std::numeric_limits<float>::quiet_NaN()));
+    EXPECT_EQ(depth.depths()[pixel], 0.0f);
+}
+
+TEST(ZBuffer, HardCase_NotANumberIsNeverNearer) {
+    DepthBuffer depth({1, 1});
+    EXPECT_FALSE(depth.test_and_write(pixel, std::numeric_limits<float>::quiet_NaN()));
+    EXPECT_EQ(depth.depths()[pixel], 1.0f);
+}
+
+TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
+    std::vector<Patch> patches = random_patches(4, 12, {60, 40});
+    const Image<int> first = visible(patches, {60, 40});
+    std::mt19937 random(5);
+    for (int i = 0; i < 200; ++i) {
+        std::shuffle(patches.begin(), patches.end(), random);
+        ASSERT_EQ(visible(patches, {60, 40}), first) << "permutation " << i;
+    }
+}
+
+TEST(ZBuffer, HardCase_RotatedCornersGiveTheSameBits) {
+    for (const auto& [p, id] : random_patches(6, 3'000, {40, 30})) {
+        const auto depths = depths_of(p, {0, 0}, {40, 30});
+        ASSERT_EQ(depths, depths_of({{p[1], p[2], p[0]}}, {0, 0}, {40, 30}))
+            << "seed 6, case " << id;
+        ASSERT_EQ(depths, depths_of({{p[2], p[0], p[1]}}, {0, 0}, {40, 30}))
+            << "seed 6, case " << id;
+        ASSERT_EQ(depths, depths_of({{p[2], p[1], p[0]}}, {0, 0}, {40, 30}))
+            << "seed 6, case " << id;
+    }
+}
+
+TEST(ZBuffer, HardCase_SteepSmallTrianglesFarFromTheOrigin) {
+    constexpr ivec2 corner(2990, 2990);
+    constexpr long double greatest_error = 1e-6L;  // a plane anchored at the origin errs by 4e-4
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> place(3000, 3016), z(0, 1);
+    long double worst = 0;
+    for (int i = 0; i < 2'000; ++i) {
+        const auto point = [&] { return vec3(place(random), place(random), z(random)); };
+        const std::array<vec3, 3> p = {point(), point(), point()};
+        const auto depths = depths_of(p, corner, {40, 40});
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 40; ++x)
+                if (depths[{x, y}] >= 0)
+                    worst = std::max(
+                        worst, std::abs(depths[{x, y}] - exact_depth(p, corner + ivec2(x, y))));
+    }
+    EXPECT_GT(worst, 0);
+    EXPECT_LE(worst, greatest_error);
+}
+
+TEST(ZBuffer, HardCase_InterpenetratingTrianglesMeetOnTheExactLine) {
+    constexpr ivec2 size(60, 40);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> z(0, 1);
+    int crossings = 0;
+    for (int i = 0; i < 500; ++i) {
+        const auto over_all = [&] {
+            return std::array<vec3, 3>{
+                {{-70, -50, z(random)}, {-20, 190, z(random)}, {200, -40, z(random)}}};
+        };
+        const std::array<vec3, 3> p = over_all(), q = over_all();
+        const Image<int> ids = visible({{p, 0}, {q, 1}}, size);
+        int first_in_front = 0;
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                const long double behind = exact_depth(q, {x, y}) - exact_depth(p, {x, y});
+                first_in_front += behind > 0;
+                if (std::abs(behind) <= depth_tolerance(p) + depth_tolerance(q)) continue;
+                ASSERT_EQ((ids[{x, y}]), behind > 0 ? 0 : 1)
+                    << "seed 8, case " << i << " at " << x << ", " << y;
+            }
+        crossings += first_in_front > 0 && first_in_front < size.x * size.y;
+    }
+    EXPECT_GT(crossings, 50) << "too few pairs cross in the picture: the test would see nothing";
+}
+
+TEST(ZBuffer, PictureOfTheLesson) {
+    EXPECT_TRUE(test::equals_golden("03_z_buffer", "03_z_buffer"));
+}
+
+TEST(ZBuffer, PictureOfTheDepth) {
+    EXPECT_TRUE(test::equals_golden("03_z_buffer", "03_z_buffer_depth", {"--depth"}));
+}

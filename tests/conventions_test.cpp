@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// One test for each line of docs/conventions.md, by its number.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "common/image_io.hpp"
+#include "common/math/color.hpp"
+#include "common/math/error_metrics.hpp"
+#include "common/math/numerics.hpp"
+#include "common/obj.hpp"
+#include "common/parallel_view.hpp"
+#include "support/lesson_process.hpp"
+
+using namespace rasterbook;
+
+namespace {
+
+constexpr float tolerance = 1e-6f;  // some ulp near 1, for GLM's sines and square roots
+
+void expect_near(vec3 actual, vec3 expected) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], tolerance);
+}
+
+const std::filesystem::path root = std::filesystem::path(RASTERBOOK_ASSETS).parent_path();
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// C6 in code, as long as no lesson has needed it.
+vec2 screen_from_ndc(vec2 ndc, vec2 size) {
+    return {(ndc.x + 1) * size.x / 2, (1 - ndc.y) * size.y / 2};
+}
+
+}  // namespace
+
+TEST(Conventions, EachLineHasItsTest) {
+    const std::string page = read_text(root / "docs/conventions.md"),
+                      tests = read_text(root / "tests/conventions_test.cpp");
+    std::set<std::string> lines, tested;
+    const std::regex line(R"(\| (C\d+) \|)"), test(R"(TEST\(Conventions, (C\d+)_)");
+    for (std::sregex_iterator i(page.begin(), page.end(), line), end; i != end; ++i)
+        lines.insert((*i)[1]);
+    for (std::sregex_iterator i(tests.begin(), tests.end(), test), end; i != end; ++i)
+        tested.insert((*i)[1]);
+    EXPECT_EQ(lines, tested);
+    EXPECT_GE(lines.size(), 14u);
+}
+
+TEST(Conventions, C1_VectorsAreColumns) {
+    const mat4 move = matrix_from_rows({1, 0, 0, 5}, {0, 1, 0, 6}, {0, 0, 1, 7}, {0, 0, 0, 1});
+    EXPECT_EQ(move * vec4(1, 2, 3, 1), vec4(6, 8, 10, 1));
+    EXPECT_EQ(move, glm::translate(mat4(1.0f), vec3(5, 6, 7))) << "GLM sees the same matrix";
+    EXPECT_EQ(move[3], vec4(5, 6, 7, 1)) << "GLM's index counts columns";
+}
+
+TEST(Conventions, C2_TheRightmostMatrixActsFirst) {
+    const mat4 world_from_model = glm::translate(mat4(1.0f), vec3(1, 0, 0));
+    const mat4 view_from_world = glm::scale(mat4(1.0f), vec3(2));
+    const mat4 view_from_model = view_from_world * world_from_model;
+    EXPECT_EQ(view_from_model * vec4(0, 0, 0, 1), vec4(2, 0, 0, 1));
+}
+
+TEST(Conventions, C3_RightHandedAndTheCameraLooksAlongMinusZ) {
+    EXPECT_EQ(glm::cross(vec3(1, 0, 0), vec3(0, 1, 0)), vec3(0, 0, 1));
+    const mat4 view_from_world = glm::lookAt(vec3(0, 0, 5), vec3(0), vec3(0, 1, 0));
+    expect_near(vec3(view_from_world * vec4(0, 0, 0, 1)), {0, 0, -5});
+    expect_near(vec3(view_from_world * vec4(1, 2, 0, 1)), {1, 2, -5});
+}
+
+TEST(Conventions, C4_ClipSpaceIsTheCubeOfOpenGl) {
+    const float near = 0.5f, far = 20.0f;
+    const mat4 clip_from_view = glm::perspectiveRH_NO(glm::radians(60.0f), 1.0f, near, far);
+    const vec4 on_near = clip_from_view * vec4(0, 0, -near, 1),
+               on_far = clip_from_view * vec4(0, 0, -far, 1);
+    EXPECT_NEAR(on_near.z / on_near.w, -1, tolerance);
+    EXPECT_NEAR(on_far.z / on_far.w, 1, tolerance);
+    EXPECT_EQ(on_far.w, far) << "w is the distance along the line of sight";
+    const vec4 upper_right = clip_from_view * vec4(vec2(std::tan(glm::radians(30.0f))), -1, 1);
+    expect_near(vec3(upper_right) / upper_right.w, {1, 1, upper_right.z / upper_right.w});
+}
+
+TEST(Conventions, C5_DepthIsZeroNearestAndOneFarthest) {
+    DepthBuffer depth({1, 1});
+    EXPECT_EQ((depth.depths()[{0, 0}]), 1.0f);
+    EXPECT_TRUE(depth.test_and_write({0, 0}, (0.5f + 1) / 2)) << "z_ndc 0.5 is nearer than nothing";
+    EXPECT_TRUE(depth.test_and_write({0, 0}, (-0.5f + 1) / 2)) << "z_ndc -0.5 is nearer than 0.5";
+    EXPECT_FALSE(depth.test_and_write({0, 0}, (0.0f + 1) / 2));
+}
+
+TEST(Conventions, C6_ScreenStartsAtTheTopLeftCorner) {
+    EXPECT_EQ(screen_from_ndc({-1, 1}, {640, 480}), vec2(0, 0));
+    EXPECT_EQ(screen_from_ndc({1, -1}, {640, 480}), vec2(640, 480));
+    EXPECT_EQ(screen_from_ndc({0, 0}, {640, 480}), vec2(320, 240));
+    // The view of the first lessons puts what is higher in the model higher in the picture.
+    const Scene scene = load_obj(root / "assets/models/teapot.obj");
+    const auto screen = ParallelView(scene, {640, 480}).screen_from_model({{0, 0, 0}, {0, 1, 0}});
+    EXPECT_LT(screen[1].y, screen[0].y);
+    EXPECT_EQ(screen[1].x, screen[0].x);
+}
+
+TEST(Conventions, C7_PixelCentresLieAtHalves) {
+    EXPECT_EQ(pixel_of({3.0f, 4.999f}), ivec2(3, 4));
+    EXPECT_EQ(pixel_of({-0.25f, 0.0f}), ivec2(-1, 0));
+    int covered = 0;
+    const vec2 center(3.5f, 4.5f), little(0.01f, 0.0f), low(0.0f, 0.01f);
+    fill_triangle(snap_triangle(center - little - low, center + 2.0f * low, center + little - low),
+                  {9, 9}, [&](ivec2 pixel, vec3) {
+                      EXPECT_EQ(pixel, ivec2(3, 4));
+                      ++covered;
+                  });
+    EXPECT_EQ(covered, 1);
+    Image<int> image({2, 2});
+    image[{0, 1}] = 7;
+    EXPECT_EQ(image.pixels()[2], 7) << "the second row follows the top one";
+}
+
+TEST(Conventions, C8_CornersSnapTo256thsOfAPixel) {
+    EXPECT_EQ(subpixels, 256);
+    EXPECT_EQ(snap_triangle({1.25f, 2}, {0, 0}, {0, 0}).corners[0], ivec2(320, 512));
+}
+
+TEST(Conventions, C9_FrontFacesAreSeenCounterClockwise) {
+    const vec2 size(640, 480);
+    const vec2 a = screen_from_ndc({0, 0}, size), b = screen_from_ndc({1, 0}, size),
+               c = screen_from_ndc({0, 1}, size);
+    EXPECT_TRUE(is_front_facing(snap_triangle(a, b, c)));
+    EXPECT_FALSE(is_front_facing(snap_triangle(a, c, b)));
+}
+
+TEST(Conventions, C10_TextureCoordinateVPointsUp) {
+    // The crate's front: the corner that stands higher has the greater v.
+    const Scene scene = load_obj(root / "assets/models/crate.obj");
+    const Mesh& crate = scene.meshes.at(0);
+    int sides = 0;
+    for (const Face& face : crate.faces)
+        for (const Corner& p : crate.corners_of(face))
+            for (const Corner& q : crate.corners_of(face)) {
+                const vec3 from = crate.positions[p.position], to = crate.positions[q.position];
+                if (from.x != to.x || from.z != to.z || from.y >= to.y) continue;
+                EXPECT_LT(crate.uvs[p.uv].y, crate.uvs[q.uv].y);
+                ++sides;
+            }
+    EXPECT_EQ(sides, 8) << "two upright sides on each of four walls";
+}
+
+TEST(Conventions, C11_FilesHoldSrgb) {
+    Image<vec3> linear({1, 1}, vec3(0.2140411f, 0, 1));
+    const auto file = test::fresh_folder("conventions") / "color.png";
+    write_image(file, srgb8_from_linear(linear));
+    EXPECT_EQ((read_image(file)[{0, 0}]), u8vec4(128, 0, 255, 255))
+        << "half the code is a fifth of the light";
+}
+
+TEST(Conventions, C12_AnglesAreRadiansCounterClockwise) {
+    const mat4 turn = glm::rotate(mat4(1.0f), std::numbers::pi_v<float> / 2, vec3(0, 0, 1));
+    expect_near(vec3(turn * vec4(1, 0, 0, 1)), {0, 1, 0});
+    EXPECT_NEAR(angle_radians(vec3(1, 0, 0), vec3(0, 1, 0)), std::numbers::pi / 2, tolerance);
+}
+
+TEST(Conventions, C13_NamesOfAnglesAndTimesEndInTheirUnit) {
+    const std::regex bare(
+        R"(\b(?:float|double|T)\s+(?:\w+_)?(?:angle|fov|yaw|pitch|elapsed|duration|time)\s*[;,)={])");
+    int files = 0;
+    for (const char* folder : {"common", "lessons"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+            const auto ending = entry.path().extension();
+            if (ending != ".hpp" && ending != ".cpp") continue;
+            ++files;
+            const std::string text = read_text(entry.path());
+            std::smatch found;
+            EXPECT_FALSE(std::regex_search(text, found, bare))
+                << entry.path() << ": " << found.str();
+        }
+    EXPECT_GT(files, 10);
+}
+
+TEST(Conventions, C14_FloatingPointIsAsWritten) {
+    // (1 + 2^-12)^2 needs 25 bits: rounded once it equals itself; fused, the lost bit comes back.
+    volatile float a = 1.0f + 0x1p-12f, square = a * a;
+    const float product_minus_square = a * a - square;
+    EXPECT_EQ(product_minus_square, 0.0f);
+    EXPECT_NE(std::fma(a, a, -square), 0.0f) << "the case sees no fusion";
+    volatile float nan = std::nanf("");
+    EXPECT_TRUE(nan != nan);
+}

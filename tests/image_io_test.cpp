@@ -1,0 +1,711 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Picture files: what is written is read back, other decoders agree, and bad files are errors.
+#include "common/image_io.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string>
+#include <string_view>
+
+#include "common/bmp.hpp"
+#include "common/input_error.hpp"
+#include "common/tga.hpp"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
+#include <stb/stb_image.h>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define RASTERBOOK_SANITIZER_MAPS_MEMORY
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define RASTERBOOK_SANITIZER_MAPS_MEMORY
+#endif
+#endif
+
+namespace rasterbook {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr unsigned seed = 1;
+
+u8vec4 opaque(u8vec3 color) { return {color, 255}; }
+
+Image<u8vec3> random_image(ivec2 size, std::mt19937& random) {
+    Image<u8vec3> image(size);
+    for (u8vec3& color : image.pixels()) color = {random() & 255, random() & 255, random() & 255};
+    return image;
+}
+
+/// A limit on what this process may do, back to what it was at the end of the block.
+class Limit {
+  public:
+    Limit(int resource, rlim_t limit) : resource_(resource) {
+        getrlimit(resource_, &before_);
+        const rlimit now{limit, before_.rlim_max};
+        setrlimit(resource_, &now);
+    }
+    Limit(const Limit&) = delete;
+    Limit& operator=(const Limit&) = delete;
+    ~Limit() { setrlimit(resource_, &before_); }
+
+  private:
+    int resource_;
+    rlimit before_{};
+};
+
+/// As RLIMIT_AS: lets the process take at most so many bytes more than it has.
+rlim_t address_space_with(rlim_t more) {
+#ifdef RASTERBOOK_SANITIZER_MAPS_MEMORY
+    static_cast<void>(more);
+    return RLIM_INFINITY;  // The sanitizer maps terabytes and would fail at once.
+#else
+    rlim_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more;
+#endif
+}
+
+Bytes tga_header(int type, ivec2 size, int bits, int descriptor, int colors = 0) {
+    Bytes bytes{0, static_cast<std::uint8_t>(colors > 0), static_cast<std::uint8_t>(type), 0, 0};
+    append_u16(bytes, static_cast<std::uint16_t>(colors));
+    bytes.insert(bytes.end(), {static_cast<std::uint8_t>(colors > 0 ? 24 : 0), 0, 0, 0, 0});
+    append_u16(bytes, static_cast<std::uint16_t>(size.x));
+    append_u16(bytes, static_cast<std::uint16_t>(size.y));
+    bytes.insert(bytes.end(),
+                 {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(descriptor)});
+    return bytes;
+}
+
+/// @param extra  What stands between a header of 40 bytes and the pixels: masks or a palette.
+Bytes bmp_header(ivec2 size, int bits, int compression, int colors, const Bytes& extra = {}) {
+    Bytes bytes{'B', 'M'};
+    for (const std::size_t value :
+         {std::size_t{0}, std::size_t{0}, 54 + extra.size(), std::size_t{40}})
+        append_u32(bytes, static_cast<std::uint32_t>(value));
+    append_u32(bytes, static_cast<std::uint32_t>(size.x));
+    append_u32(bytes, static_cast<std::uint32_t>(size.y));
+    append_u16(bytes, 1);
+    append_u16(bytes, static_cast<std::uint16_t>(bits));
+    for (const int value : {compression, 0, 0, 0, colors, 0})
+        append_u32(bytes, static_cast<std::uint32_t>(value));
+    bytes.insert(bytes.end(), extra.begin(), extra.end());
+    return bytes;
+}
+
+Bytes operator+(Bytes bytes, const Bytes& more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+    return bytes;
+}
+
+const Bytes bgra_masks{0, 0, 255, 0, 0, 255, 0, 0, 255, 0, 0, 0, 0, 0, 0, 255};
+
+/// 2 x 1 pixels {3, 2, 1, 4} and {7, 6, 5, 8} in a header of 56 bytes, which has a mask for
+/// opacity.
+Bytes bmp_with_opacity() {
+    Bytes bytes = bmp_header({2, 1}, 32, 3, 0, bgra_masks) + Bytes{1, 2, 3, 4, 5, 6, 7, 8};
+    bytes[14] = 56;
+    return bytes;
+}
+
+/// 3 x 2 pixels in three packets: a run that crosses the end of the row, a single, a run.
+Bytes tga_in_runs() {
+    return tga_header(10, {3, 2}, 24, 0x20) + Bytes{0x83, 1, 2, 3, 0x00, 4, 5, 6, 0x80, 7, 8, 9};
+}
+
+/// 3 x 1 pixels with the colours 1, 0, 1 of two.
+Bytes tga_with_palette(int type, const Bytes& pixels) {
+    return tga_header(type, {3, 1}, 8, 0x20, 2) + Bytes{1, 2, 3, 4, 5, 6} + pixels;
+}
+
+Bytes bmp_with_palette(int colors) {
+    return bmp_header({3, 1}, 8, 0, colors, {1, 2, 3, 0, 4, 5, 6, 0}) + Bytes{1, 0, 1, 0};
+}
+
+/// Pictures that outside programs (libpng, libjpeg) made by the formulas of `made_pixel`.
+const fs::path data_folder = fs::path(RASTERBOOK_TEST_DATA) / "images";
+u8vec4 made_pixel(ivec2 p) {
+    return {28 * p.x, 36 * p.y, 255 - 15 * (p.x + p.y), 17 * (p.x + p.y)};
+}
+
+Bytes bytes_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Where these bytes begin in the others.
+std::size_t position_in(const Bytes& bytes, const Bytes& wanted) {
+    const auto found = std::search(bytes.begin(), bytes.end(), wanted.begin(), wanted.end());
+    EXPECT_NE(found, bytes.end());
+    return static_cast<std::size_t>(found - bytes.begin());
+}
+
+class ImageIo : public testing::Test {
+  protected:
+    void SetUp() override {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = fs::path(testing::TempDir()) /
+                  ("rasterbook_" + std::to_string(getpid()) + "_" + test->name());
+        fs::create_directory(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    fs::path path(const std::string& name) const { return folder_ / name; }
+
+    fs::path put(const Bytes& bytes, const std::string& name = "picture") const {
+        std::ofstream(path(name), std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+        return path(name);
+    }
+
+    Image<u8vec4> read(const Bytes& bytes) const { return read_image(put(bytes)); }
+
+    /// What is wrong, after "FILE: "; empty when nothing is.
+    template <typename Action>
+    static std::string error_of(const fs::path& file, Action&& action) {
+        try {
+            action();
+        } catch (const InputError& error) {
+            const std::string_view message = error.what();
+            const std::string start = file.string() + ": ";
+            EXPECT_TRUE(message.starts_with(start)) << message;
+            return std::string(message.substr(std::min(message.size(), start.size())));
+        }
+        return "";
+    }
+    static std::string read_error(const fs::path& file) {
+        return error_of(file, [&] { read_image(file); });
+    }
+    std::string read_error(const Bytes& bytes) const { return read_error(put(bytes)); }
+    static std::string write_error(const fs::path& file, const Image<u8vec3>& image) {
+        return error_of(file, [&] { write_image(file, image); });
+    }
+
+    std::size_t files_in_folder() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {}));
+    }
+
+    /// One small valid file of each kind.
+    std::map<std::string, Bytes> samples() const {
+        std::mt19937 random(seed);
+        std::map<std::string, Bytes> files{{"bmp 8", bmp_with_palette(2)},
+                                           {"bmp 32", bmp_with_opacity()},
+                                           {"tga 10", tga_in_runs()},
+                                           {"tga 1", tga_with_palette(1, {1, 0, 1})},
+                                           {"tga 9", tga_with_palette(9, {0x02, 1, 0, 1})}};
+        for (const char* name : {"own.png", "own.bmp", "own.tga"}) {
+            write_image(path(name), random_image({5, 3}, random));
+            files[name] = bytes_of(path(name));
+        }
+        for (const auto& entry : fs::directory_iterator(data_folder))
+            files[entry.path().filename().string()] = bytes_of(entry.path());
+        return files;
+    }
+
+  private:
+    fs::path folder_;
+};
+
+TEST_F(ImageIo, ReadsBackWhatItWrote) {
+    std::mt19937 random(seed);
+    std::vector<ivec2> sizes{{1, 200}, {200, 1}, {300, 2}, {2, 65535}};
+    for (int x = 1; x <= 9; ++x)
+        for (int y = 1; y <= 4; ++y) sizes.push_back({x, y});
+    for (const ivec2 size : sizes)
+        for (const char* name : {"a.png", "a.BMP", "a.Tga"}) {
+            const Image<u8vec3> image = random_image(size, random);
+            write_image(path(name), image);
+            const Image<u8vec4> read = read_image(path(name));
+            ASSERT_EQ(read.size(), size) << name;
+            EXPECT_TRUE(std::ranges::equal(read.pixels(), image.pixels(), {}, {}, opaque))
+                << name << " of " << size.x << " x " << size.y << ", seed " << seed;
+        }
+}
+
+TEST_F(ImageIo, PngAndBmpSidesGoBeyond16Bits) {
+    for (const char* name : {"a.png", "a.bmp"})
+        for (const ivec2 size : {ivec2{70000, 1}, {1, 70000}}) {
+            write_image(path(name), Image<u8vec3>(size));
+            EXPECT_EQ(read_image(path(name)).size(), size) << name;
+        }
+}
+
+TEST_F(ImageIo, OtherDecodersReadTheSamePixels) {
+    std::mt19937 random(seed);
+    for (const ivec2 size : {ivec2{1, 1}, {2, 3}, {3, 2}, {4, 4}, {5, 1}, {127, 2}, {130, 3}})
+        for (const char* name : {"a.png", "a.bmp", "a.tga"}) {
+            const Image<u8vec3> image = random_image(size, random);
+            write_image(path(name), image);
+            ivec2 read_size;
+            int channels = 0;
+            stbi_uc* pixels =
+                stbi_load(path(name).c_str(), &read_size.x, &read_size.y, &channels, 3);
+            ASSERT_NE(pixels, nullptr) << name << ": " << stbi_failure_reason();
+            EXPECT_EQ(read_size, size) << name;
+            EXPECT_EQ(channels, 3) << name;
+            EXPECT_EQ(std::memcmp(pixels, image.pixels().data(), image.pixels().size_bytes()), 0)
+                << name << " of " << size.x << " x " << size.y << ", seed " << seed;
+            stbi_image_free(pixels);
+        }
+}
+
+TEST(Bmp, Eq1_9_RowsTakeAMultipleOfFourBytes) {
+    EXPECT_EQ(bmp_row_padding(1), 1);
+    EXPECT_EQ(bmp_row_padding(2), 2);
+    EXPECT_EQ(bmp_row_padding(3), 3);
+    EXPECT_EQ(bmp_row_padding(4), 0);
+    for (int width = 1; width < 1000; ++width) {
+        EXPECT_EQ((3 * width + bmp_row_padding(width)) % 4, 0) << width;
+        EXPECT_TRUE(bmp_row_padding(width) >= 0 && bmp_row_padding(width) < 4) << width;
+    }
+}
+
+TEST(Bmp, HardCase_LengthOfAHugeFileDoesNotWrapAround) {
+    EXPECT_EQ(bmp_file_bytes({2, 2}), 54u + 16u);
+    EXPECT_EQ(bmp_file_bytes({1, 1 << 30}), 54u + (std::uint64_t{4} << 30));
+    EXPECT_EQ(bmp_file_bytes({2147483647, 2}), 54u + 2u * 6442450944u);
+}
+
+/// Red and green above, blue and (1, 2, 3) below.
+Image<u8vec3> four_pixels() {
+    Image<u8vec3> image({2, 2});
+    image[{0, 0}] = {255, 0, 0};
+    image[{1, 0}] = {0, 255, 0};
+    image[{0, 1}] = {0, 0, 255};
+    image[{1, 1}] = {1, 2, 3};
+    return image;
+}
+
+TEST_F(ImageIo, BmpBytesAreThoseOfTheFormat) {
+    write_image(path("a.bmp"), four_pixels());
+    // clang-format off
+    const Bytes expected{
+        'B', 'M', 70, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0,  // 54 + 2 rows of 8 bytes; pixels at 54
+        40, 0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0,             // the second header; 2 x 2
+        1, 0, 24, 0, 0, 0, 0, 0, 16, 0, 0, 0,            // 1 plane, 24 bits, 16 bytes of pixels
+        0x13, 0x0b, 0, 0, 0x13, 0x0b, 0, 0,              // 2835 = 0x0b13 pixels a metre
+        0, 0, 0, 0, 0, 0, 0, 0,                          // no palette
+        255, 0, 0, 3, 2, 1, 0, 0,                        // the bottom row, blue first, 2 of padding
+        0, 0, 255, 0, 255, 0, 0, 0};                     // the top row
+    // clang-format on
+    EXPECT_EQ(bytes_of(path("a.bmp")), expected);
+}
+
+TEST_F(ImageIo, TgaBytesAreThoseOfTheFormat) {
+    write_image(path("a.tga"), four_pixels());
+    // clang-format off
+    const Bytes expected{
+        0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0,    // true colour, no palette, at (0, 0)
+        2, 0, 2, 0, 24, 0x20,                  // 2 x 2, 24 bits, top row first
+        0, 0, 255, 0, 255, 0,                  // the top row, blue first
+        255, 0, 0, 3, 2, 1};                   // the bottom row
+    // clang-format on
+    EXPECT_EQ(bytes_of(path("a.tga")), expected);
+}
+
+/// The pixels of a picture of one row.
+std::vector<u8vec4> row_of(const Image<u8vec4>& image) {
+    EXPECT_EQ(image.size().y, 1);
+    return {image.pixels().begin(), image.pixels().end()};
+}
+
+TEST_F(ImageIo, ReadsEveryKindOfBmp) {
+    using Row = std::vector<u8vec4>;
+    EXPECT_EQ(row_of(read(bmp_with_opacity())), (Row{{3, 2, 1, 4}, {7, 6, 5, 8}}));
+    const Bytes pixel{1, 2, 3, 4};
+    EXPECT_EQ(row_of(read(bmp_header({1, 1}, 32, 0, 0) + pixel)), (Row{{3, 2, 1, 255}}));
+    const Bytes masks(bgra_masks.begin(), bgra_masks.begin() + 12);
+    EXPECT_EQ(row_of(read(bmp_header({1, 1}, 32, 3, 0, masks) + pixel)), (Row{{3, 2, 1, 255}}));
+    EXPECT_EQ(row_of(read(bmp_with_palette(2))),
+              (Row{{6, 5, 4, 255}, {3, 2, 1, 255}, {6, 5, 4, 255}}));
+
+    const Bytes rows{1, 2, 3, 0, 4, 5, 6, 0};
+    EXPECT_EQ((read(bmp_header({1, 2}, 24, 0, 0) + rows)[{0, 0}]), u8vec4(6, 5, 4, 255));
+    EXPECT_EQ((read(bmp_header({1, -2}, 24, 0, 0) + rows)[{0, 0}]), u8vec4(3, 2, 1, 255));
+}
+
+TEST_F(ImageIo, ReadsEveryKindOfTga) {
+    using Row = std::vector<u8vec4>;
+    const Row row{{6, 5, 4, 255}, {3, 2, 1, 255}, {6, 5, 4, 255}};
+    EXPECT_EQ(row_of(read(tga_with_palette(1, {1, 0, 1}))), row);
+    EXPECT_EQ(row_of(read(tga_with_palette(9, {0x02, 1, 0, 1}))), row);
+    EXPECT_EQ(row_of(read(tga_header(3, {2, 1}, 8, 0x20) + Bytes{7, 9})),
+              (Row{{7, 7, 7, 255}, {9, 9, 9, 255}}));
+    EXPECT_EQ(row_of(read(tga_header(11, {2, 1}, 8, 0x20) + Bytes{0x81, 7})),
+              (Row{{7, 7, 7, 255}, {7, 7, 7, 255}}));
+    const Bytes pixels{1, 2, 3, 4, 5, 6, 7, 8};
+    EXPECT_EQ(row_of(read(tga_header(2, {2, 1}, 32, 0x28) + pixels)),
+              (Row{{3, 2, 1, 4}, {7, 6, 5, 8}}));
+    EXPECT_EQ(row_of(read(tga_header(2, {2, 1}, 32, 0x20) + pixels)),  // no bits of opacity
+              (Row{{3, 2, 1, 255}, {7, 6, 5, 255}}));
+    EXPECT_EQ(row_of(read(tga_header(2, {2, 1}, 32, 0x38) + pixels)),  // right column first
+              (Row{{7, 6, 5, 8}, {3, 2, 1, 4}}));
+    EXPECT_EQ((read(tga_header(2, {1, 2}, 32, 0x08) + pixels)[{0, 0}]), u8vec4(7, 6, 5, 8));
+
+    const Image<u8vec4> runs = read(tga_in_runs());
+    const Row expected{{3, 2, 1, 255}, {3, 2, 1, 255}, {3, 2, 1, 255},
+                       {3, 2, 1, 255}, {6, 5, 4, 255}, {9, 8, 7, 255}};
+    EXPECT_TRUE(std::ranges::equal(runs.pixels(), expected));
+}
+
+TEST_F(ImageIo, SkipsTextAndPaletteThatATrueColourTgaDoesNotUse) {
+    Bytes bytes = tga_header(2, {1, 1}, 24, 0x20, 1);
+    bytes[0] = 2;
+    EXPECT_EQ((read(bytes + Bytes{'h', 'i', 90, 91, 92, 1, 2, 3})[{0, 0}]), u8vec4(3, 2, 1, 255));
+}
+
+TEST_F(ImageIo, TgaPaletteMayBeginAtAnotherIndex) {
+    Bytes bytes = tga_with_palette(1, {6, 5, 6});
+    bytes[3] = 5;
+    EXPECT_EQ((read(bytes)[{0, 0}]), u8vec4(6, 5, 4, 255));
+    bytes.back() = 4;
+    EXPECT_EQ(read_error(bytes), "a pixel has colour 4, which the palette does not have");
+    bytes.back() = 7;
+    EXPECT_EQ(read_error(bytes), "a pixel has colour 7, which the palette does not have");
+}
+
+TEST_F(ImageIo, ReadsEveryKindOfPng) {
+    using Pixel = u8vec4 (*)(ivec2);
+    const std::map<std::string, Pixel> expected{
+        {"rgb8.png", [](ivec2 p) { return opaque(made_pixel(p)); }},
+        {"rgb16.png", [](ivec2 p) { return opaque(made_pixel(p)); }},
+        {"rgba8_interlaced.png", made_pixel},
+        {"grey8.png", [](ivec2 p) { return opaque(u8vec3(made_pixel(p).r)); }},
+        {"grey_opacity8.png",
+         [](ivec2 p) { return u8vec4(u8vec3(made_pixel(p).r), made_pixel(p).a); }},
+        {"palette4_interlaced.png", [](ivec2 p) {
+             const int k = (p.x + p.y) % 10;
+             return u8vec4(25 * k, 255 - 25 * k, 10 * k, k < 3 ? 100 * k : 255);
+         }}};
+    for (const auto& [name, pixel] : expected) {
+        const Image<u8vec4> image = read_image(data_folder / name);
+        ASSERT_EQ(image.size(), ivec2(9, 7)) << name;
+        for (int y = 0; y < 7; ++y)
+            for (int x = 0; x < 9; ++x)
+                EXPECT_EQ((image[{x, y}]), pixel({x, y})) << name << " at " << x << ", " << y;
+    }
+}
+
+TEST_F(ImageIo, HardCase_ColourBeyondAPngPaletteIsBlack) {
+    Bytes bytes = bytes_of(data_folder / "palette4_interlaced.png");
+    const auto palette = bytes.begin() + std::ptrdiff_t(position_in(bytes, {'P', 'L', 'T', 'E'}));
+    palette[-1] = 9;  // three colours instead of ten
+    bytes.erase(palette + 4 + 9, palette + 4 + 30);
+    const Image<u8vec4> image = read(bytes);
+    EXPECT_EQ((image[{2, 0}]), u8vec4(50, 205, 20, 200));
+    EXPECT_EQ((image[{3, 0}]), u8vec4(0, 0, 0, 255));
+    EXPECT_EQ((image[{8, 1}]), u8vec4(0, 0, 0, 255));
+}
+
+TEST_F(ImageIo, ReadsJpegNearlyAsItWasMade) {
+    constexpr int tolerance = 6;  // of 255, at quality 95; the largest seen is 4
+    for (const char* name : {"color.jpg", "color_progressive.jpg", "grey.jpg"}) {
+        const Image<u8vec4> image = read_image(data_folder / name);
+        ASSERT_EQ(image.size(), ivec2(9, 7)) << name;
+        const bool is_grey = std::string_view(name) == "grey.jpg";
+        for (int y = 0; y < 7; ++y)
+            for (int x = 0; x < 9; ++x) {
+                const u8vec4 color = made_pixel({x, y});
+                const u8vec4 wanted = opaque(is_grey ? u8vec3(color.r) : u8vec3(color));
+                for (int i = 0; i < 4; ++i)
+                    EXPECT_NEAR((image[{x, y}][i]), wanted[i], tolerance) << name << x << y << i;
+            }
+    }
+}
+
+TEST_F(ImageIo, HardCase_EveryTruncatedPictureIsAnError) {
+    for (const auto& [name, bytes] : samples()) {
+        EXPECT_EQ(read_error(bytes), "") << name;
+        for (std::size_t length = 0; length < bytes.size(); ++length)
+            EXPECT_NE(read_error(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(length))), "")
+                << name << ": " << length << " of " << bytes.size() << " bytes";
+    }
+}
+
+TEST_F(ImageIo, BytesAfterThePictureDoNotMatter) {
+    for (const auto& [name, bytes] : samples())
+        EXPECT_EQ(read(bytes), read(bytes + Bytes(26, 'X'))) << name;
+}
+
+TEST_F(ImageIo, HardCase_ThumbnailInsideATruncatedJpegIsNotItsEnd) {
+    const Bytes whole = bytes_of(data_folder / "color.jpg");
+    const Bytes start{0xff, 0xd8, 0xff, 0xe1, 0, 6, 0xff, 0xd8, 0xff, 0xd9};
+    const Bytes with_thumbnail = start + Bytes(whole.begin() + 2, whole.end());
+    EXPECT_EQ(read(with_thumbnail), read(whole));
+    EXPECT_EQ(read_error(Bytes(with_thumbnail.begin(), with_thumbnail.end() - 1)),
+              "truncated: the end of the picture is missing");
+}
+
+TEST_F(ImageIo, HardCase_JpegOfManyScansIsRefused) {
+    const Bytes whole = bytes_of(data_folder / "color_progressive.jpg");
+    const Bytes mark{0xff, 0xda};
+    const auto scan = std::find_end(whole.begin(), whole.end(), mark.begin(), mark.end());
+    Bytes bytes(whole.begin(), scan);
+    for (int i = 0; i < 100; ++i) bytes = std::move(bytes) + Bytes(scan, whole.end() - 2);
+    EXPECT_EQ(read_error(std::move(bytes) + Bytes{0xff, 0xd9}), "more than 100 scans");
+}
+
+TEST_F(ImageIo, HardCase_UndefinedPartOfAJpegIsTheSameEachTime) {
+    Bytes bytes = bytes_of(data_folder / "grey.jpg");
+    const Bytes mark{0xff, 0xc4};
+    const auto last = std::find_end(bytes.begin(), bytes.end(), mark.begin(), mark.end());
+    last[1] = 0xfe;  // The last table of codes becomes a comment.
+    const Image<u8vec4> before = read(bytes);
+    read_image(data_folder / "color_progressive.jpg");  // leaves other bytes behind in freed memory
+    EXPECT_EQ(read(bytes), before);
+}
+
+struct BadFile {
+    const char* what;
+    Bytes bytes;
+    std::string message;
+};
+
+Bytes changed(Bytes bytes, std::size_t at, const Bytes& now) {
+    std::ranges::copy(now, bytes.begin() + static_cast<std::ptrdiff_t>(at));
+    return bytes;
+}
+
+/// Files that claim far more pixels than they have. Whoever believes them takes 64 MB to 16 GB.
+std::vector<BadFile> files_that_claim_too_much() {
+    const Bytes png = bytes_of(data_folder / "rgb8.png");
+    const Bytes jpeg = bytes_of(data_folder / "color.jpg");
+    const std::string all_sides = "too short for the 65535 x 65535 pixels that it claims";
+    return {
+        {"tga of 19 bytes", tga_header(2, {4671, 4671}, 24, 0) + Bytes{1},
+         "truncated: 1 of 65454723 bytes of pixels are there"},
+        {"tga in runs", tga_header(10, {65535, 65535}, 24, 0) + Bytes{0xff, 1, 2, 3}, all_sides},
+        {"bmp", bmp_header({16777216, 16777216}, 32, 0, 0) + Bytes(8),
+         "truncated: 8 of 1125899906842624 bytes of pixels are there"},
+        {"png size", changed(png, 16, {0, 0, 0x40, 0, 0, 0, 0x40, 0}),
+         "too short for the 16384 x 16384 pixels that it claims"},
+        {"png chunk", changed(png, 33, {0x7f, 0xff, 0xff, 0xff}),
+         "truncated: the end of the picture is missing"},
+        {"jpeg", changed(jpeg, position_in(jpeg, {0xff, 0xc0}) + 5, Bytes(4, 0xff)), all_sides},
+    };
+}
+
+TEST_F(ImageIo, HardCase_MemoryIsNotSetAsideForAClaim) {
+#ifdef RASTERBOOK_SANITIZER_MAPS_MEMORY
+    GTEST_SKIP() << "the sanitizer needs more address space than any limit";
+#endif
+    for (const auto& [what, bytes, message] : files_that_claim_too_much()) {
+        const fs::path file = put(bytes);
+        const Limit limit(RLIMIT_AS, address_space_with(8 << 20));
+        EXPECT_EQ(read_error(file), message) << what;
+    }
+}
+
+std::vector<BadFile> bad_files() {
+    const std::string no_picture = "not a PNG, JPEG, BMP or TGA picture";
+    const std::string bad_bmp = "unsupported BMP: only 8, 24 or 32 bits a pixel, not compressed";
+    const std::string bad_tga = "unsupported TGA: only 8 bits of grey, or 24 or 32 of colour";
+    const auto size = [](const char* sides) {
+        return "a picture of " + std::string(sides) +
+               " pixels: each side must lie in 1 to 16777216";
+    };
+    const Bytes bmp = bmp_header({2, 1}, 24, 0, 0) + Bytes(8);
+    const Bytes tga = tga_header(2, {2, 1}, 24, 0) + Bytes(6);
+    const Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    const Bytes jpeg = bytes_of(data_folder / "color.jpg");
+    Bytes without_tables = jpeg;
+    for (std::size_t at = 2; at < jpeg.size(); ++at)
+        if (jpeg[at - 1] == 0xff && jpeg[at] == 0xc4) without_tables[at] = 0xfe;  // comments
+    std::vector<BadFile> files = files_that_claim_too_much();
+    const std::vector<BadFile> more{
+        {"empty", {}, "the file is empty"},
+        {"text", Bytes(100, 'a'), no_picture},
+        {"zeros", Bytes(100, 0), no_picture},
+        {"gif", {'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, no_picture},
+        {"png with line ends spoiled",
+         {0x89, 'P', 'N', 'G', '\n', 0x1a, '\n', 0, 0, 0},
+         no_picture},
+        {"tga type 4", changed(tga, 2, {4}), no_picture},
+        {"tga palette type 2", changed(tga, 1, {2}), no_picture},
+        {"tga of 7 bits", changed(tga, 16, {7}), no_picture},
+        {"tga interleaved", changed(tga, 17, {0x40}), no_picture},
+        {"tga of 16 bits", changed(tga, 16, {16}), bad_tga},
+        {"tga of 0 x 1", changed(tga, 12, {0}), size("0 x 1")},
+        {"tga of 2 x 0", changed(tga, 14, {0}), size("2 x 0")},
+        {"tga text", changed(tga, 0, {200}), "truncated before the pixels"},
+        {"tga run", tga_header(10, {2, 1}, 24, 0) + Bytes{0x82, 1, 2, 3},
+         "damaged: a run goes past the last pixel"},
+        {"tga run cut", tga_header(10, {2, 1}, 24, 0) + Bytes{0x01, 1, 2, 3, 4},
+         "truncated: 0 of 6 bytes of pixels are there"},
+        {"bmp header cut", Bytes(bmp.begin(), bmp.begin() + 53), "truncated inside the BMP header"},
+        {"bmp header longer", changed(bmp, 14, {124}), "truncated inside the BMP header"},
+        {"bmp of OS/2", changed(bmp, 14, {12}), bad_bmp},
+        {"bmp of 16 bits", changed(bmp, 28, {16}), bad_bmp},
+        {"bmp in runs", changed(bmp, 30, {1}), bad_bmp},
+        {"bmp masks of red first",
+         bmp_header({1, 1}, 32, 3, 0, {255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0}) + Bytes(4),
+         bad_bmp},
+        {"bmp of 0 x 1", bmp_header({0, 1}, 24, 0, 0), size("0 x 1")},
+        {"bmp of 2 x 0", bmp_header({2, 0}, 24, 0, 0), size("2 x 0")},
+        {"bmp of width -2", bmp_header({-2, 1}, 24, 0, 0) + Bytes(8), size("-2 x 1")},
+        {"bmp of height -2^31", bmp_header({1, -2147483647 - 1}, 24, 0, 0), size("1 x 2147483648")},
+        {"bmp of width 2^24 + 1", bmp_header({16777217, 1}, 24, 0, 0), size("16777217 x 1")},
+        {"bmp pixels in header", changed(bmp, 10, {53}),
+         "truncated or damaged: the pixels begin outside the file"},
+        {"bmp pixels beyond", changed(bmp, 10, {63}),
+         "truncated or damaged: the pixels begin outside the file"},
+        {"bmp palette", bmp_with_palette(257),
+         "truncated or damaged: the palette claims 257 colours"},
+        {"bmp palette beyond", bmp_with_palette(0),
+         "truncated or damaged: the palette claims 256 colours"},
+        {"bmp colour", bmp_with_palette(1), "a pixel has colour 1 of a palette of 1"},
+        {"jpeg table of 256 codes",
+         Bytes{0xff, 0xd8, 0xff, 0xc4, 0x01, 0x13, 0} + Bytes(16, 16) + Bytes(256) +
+             Bytes{0xff, 0xd9},
+         "damaged: a table of codes has an impossible length"},
+        {"jpeg without tables", without_tables, "damaged: no table of codes"},
+        {"jpeg without frame",
+         {0xff, 0xd8, 0xff, 0xd9},
+         "damaged or unsupported: the JPEG header cannot be read"},
+        {"png of no kind", changed(bytes_of(data_folder / "rgb8.png"), 25, {5}),
+         "damaged: there is no such kind of PNG"},
+        {"png of signature", png, "truncated: the end of the picture is missing"},
+        {"png without header", png + Bytes{0, 0, 0, 0, 'I', 'E', 'N', 'D', 0, 0, 0, 0},
+         "damaged: the PNG header is missing"},
+        {"png of 0 x 0",
+         png + Bytes{0, 0, 0, 13, 'I', 'H', 'D', 'R', 0, 0, 0,   0,   0,   0,   0, 0, 8, 2, 0,
+                     0, 0, 0, 0,  0,   0,   0,   0,   0, 0, 'I', 'E', 'N', 'D', 0, 0, 0, 0},
+         size("0 x 0")},
+    };
+    files.insert(files.end(), more.begin(), more.end());
+    return files;
+}
+
+TEST_F(ImageIo, HardCase_BadFilesAreErrorsThatSayWhy) {
+    for (const auto& [what, bytes, message] : bad_files())
+        EXPECT_EQ(read_error(bytes), message) << what;
+}
+
+TEST_F(ImageIo, HardCase_WhatIsNoRegularFileIsAnErrorAndNotAWait) {
+    EXPECT_EQ(read_error(path("missing.png")), "there is no such file");
+    EXPECT_EQ(read_error(path("missing/picture.png")), "there is no such file");
+    EXPECT_EQ(read_error(path("")), "not a regular file");
+    EXPECT_EQ(read_error("/dev/zero"), "not a regular file");
+    ASSERT_EQ(mkfifo(path("fifo.png").c_str(), 0600), 0);
+    EXPECT_EQ(read_error(path("fifo.png")), "not a regular file");
+    fs::create_symlink("/dev/zero", path("link.png"));
+    EXPECT_EQ(read_error(path("link.png")), "not a regular file");
+}
+
+TEST_F(ImageIo, HardCase_ChangedBytesGiveAnErrorOrAPicture) {
+    constexpr int changes_in_all = 20000;
+    std::mt19937 random(seed);
+    const std::map<std::string, Bytes> files = samples();
+    const Limit limit(RLIMIT_AS, address_space_with(512 << 20));
+    for (int i = 0; i < changes_in_all; ++i) {
+        const auto& [name, valid] = *std::next(files.begin(), i % std::ssize(files));
+        Bytes bytes = valid;
+        for (auto count = 1 + random() % 4; count > 0; --count) {
+            constexpr std::array<unsigned, 5> edges{0, 1, 0x7f, 0x80, 0xff};
+            // The header is where most of the decisions are.
+            const auto end = random() % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 64);
+            const auto value = random() % 2 ? edges[random() % edges.size()] : random() & 255;
+            bytes[random() % end] = static_cast<std::uint8_t>(value);
+        }
+        const fs::path file = put(bytes);
+        try {
+            const Image<u8vec4> image = read_image(file);
+            EXPECT_TRUE(image.size().x >= 1 && image.size().y >= 1)
+                << name << ", change " << i << ", seed " << seed;
+        } catch (const InputError&) {  // as good as a picture
+        } catch (const std::exception& error) {
+            FAIL() << name << ", change " << i << ", seed " << seed << ": " << error.what();
+        }
+    }
+}
+
+TEST_F(ImageIo, UnknownEndingIsAnErrorThatListsTheKnownOnes) {
+    const std::string message = "the name of a picture must end in .png, .bmp or .tga";
+    for (const char* name : {"a.jpg", "a", "a.png.txt", ".png", "png", "a."}) {
+        EXPECT_EQ(write_error(path(name), four_pixels()), message) << name;
+        EXPECT_EQ(error_of(path(name), [&] { check_image_name(path(name)); }), message) << name;
+    }
+    EXPECT_EQ(files_in_folder(), 0u);
+    for (const char* name : {"a.PNG", "b.c.bMp", "/missing/a.tga"}) check_image_name(name);
+}
+
+TEST_F(ImageIo, TgaSidesStopAt65535) {
+    EXPECT_EQ(write_error(path("a.tga"), Image<u8vec3>({65535, 1})), "");
+    for (const ivec2 size : {ivec2{65536, 1}, {1, 65536}})
+        EXPECT_EQ(write_error(path("b.tga"), Image<u8vec3>(size)),
+                  "the picture is too large for TGA: 65535 pixels a side is the limit");
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(ImageIo, MissingFolderIsNamed) {
+    EXPECT_EQ(write_error(path("missing/a.png"), four_pixels()),
+              "cannot be written: there is no folder " + path("missing").string());
+    put({1}, "file");
+    EXPECT_EQ(write_error(path("file/a.png"), four_pixels()),
+              "cannot be written: there is no folder " + path("file").string());
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(ImageIo, HardCase_WhatIsNoRegularFileIsNotOverwritten) {
+    fs::create_directory(path("folder.png"));
+    ASSERT_EQ(mkfifo(path("fifo.bmp").c_str(), 0600), 0);
+    fs::create_symlink("/dev/full", path("full.tga"));
+    for (const char* name : {"folder.png", "fifo.bmp", "full.tga"})
+        EXPECT_EQ(write_error(path(name), four_pixels()), "cannot be written: not a regular file");
+    EXPECT_TRUE(fs::is_fifo(path("fifo.bmp")) && fs::is_symlink(path("full.tga")));
+    EXPECT_EQ(files_in_folder(), 3u);
+}
+
+TEST_F(ImageIo, HardCase_FailedWriteLeavesTheOldFileAndNothingElse) {
+    std::signal(SIGXFSZ, SIG_IGN);  // A write beyond the limit is then an error, as on a full disk.
+    for (const char* name : {"a.png", "a.bmp", "a.tga"})
+        for (const ivec2 size : {ivec2{1, 1}, {100, 100}}) {  // within a stream's buffer and beyond
+            write_image(path(name), four_pixels());
+            const Bytes before = bytes_of(path(name));
+            std::string message;
+            {
+                const Limit limit(RLIMIT_FSIZE, 10);
+                message = write_error(path(name), Image<u8vec3>(size));
+            }
+            EXPECT_EQ(message, "cannot be written: File too large") << name;
+            EXPECT_EQ(bytes_of(path(name)), before) << name;
+        }
+    EXPECT_EQ(files_in_folder(), 3u);
+}
+
+TEST_F(ImageIo, OldFileStaysWholeUntilTheNewOneIs) {
+    write_image(path("a.bmp"), four_pixels());
+    const Bytes before = bytes_of(path("a.bmp"));
+    fs::create_hard_link(path("a.bmp"), path("same_file"));
+    write_image(path("a.bmp"), Image<u8vec3>({1, 1}));
+    EXPECT_EQ(bytes_of(path("same_file")), before);  // It was replaced, not written into.
+    EXPECT_EQ(read_image(path("a.bmp")).size(), ivec2(1, 1));
+    EXPECT_EQ(files_in_folder(), 2u);
+}
+
+TEST_F(ImageIo, LinkStaysALinkToTheNewFile) {
+    put({1}, "real.bmp");
+    fs::create_symlink("real.bmp", path("link.bmp"));
+    write_image(path("link.bmp"), four_pixels());
+    EXPECT_TRUE(fs::is_symlink(path("link.bmp")));
+    EXPECT_EQ(read_image(path("real.bmp")).size(), ivec2(2, 2));
+}
+
+}  // namespace
+}  // namespace rasterbook

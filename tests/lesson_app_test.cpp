@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// The programs as a reader meets them: what they write, what they say, how they end.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "common/counters.hpp"
+#include "common/image_io.hpp"
+#include "support/lesson_process.hpp"
+
+using namespace rasterbook;
+using rasterbook::test::ProcessResult, rasterbook::test::run_program,
+    rasterbook::test::fresh_folder;
+
+namespace {
+
+const char* const lesson = "03_z_buffer";
+
+/// One line on stderr that starts with "error: " and holds `text`; nothing on stdout.
+void expect_error(const ProcessResult& result, int exit_status, const std::string& text) {
+    EXPECT_EQ(result.exit_status, exit_status);
+    EXPECT_EQ(result.err.rfind("error: ", 0), 0u) << result.err;
+    EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.out, "");
+}
+
+}  // namespace
+
+TEST(LessonApp, WritesThePictureInEachFormat) {
+    const auto folder = fresh_folder("app");
+    for (const char* name : {"a.png", "a.bmp", "a.tga"}) {
+        const auto file = folder / name;
+        const ProcessResult result =
+            run_program(lesson, {"--size", "64x48", "--out", file.string()});
+        EXPECT_EQ(result.exit_status, 0) << result.err;
+        EXPECT_EQ(result.out, "wrote " + file.string() + "\n");
+        EXPECT_EQ(read_image(file), read_image(folder / "a.png"));
+        EXPECT_EQ(read_image(file).size(), ivec2(64, 48));
+    }
+}
+
+TEST(LessonApp, StatsAreJsonAndCountWhatWasDone) {
+    const auto file = fresh_folder("app") / "a.png";
+    const ProcessResult result =
+        run_program(lesson, {"--size", "64x48", "--stats", "--out", file.string()});
+    const auto stats = nlohmann::json::parse(result.out);
+    EXPECT_EQ(stats.at("lesson"), lesson);
+    EXPECT_EQ(stats.at("width"), 64);
+    for (const auto name : counter_names) EXPECT_TRUE(stats.contains(std::string(name))) << name;
+    EXPECT_GT(stats.at("triangles_in"), 1000);
+    EXPECT_GT(stats.at("triangles_culled_by_facing"), 100);
+    EXPECT_GE(stats.at("fragments_tested"), stats.at("fragments_shaded"));
+    EXPECT_GT(stats.at("fragments_shaded"), 300);
+    EXPECT_EQ(stats.at("lines"), 0) << "this lesson draws no lines";
+    for (const char* time : {"load_ms", "render_ms", "write_ms"}) EXPECT_GE(stats.at(time), 0);
+}
+
+TEST(LessonApp, CountingDoesNotChangeThePicture) {
+    const auto folder = fresh_folder("app");
+    for (const char* name : {"01_bresenham_lines", "02_triangle_fill", "03_z_buffer"}) {
+        run_program(name, {"--size", "80x60", "--out", (folder / "plain.png").string()});
+        run_program(name,
+                    {"--size", "80x60", "--stats", "--out", (folder / "counted.png").string()});
+        EXPECT_EQ(read_image(folder / "plain.png"), read_image(folder / "counted.png")) << name;
+    }
+}
+
+TEST(LessonApp, HelpNamesEveryOptionAndEndsWell) {
+    const ProcessResult result = run_program(lesson, {"--help"});
+    EXPECT_EQ(result.exit_status, 0);
+    for (const char* option : {"--model", "--out", "--size", "--stats", "--depth"})
+        EXPECT_NE(result.out.find(option), std::string::npos) << option;
+}
+
+TEST(LessonApp, HardCase_BadUsageIsExitStatus2) {
+    for (const char* size : {"0x5", "5x0", "-4x4", "64", "64x", "x48", "64x48x3", "64 x 48",
+                             "99999x1", "4294967297x1", "axb", ""})
+        expect_error(run_program(lesson, {"--size", size}), 2,
+                     "'" + std::string(size) + "' is not WIDTHxHEIGHT");
+    expect_error(run_program(lesson, {"--no-such-option"}), 2, "--no-such-option");
+    expect_error(run_program(lesson, {"--out", "picture.gif"}), 2, "picture.gif");
+    expect_error(run_program(lesson, {"--model"}), 2, "--model");
+    expect_error(run_program("02_triangle_fill", {"--paint", "blue"}), 2,
+                 "'blue' is not one of flat|weights");
+}
+
+TEST(LessonApp, HardCase_MissingModelNamesEveryPathTried) {
+    const ProcessResult result = run_program(lesson, {"--model", "no_such.obj"});
+    expect_error(result, 1, "no_such.obj: there is no such file; tried ");
+    EXPECT_NE(result.err.find(std::filesystem::absolute("no_such.obj").string()),
+              std::string::npos);
+    EXPECT_NE(result.err.find(std::string(RASTERBOOK_ASSETS) + "/models/no_such.obj"),
+              std::string::npos);
+}
+
+TEST(LessonApp, HardCase_BrokenModelNamesFileAndLineAndWritesNothing) {
+    const auto folder = fresh_folder("app");
+    std::ofstream(folder / "broken.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n";
+    std::ofstream(folder / "picture.png") << "old";
+    const ProcessResult result = run_program(lesson, {"--model", (folder / "broken.obj").string(),
+                                                      "--out", (folder / "picture.png").string()});
+    expect_error(result, 1, (folder / "broken.obj").string() + ":4: ");
+    std::ifstream picture(folder / "picture.png");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(picture), {}), "old");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 2)
+        << "something was left behind";
+}
+
+TEST(LessonApp, HardCase_OutputIntoAMissingFolderIsAnError) {
+    const auto file = fresh_folder("app") / "no" / "picture.png";
+    expect_error(run_program(lesson, {"--size", "8x8", "--out", file.string()}), 1, file.string());
+}
+
+TEST(LessonApp, HardCase_SmallestPicture) {
+    const auto file = fresh_folder("app") / "a.png";
+    for (const char* name : {"01_bresenham_lines", "02_triangle_fill", "03_z_buffer"})
+        for (const char* size : {"1x1", "1x40", "40x1"}) {
+            const ProcessResult result =
+                run_program(name, {"--size", size, "--out", file.string()});
+            EXPECT_EQ(result.exit_status, 0) << name << ' ' << size << ": " << result.err;
+        }
+}
+
+TEST(LessonApp, HardCase_ModelOfExtremeSizeIsDrawnAllTheSame) {
+    const auto folder = fresh_folder("app");
+    for (const char* scale : {"e-38", "", "e37"}) {
+        std::ofstream(folder / "a.obj")
+            << "v -1" << scale << " 0 0\nv 1" << scale << " 0 0\nv 0 1" << scale << " 0\nf 1 2 3\n";
+        const ProcessResult result = run_program(
+            lesson, {"--size", "64x48", "--stats", "--model", (folder / "a.obj").string(), "--out",
+                     (folder / "a.png").string()});
+        ASSERT_EQ(result.exit_status, 0) << result.err;
+        EXPECT_GT(nlohmann::json::parse(result.out).at("fragments_shaded"), 500) << scale;
+    }
+}
+
+TEST(LessonApp, WarningsOfTheModelAreShown) {
+    const auto folder = fresh_folder("app");
+    std::ofstream(folder / "a.obj") << "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const ProcessResult result =
+        run_program(lesson, {"--size", "8x8", "--model", (folder / "a.obj").string(), "--out",
+                             (folder / "a.png").string()});
+    EXPECT_EQ(result.exit_status, 0);
+    EXPECT_EQ(result.err.rfind("warning: " + (folder / "a.obj").string() + ":1: ", 0), 0u)
+        << result.err;
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "support/golden.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/image_io.hpp"
+#include "support/lesson_process.hpp"
+
+namespace rasterbook::test {
+
+namespace {
+
+// A sine in a camera's axes may round otherwise in another C library: then a line or a side moves
+// by a pixel here and there. One triangle missing or a shade of another lamp is far more than this.
+constexpr double share_of_pixels_that_may_differ = 2e-4;
+constexpr int levels_that_may_differ = 2;  // of 255, for a colour that rounds the other way
+
+int greatest_difference(u8vec4 a, u8vec4 b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+/// Three pictures of one size in a row: expected | actual | difference, the last one four times as
+/// strong.
+Image<u8vec3> side_by_side(const Image<u8vec4>& expected, const Image<u8vec4>& actual) {
+    const ivec2 size = expected.size();
+    Image<u8vec3> all({3 * size.x, size.y});
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const ivec3 e(expected[{x, y}]), a(actual[{x, y}]);
+            all[{x, y}] = u8vec3(e);
+            all[{x + size.x, y}] = u8vec3(a);
+            all[{x + 2 * size.x, y}] = u8vec3(glm::min(4 * glm::abs(e - a), ivec3(255)));
+        }
+    return all;
+}
+
+}  // namespace
+
+testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
+                                       const std::vector<std::string>& arguments) {
+    const std::filesystem::path expected_file =
+        std::filesystem::path(RASTERBOOK_GOLDEN) / (golden + ".png");
+    const std::filesystem::path actual_file =
+        std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_actual.png");
+    std::vector<std::string> all = {"--size", golden_size, "--out", actual_file.string()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ProcessResult run = run_program(lesson, all);
+    if (run.exit_status != 0)
+        return testing::AssertionFailure() << lesson << " failed: " << run.err;
+    if (std::getenv("RASTERBOOK_UPDATE_GOLDEN")) {
+        std::filesystem::create_directories(RASTERBOOK_GOLDEN);
+        std::filesystem::rename(actual_file, expected_file);
+        return testing::AssertionSuccess();
+    }
+
+    const Image<u8vec4> expected = read_image(expected_file), actual = read_image(actual_file);
+    if (expected.size() != actual.size()) return testing::AssertionFailure() << "the sizes differ";
+    std::size_t differing = 0;
+    int greatest = 0;
+    for (std::size_t i = 0; i < expected.pixels().size(); ++i) {
+        const int difference = greatest_difference(expected.pixels()[i], actual.pixels()[i]);
+        greatest = std::max(greatest, difference);
+        differing += difference > levels_that_may_differ;
+    }
+    const auto allowed = static_cast<std::size_t>(share_of_pixels_that_may_differ *
+                                                  static_cast<double>(expected.pixels().size()));
+    if (differing <= allowed) {
+        std::filesystem::remove(actual_file);
+        return testing::AssertionSuccess();
+    }
+    const auto comparison =
+        std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_comparison.png");
+    write_image(comparison, side_by_side(expected, actual));
+    return testing::AssertionFailure()
+           << differing << " pixels differ by more than " << levels_that_may_differ << " of 255 ("
+           << allowed << " may), the most by " << greatest
+           << "\nexpected | actual | difference: " << comparison.string()
+           << "\nIf the new picture is right: ./tests/run --update-golden";
+}
+
+}  // namespace rasterbook::test

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Runs a lesson's program as a reader would.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rasterbook::test {
+
+struct ProcessResult {
+    int exit_status;  ///< -1 when a signal ended it.
+    std::string out, err;
+};
+
+/// Runs a program of the build, such as "03_z_buffer", and waits for it.
+ProcessResult run_program(const std::string& name, const std::vector<std::string>& arguments);
+
+/// An empty folder for this test alone, below the system's folder for temporary files.
+std::filesystem::path fresh_folder(const std::string& name);
+
+}  // namespace rasterbook::test
