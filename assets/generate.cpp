@@ -54,6 +54,7 @@ void write_model(const path& folder, const std::string& name, const std::string&
 void write_models(const path& folder, const std::vector<Part>& teapot) {
     const std::string utah = "The Utah teapot (Martin Newell, 1975)";
     write_model(folder, "teapot", utah, teapot, porcelain + tea_in_spout);
+    write_model(folder, "triangle", "A triangle", {triangle("white")}, plain_white);
     write_model(folder, "crate", "A wooden crate", {crate("crate")}, wooden_crate);
     write_model(folder, "crate_bump", "A brick block with a height map", {crate("brick")},
                 brick_crate_with_heights);

@@ -84,7 +84,7 @@ class StatementReader {
     std::size_t find_next_line(std::size_t line_end);
     std::string_view next_logical_line();
 
-    static constexpr std::size_t part_size_ = 1 << 20;
+    static constexpr std::size_t part_size_ = 1 << 16;
     fs::path file_;
     std::ifstream in_;
     std::string text_;           ///< The part of the file at hand.
@@ -142,7 +142,7 @@ std::size_t StatementReader::find_line_end(std::size_t begin) {
     const auto is_text = [](char c) { return static_cast<unsigned char>(c) >= ' ' || c == '\t'; };
     std::size_t end = begin;
     do {
-        while (is_text(text_[end])) ++end;
+        for (const char* text = text_.data(); is_text(text[end]);) ++end;
     } while (end == text_.size() && read_more());
     if (end == text_.size() || text_[end] == '\n' || text_[end] == '\r') return end;
     line_ = next_line_;
@@ -183,17 +183,20 @@ std::errc parse(std::string_view word, Number& number) {
     return end == word_end ? error : std::errc::invalid_argument;
 }
 
+/// A number that from_chars finds out of range: infinite, or rounded when it is too small.
+float read_extreme_number(std::string_view word) {
+    std::istringstream stream{std::string(word)};
+    stream.imbue(std::locale::classic());
+    float number = 0;
+    return stream >> number ? number : std::numeric_limits<float>::infinity();
+}
+
 /// @throws InputError  Unless the word is a number that is finite as a float.
 float read_number(const StatementReader& in, std::string_view word) {
     float number = 0;
     const std::errc error = parse(word, number);
     if (error == std::errc::invalid_argument) in.fail(in_quotes(word) + " is not a number");
-    if (error == std::errc::result_out_of_range) {
-        // Too large or too small? A stream tells, and rounds what is too small.
-        std::istringstream stream{std::string(word)};
-        stream.imbue(std::locale::classic());
-        if (!(stream >> number)) number = std::numeric_limits<float>::infinity();
-    }
+    if (error == std::errc::result_out_of_range) number = read_extreme_number(word);
     if (!std::isfinite(number)) in.fail(in_quotes(word) + " is not a finite number");
     return number;
 }

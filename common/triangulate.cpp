@@ -6,7 +6,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace rasterbook {
@@ -88,67 +87,68 @@ bool is_convex(std::span<const vec2> points) {
 /// are 2i + 1 and 2i + 2, each with half of the points.
 class PointTree {
   public:
-    explicit PointTree(std::span<const vec2> points)
-        : points_(points), order_(points.size()), leaf_of_(points.size()) {
-        std::iota(order_.begin(), order_.end(), 0u);
-        build(0, 0, order_.size());
+    struct Point {
+        vec2 at;
+        std::uint32_t number;
+    };
+
+    explicit PointTree(std::span<const vec2> points) : leaf_of_(points.size()) {
+        points_.reserve(points.size());
+        for (const vec2 at : points) points_.push_back({at, std::uint32_t(points_.size())});
+        build(0, points_);
     }
 
-    void remove(std::uint32_t point) {
-        for (std::size_t node = leaf_of_[point];; node = (node - 1) / 2) {
-            --nodes_[node].count;
+    void remove(std::uint32_t number) {
+        for (std::size_t node = leaf_of_[number];; node = (node - 1) / 2) {
+            --nodes_[node].left;
             if (node == 0) return;
         }
     }
 
-    /// True when is_hit(point) is, for some point that is left in boxes for which may_hit(min, max)
-    /// is true.
+    /// True when is_hit(point) is, for some point in boxes for which may_hit(min, max) is true.
+    /// Also asks about points that were taken out, as long as others in their box are left.
     template <typename MayHit, typename IsHit>
     bool any_of(const MayHit& may_hit, const IsHit& is_hit, std::size_t node = 0) const {
         const Node& here = nodes_[node];
-        if (here.count == 0 || !may_hit(here.min, here.max)) return false;
-        if (here.is_leaf)
-            return std::any_of(&order_[here.begin], &order_[here.begin] + here.size, is_hit);
+        if (here.left == 0 || !may_hit(here.min, here.max)) return false;
+        if (here.points.size() <= leaf_size_) return std::ranges::any_of(here.points, is_hit);
         return any_of(may_hit, is_hit, 2 * node + 1) || any_of(may_hit, is_hit, 2 * node + 2);
     }
 
   private:
     struct Node {
-        vec2 min{std::numeric_limits<float>::infinity()},
-            max{-std::numeric_limits<float>::infinity()};
-        std::uint32_t begin = 0, size = 0;
-        std::uint32_t count = 0;  ///< Points that are left.
-        bool is_leaf = false;
+        std::span<Point> points;
+        std::size_t left;  ///< Those not taken out.
+        vec2 min{std::numeric_limits<float>::infinity()};
+        vec2 max{-std::numeric_limits<float>::infinity()};
     };
 
-    void build(std::size_t node, std::size_t begin, std::size_t end);
+    void build(std::size_t node, std::span<Point> points);
 
-    std::span<const vec2> points_;
-    std::vector<std::uint32_t> order_;    ///< The points of each leaf side by side.
+    static constexpr std::size_t leaf_size_ = 8;
+    std::vector<Point> points_;           ///< Those of a node side by side.
     std::vector<std::uint32_t> leaf_of_;  ///< For each point its node.
     std::vector<Node> nodes_;
 };
 
-void PointTree::build(std::size_t node, std::size_t begin, std::size_t end) {
-    constexpr std::size_t leaf_size = 8;
-    if (nodes_.size() <= node) nodes_.resize(node + 1);
-    Node here{.begin = std::uint32_t(begin), .size = std::uint32_t(end - begin)};
-    here.count = here.size, here.is_leaf = here.size <= leaf_size;
-    for (std::size_t i = begin; i < end; ++i) {
-        here.min = glm::min(here.min, points_[order_[i]]);
-        here.max = glm::max(here.max, points_[order_[i]]);
-        leaf_of_[order_[i]] = std::uint32_t(node);
+void PointTree::build(std::size_t node, std::span<Point> points) {
+    Node here{.points = points, .left = points.size()};
+    for (const auto& [at, number] : points) {
+        here.min = glm::min(here.min, at), here.max = glm::max(here.max, at);
+        leaf_of_[number] = std::uint32_t(node);
     }
+    if (nodes_.size() <= node) nodes_.resize(node + 1);
     nodes_[node] = here;
-    if (here.is_leaf) return;
+    if (points.size() <= leaf_size_) return;
     const int axis = here.max.x - here.min.x >= here.max.y - here.min.y ? 0 : 1;
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t i, std::uint32_t j) {
-        return points_[i][axis] < points_[j][axis];
-    });
-    build(2 * node + 1, begin, middle);
-    build(2 * node + 2, middle, end);
+    const std::size_t half = points.size() / 2;
+    const auto is_before = [axis](const Point& p, const Point& q) {
+        return p.at[axis] < q.at[axis];
+    };
+    std::nth_element(points.begin(), points.begin() + std::ptrdiff_t(half), points.end(),
+                     is_before);
+    build(2 * node + 1, points.first(half));
+    build(2 * node + 2, points.subspan(half));
 }
 
 /// False only when no point of the box is in the triangle a, b, c or on ab or bc.
@@ -242,16 +242,15 @@ bool EarClipper::is_spike(Index corner) const {
 /// An edge that passes through the triangle has an end there or on ab or bc: a straight line that
 /// comes in over ac cannot leave over ac.
 bool EarClipper::is_ear(Index corner) {
-    const Index before = before_[corner], after = after_[corner];
-    const vec2 a = points_[before], b = points_[corner], c = points_[after];
+    const vec2 a = points_[before_[corner]], b = points_[corner], c = points_[after_[corner]];
     if (orientation(a, b, c) <= 0) return false;
 
     bool runs_back_to_a = false, runs_back_to_c = false;
-    const auto blocks = [&](Index i) {
-        if (i == before || i == corner || i == after || is_cut(i)) return false;
-        const vec2 p = points_[i];
+    const auto blocks = [&](const PointTree::Point& point) {
+        const auto [p, i] = point;
         const int at_ab = orientation(a, b, p), at_bc = orientation(b, c, p);
         if (at_ab < 0 || at_bc < 0 || orientation(c, a, p) <= 0) return false;
+        if (i == corner || is_cut(i)) return false;
         if (at_ab > 0 && at_bc > 0) return true;
         for (const vec2 q : {points_[before_[i]], points_[after_[i]]}) {  // p is on ab or bc.
             const int to_ab = orientation(a, b, q), to_bc = orientation(b, c, q);

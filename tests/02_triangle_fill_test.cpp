@@ -3,6 +3,7 @@
 
 #include <cfloat>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -279,19 +280,52 @@ TEST(TriangleFill, HardCase_FansAroundPixelCentresCoverEachPixelOnce) {
     }
 }
 
+/// The same hits with edge functions in float and the top-left rule, to see that a case is hard.
+Hits count_hits_in_float(const std::vector<std::array<vec2, 3>>& triangles, ivec2 size) {
+    Image<int> hits(size);
+    for (const auto& corners : triangles)
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                const vec2 center = vec2(x, y) + 0.5f;
+                bool inside = true;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const vec2 from = corners[i], e = corners[(i + 1) % 3] - from;
+                    const float value = e.y * (center.x - from.x) - e.x * (center.y - from.y);
+                    inside &= value > 0 || (value == 0 && (e.y > 0 || (e.y == 0 && e.x < 0)));
+                }
+                hits[{x, y}] += inside;
+            }
+    Hits result;
+    for (const int count : hits.pixels()) result.gaps += count == 0, result.doubles += count > 1;
+    return result;
+}
+
+std::vector<vec2> round_rim(float radius, int corners) {
+    std::vector<vec2> rim;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = -2 * std::numbers::pi * (k + 0.3) / corners;
+        rim.push_back(radius * vec2(std::cos(angle), std::sin(angle)));
+    }
+    return rim;
+}
+
 TEST(TriangleFill, HardCase_FansWithFarCornersCoverEachPixelOnce) {
     constexpr ivec2 size(1280, 960);
-    std::mt19937 random(6);
-    std::uniform_real_distribution<float> x(0, size.x), y(0, size.y);
     for (const float radius : {4e3f, 4e4f, 4e5f, 4e6f}) {
-        std::vector<vec2> rim;
-        for (int k = 0; k < 300; ++k) {
-            const double angle = -2 * std::numbers::pi * (k + 0.3) / 300;
-            rim.push_back(radius * vec2(std::cos(angle), std::sin(angle)));
-        }
-        const Hits hits = count_hits(test::fan({x(random), y(random)}, rim), size);
+        const Hits hits = count_hits(test::fan({600.37f, 500.81f}, round_rim(radius, 300)), size);
         EXPECT_EQ(hits.gaps, 0) << "radius " << radius;
         EXPECT_EQ(hits.doubles, 0) << "radius " << radius;
+    }
+}
+
+TEST(TriangleFill, FansWithFarCornersAreHardForFloat) {
+    constexpr ivec2 size(1280, 960);
+    for (const float radius : {4e3f, 4e6f}) {
+        const Hits hits =
+            count_hits_in_float(test::fan({600.37f, 500.81f}, round_rim(radius, 36)), size);
+        EXPECT_GT(hits.gaps + hits.doubles, 0) << "radius " << radius;
+        std::cout << "edge functions in float, rim at " << radius << " pixels: " << hits.gaps
+                  << " gaps, " << hits.doubles << " double hits\n";
     }
 }
 

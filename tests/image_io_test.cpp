@@ -162,6 +162,7 @@ class ImageIo : public testing::Test {
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
         folder_ = fs::path(testing::TempDir()) /
                   ("rasterbook_" + std::to_string(getpid()) + "_" + test->name());
+        fs::remove_all(folder_);  // what a crashed process of the same number left
         fs::create_directory(folder_);
     }
     void TearDown() override { fs::remove_all(folder_); }
@@ -512,23 +513,14 @@ TEST_F(ImageIo, HardCase_MemoryIsNotSetAsideForAClaim) {
     }
 }
 
-std::vector<BadFile> bad_files() {
-    const std::string no_picture = "not a PNG, JPEG, BMP or TGA picture";
-    const std::string bad_bmp = "unsupported BMP: only 8, 24 or 32 bits a pixel, not compressed";
-    const std::string bad_tga = "unsupported TGA: only 8 bits of grey, or 24 or 32 of colour";
-    const auto size = [](const char* sides) {
-        return "a picture of " + std::string(sides) +
-               " pixels: each side must lie in 1 to 16777216";
-    };
-    const Bytes bmp = bmp_header({2, 1}, 24, 0, 0) + Bytes(8);
-    const Bytes tga = tga_header(2, {2, 1}, 24, 0) + Bytes(6);
-    const Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    const Bytes jpeg = bytes_of(data_folder / "color.jpg");
-    Bytes without_tables = jpeg;
-    for (std::size_t at = 2; at < jpeg.size(); ++at)
-        if (jpeg[at - 1] == 0xff && jpeg[at] == 0xc4) without_tables[at] = 0xfe;  // comments
-    std::vector<BadFile> files = files_that_claim_too_much();
-    const std::vector<BadFile> more{
+const std::string no_picture = "not a PNG, JPEG, BMP or TGA picture";
+
+std::string bad_size(const std::string& sides) {
+    return "a picture of " + sides + " pixels: each side must lie in 1 to 16777216";
+}
+
+std::vector<BadFile> files_of_no_known_kind() {
+    return {
         {"empty", {}, "the file is empty"},
         {"text", Bytes(100, 'a'), no_picture},
         {"zeros", Bytes(100, 0), no_picture},
@@ -536,40 +528,62 @@ std::vector<BadFile> bad_files() {
         {"png with line ends spoiled",
          {0x89, 'P', 'N', 'G', '\n', 0x1a, '\n', 0, 0, 0},
          no_picture},
+    };
+}
+
+std::vector<BadFile> bad_tga_files() {
+    const std::string unsupported = "unsupported TGA: only 8 bits of grey, or 24 or 32 of colour";
+    const Bytes tga = tga_header(2, {2, 1}, 24, 0) + Bytes(6);
+    return {
         {"tga type 4", changed(tga, 2, {4}), no_picture},
         {"tga palette type 2", changed(tga, 1, {2}), no_picture},
         {"tga of 7 bits", changed(tga, 16, {7}), no_picture},
         {"tga interleaved", changed(tga, 17, {0x40}), no_picture},
-        {"tga of 16 bits", changed(tga, 16, {16}), bad_tga},
-        {"tga of 0 x 1", changed(tga, 12, {0}), size("0 x 1")},
-        {"tga of 2 x 0", changed(tga, 14, {0}), size("2 x 0")},
+        {"tga of 16 bits", changed(tga, 16, {16}), unsupported},
+        {"tga of 0 x 1", changed(tga, 12, {0}), bad_size("0 x 1")},
+        {"tga of 2 x 0", changed(tga, 14, {0}), bad_size("2 x 0")},
         {"tga text", changed(tga, 0, {200}), "truncated before the pixels"},
         {"tga run", tga_header(10, {2, 1}, 24, 0) + Bytes{0x82, 1, 2, 3},
          "damaged: a run goes past the last pixel"},
         {"tga run cut", tga_header(10, {2, 1}, 24, 0) + Bytes{0x01, 1, 2, 3, 4},
          "truncated: 0 of 6 bytes of pixels are there"},
+    };
+}
+
+std::vector<BadFile> bad_bmp_files() {
+    const std::string unsupported =
+        "unsupported BMP: only 8, 24 or 32 bits a pixel, not compressed";
+    const std::string outside = "truncated or damaged: the pixels begin outside the file";
+    const std::string palette = "truncated or damaged: the palette claims ";
+    const Bytes bmp = bmp_header({2, 1}, 24, 0, 0) + Bytes(8);
+    const Bytes red_first{255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0};
+    return {
         {"bmp header cut", Bytes(bmp.begin(), bmp.begin() + 53), "truncated inside the BMP header"},
         {"bmp header longer", changed(bmp, 14, {124}), "truncated inside the BMP header"},
-        {"bmp of OS/2", changed(bmp, 14, {12}), bad_bmp},
-        {"bmp of 16 bits", changed(bmp, 28, {16}), bad_bmp},
-        {"bmp in runs", changed(bmp, 30, {1}), bad_bmp},
-        {"bmp masks of red first",
-         bmp_header({1, 1}, 32, 3, 0, {255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0}) + Bytes(4),
-         bad_bmp},
-        {"bmp of 0 x 1", bmp_header({0, 1}, 24, 0, 0), size("0 x 1")},
-        {"bmp of 2 x 0", bmp_header({2, 0}, 24, 0, 0), size("2 x 0")},
-        {"bmp of width -2", bmp_header({-2, 1}, 24, 0, 0) + Bytes(8), size("-2 x 1")},
-        {"bmp of height -2^31", bmp_header({1, -2147483647 - 1}, 24, 0, 0), size("1 x 2147483648")},
-        {"bmp of width 2^24 + 1", bmp_header({16777217, 1}, 24, 0, 0), size("16777217 x 1")},
-        {"bmp pixels in header", changed(bmp, 10, {53}),
-         "truncated or damaged: the pixels begin outside the file"},
-        {"bmp pixels beyond", changed(bmp, 10, {63}),
-         "truncated or damaged: the pixels begin outside the file"},
-        {"bmp palette", bmp_with_palette(257),
-         "truncated or damaged: the palette claims 257 colours"},
-        {"bmp palette beyond", bmp_with_palette(0),
-         "truncated or damaged: the palette claims 256 colours"},
+        {"bmp of OS/2", changed(bmp, 14, {12}), unsupported},
+        {"bmp of 16 bits", changed(bmp, 28, {16}), unsupported},
+        {"bmp in runs", changed(bmp, 30, {1}), unsupported},
+        {"bmp masks of red first", bmp_header({1, 1}, 32, 3, 0, red_first) + Bytes(4), unsupported},
+        {"bmp of 0 x 1", bmp_header({0, 1}, 24, 0, 0), bad_size("0 x 1")},
+        {"bmp of 2 x 0", bmp_header({2, 0}, 24, 0, 0), bad_size("2 x 0")},
+        {"bmp of width -2", bmp_header({-2, 1}, 24, 0, 0) + Bytes(8), bad_size("-2 x 1")},
+        {"bmp of height -2^31", bmp_header({1, -2147483647 - 1}, 24, 0, 0),
+         bad_size("1 x 2147483648")},
+        {"bmp of width 2^24 + 1", bmp_header({16777217, 1}, 24, 0, 0), bad_size("16777217 x 1")},
+        {"bmp pixels in header", changed(bmp, 10, {53}), outside},
+        {"bmp pixels beyond", changed(bmp, 10, {63}), outside},
+        {"bmp palette", bmp_with_palette(257), palette + "257 colours"},
+        {"bmp palette beyond", bmp_with_palette(0), palette + "256 colours"},
         {"bmp colour", bmp_with_palette(1), "a pixel has colour 1 of a palette of 1"},
+    };
+}
+
+std::vector<BadFile> bad_jpeg_files() {
+    const Bytes jpeg = bytes_of(data_folder / "color.jpg");
+    Bytes without_tables = jpeg;
+    for (std::size_t at = 2; at < jpeg.size(); ++at)
+        if (jpeg[at - 1] == 0xff && jpeg[at] == 0xc4) without_tables[at] = 0xfe;  // comments
+    return {
         {"jpeg table of 256 codes",
          Bytes{0xff, 0xd8, 0xff, 0xc4, 0x01, 0x13, 0} + Bytes(16, 16) + Bytes(256) +
              Bytes{0xff, 0xd9},
@@ -578,6 +592,12 @@ std::vector<BadFile> bad_files() {
         {"jpeg without frame",
          {0xff, 0xd8, 0xff, 0xd9},
          "damaged or unsupported: the JPEG header cannot be read"},
+    };
+}
+
+std::vector<BadFile> bad_png_files() {
+    const Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    return {
         {"png of no kind", changed(bytes_of(data_folder / "rgb8.png"), 25, {5}),
          "damaged: there is no such kind of PNG"},
         {"png of signature", png, "truncated: the end of the picture is missing"},
@@ -586,15 +606,15 @@ std::vector<BadFile> bad_files() {
         {"png of 0 x 0",
          png + Bytes{0, 0, 0, 13, 'I', 'H', 'D', 'R', 0, 0, 0,   0,   0,   0,   0, 0, 8, 2, 0,
                      0, 0, 0, 0,  0,   0,   0,   0,   0, 0, 'I', 'E', 'N', 'D', 0, 0, 0, 0},
-         size("0 x 0")},
+         bad_size("0 x 0")},
     };
-    files.insert(files.end(), more.begin(), more.end());
-    return files;
 }
 
 TEST_F(ImageIo, HardCase_BadFilesAreErrorsThatSayWhy) {
-    for (const auto& [what, bytes, message] : bad_files())
-        EXPECT_EQ(read_error(bytes), message) << what;
+    for (const auto& files : {files_of_no_known_kind(), bad_tga_files(), bad_bmp_files(),
+                              bad_jpeg_files(), bad_png_files(), files_that_claim_too_much()})
+        for (const auto& [what, bytes, message] : files)
+            EXPECT_EQ(read_error(bytes), message) << what;
 }
 
 TEST_F(ImageIo, HardCase_WhatIsNoRegularFileIsAnErrorAndNotAWait) {
@@ -663,12 +683,13 @@ TEST_F(ImageIo, MissingFolderIsNamed) {
 }
 
 TEST_F(ImageIo, HardCase_WhatIsNoRegularFileIsNotOverwritten) {
+    // A link to a FIFO of our own stands for one to a device, which a mistake here would replace.
     fs::create_directory(path("folder.png"));
     ASSERT_EQ(mkfifo(path("fifo.bmp").c_str(), 0600), 0);
-    fs::create_symlink("/dev/full", path("full.tga"));
-    for (const char* name : {"folder.png", "fifo.bmp", "full.tga"})
+    fs::create_symlink("fifo.bmp", path("link.tga"));
+    for (const char* name : {"folder.png", "fifo.bmp", "link.tga"})
         EXPECT_EQ(write_error(path(name), four_pixels()), "cannot be written: not a regular file");
-    EXPECT_TRUE(fs::is_fifo(path("fifo.bmp")) && fs::is_symlink(path("full.tga")));
+    EXPECT_TRUE(fs::is_fifo(path("fifo.bmp")) && fs::is_symlink(path("link.tga")));
     EXPECT_EQ(files_in_folder(), 3u);
 }
 

@@ -16,7 +16,7 @@ using namespace rasterbook;
 
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
                 infinity = std::numeric_limits<float>::infinity();
 
 /// Any size from the smallest denormal to the greatest float, with any sign.
@@ -51,7 +51,7 @@ TEST(NormalizeOr, HasLengthOneWithinOneUlpForEverySize) {
 TEST(NormalizeOr, HardCase_WithoutDirectionGivesTheFallback) {
     const vec3 fallback(0, 1, 0);
     for (const vec3 v :
-         {vec3(0), vec3(-0.0f), vec3(nan, 1, 1), vec3(infinity, 0, 0), vec3(1, -infinity, nan)})
+         {vec3(0), vec3(-0.0f), vec3(not_a_number, 1, 1), vec3(infinity, 0, 0), vec3(1, -infinity, not_a_number)})
         EXPECT_EQ(normalize_or(v, fallback), fallback);
 }
 
@@ -87,7 +87,7 @@ TEST(UlpDistance, CountsTheFloatsInBetween) {
     EXPECT_EQ(ulp_distance(0.0f, -0.0f), 0u);
     EXPECT_EQ(ulp_distance(FLT_TRUE_MIN, -FLT_TRUE_MIN), 2u);
     EXPECT_EQ(ulp_distance(1.0f, 2.0f), 1u << 23);
-    EXPECT_EQ(ulp_distance(nan, nan), std::numeric_limits<std::uint32_t>::max());
+    EXPECT_EQ(ulp_distance(not_a_number, not_a_number), std::numeric_limits<std::uint32_t>::max());
 }
 
 TEST(Color, SrgbKnownValues) {
@@ -107,7 +107,7 @@ TEST(Color, AllBytesSurviveTheWayThroughLinearLight) {
 TEST(Color, HardCase_OutOfRangeAndNotANumberAreClamped) {
     EXPECT_EQ(srgb8_from_linear(-0.5f), 0);
     EXPECT_EQ(srgb8_from_linear(-infinity), 0);
-    EXPECT_EQ(srgb8_from_linear(nan), 0);
+    EXPECT_EQ(srgb8_from_linear(not_a_number), 0);
     EXPECT_EQ(srgb8_from_linear(1.0f), 255);
     EXPECT_EQ(srgb8_from_linear(17.0f), 255);
     EXPECT_EQ(srgb8_from_linear(infinity), 255);
@@ -131,7 +131,7 @@ TEST(ErrorMetrics, WorkedExample) {
 }
 
 TEST(ErrorMetrics, HardCase_NotANumberIsNotOverlooked) {
-    const std::vector<float> actual = {1, nan, 3}, reference = {1, 2, 3};
+    const std::vector<float> actual = {1, not_a_number, 3}, reference = {1, 2, 3};
     EXPECT_TRUE(std::isnan(greatest_error(actual, reference)));
     EXPECT_TRUE(std::isnan(root_mean_square_error(actual, reference)));
 }

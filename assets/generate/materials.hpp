@@ -15,15 +15,15 @@ namespace rasterbook::assets {
 
 inline const std::string porcelain = R"(
 newmtl glaze
-Ka 0.015 0.13 0.16
-Kd 0.015 0.13 0.16
+Ka 0.03 0.25 0.3
+Kd 0.03 0.25 0.3
 Ks 0.45 0.45 0.45
 Ns 90
 illum 2
 
 newmtl gilt
-Ka 0.46 0.25 0.06
-Kd 0.46 0.25 0.06
+Ka 0.72 0.4 0.1
+Kd 0.72 0.4 0.1
 Ks 0.8 0.6 0.3
 Ns 60
 illum 2
@@ -110,6 +110,13 @@ Ka 0.8 0.8 0.8
 Kd 0.8 0.8 0.8
 illum 1
 map_Kd ../textures/checker.png
+)";
+
+inline const std::string plain_white = R"(
+newmtl white
+Ka 0.8 0.8 0.8
+Kd 0.8 0.8 0.8
+illum 1
 )";
 
 }  // namespace rasterbook::assets

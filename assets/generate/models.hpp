@@ -51,6 +51,17 @@ inline Part floor(const std::string& material, double side, double texture_size)
     return part;
 }
 
+/// One triangle that faces the fixed view of the first lessons.
+inline Part triangle(const std::string& material) {
+    const dvec3 right(0.866, 0, 0.5), up(0.211, 0.906, -0.366);
+    const dvec3 normal = glm::normalize(glm::cross(right, up));
+    return {"triangle",
+            material,
+            {{{-right - 0.7 * up, {0, 0}, normal},
+              {right - 0.7 * up, {1, 0}, normal},
+              {up, {0.5, 1}, normal}}}};
+}
+
 /// The part turned about the y axis from x towards -z, then moved.
 inline Part placed(Part part, double cosine, double sine, dvec3 offset) {
     const auto turned = [&](dvec3 v) {

@@ -20,12 +20,12 @@ enum class LineEnd { included, excluded };
 
 /// A line prepared for stepping: along its longer ("major") axis, towards larger coordinates.
 ///
-/// Both orders of the ends prepare the same steps (Eq. 1.6).
+/// Both orders of the ends prepare the same steps (Eq. 1.6); only `swapped` tells them apart.
 struct LineSteps {
     std::int64_t major_start, minor_start;  ///< The pixel of step 0.
     std::int64_t major_length;              ///< The number of the last step, 0 .. 2^32 - 1.
     std::int64_t minor_length;              ///< Change along the shorter axis, 0 .. major_length.
-    int minor_direction;                    ///< -1 or +1.
+    int minor_direction;                    ///< -1, or +1, also for a level line.
     bool steep;                             ///< The longer axis is y.
     bool swapped;                           ///< Step 0 is the line's second end.
 

@@ -14,7 +14,7 @@ namespace rasterbook {
 ///
 /// @return  Linear colour. A triangle without area counts as facing up.
 inline vec3 flat_color(const Mesh& mesh, const Triangle& triangle, const Material& material) {
-    constexpr vec3 up(0, 1, 0), sun_color(1.95f, 1.78f, 1.52f), sky_color(0.36f, 0.47f, 0.63f);
+    constexpr vec3 up(0, 1, 0), sun_color(1.05f, 0.97f, 0.86f), sky_color(0.17f, 0.22f, 0.30f);
     const vec3 toward_sun = normalize_or(vec3(-0.75f, 0.85f, 0.3f), up);
     const auto [a, b, c] = triangle.corners;
     const vec3 origin = mesh.positions[a.position];

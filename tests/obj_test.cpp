@@ -1,0 +1,571 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Model files. tests/data/obj/good and bad hold a small file for each way in which OBJ files
+/// differ or go wrong; each begins with comments that say what is expected of it.
+#include "common/obj.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "common/input_error.hpp"
+
+namespace rasterbook {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path data = fs::path(RASTERBOOK_TEST_DATA) / "obj";
+constexpr unsigned seed = 1;
+
+using Lines = std::vector<std::string>;
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+fs::path write_file(const std::string& name, const std::string& bytes) {
+    const fs::path file = fs::path(testing::TempDir()) / name;
+    fs::remove(file);  // Some file systems write through to the disk when a file is replaced.
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+}
+
+/// The texts of the comments "# expect KIND: TEXT" in a file.
+Lines expected(const fs::path& file, const std::string& kind) {
+    std::string text = bytes_of(file);
+    std::ranges::replace(text, '\r', '\n');
+    std::istringstream in(text);
+    const std::string start = "# expect " + kind + ": ";
+    Lines lines;
+    for (std::string line; std::getline(in, line);)
+        if (const auto at = line.find(start); at != line.npos)
+            lines.push_back(line.substr(at + start.size()));
+    return lines;
+}
+
+/// The files of a folder, by name; those that are read as OBJ.
+std::vector<fs::path> models_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".obj") files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
+}
+
+/// Messages without the folder that the files are in.
+std::string without_folder(std::string text, const fs::path& folder) {
+    const std::string start = folder.string() + "/";
+    for (auto at = text.find(start); at != text.npos; at = text.find(start))
+        text.erase(at, start.size());
+    return text;
+}
+
+/// The message of the InputError that reading a file ends with; "" when it is read.
+std::string error_of(const fs::path& file, std::uint32_t max_elements = no_index) {
+    try {
+        load_obj(file, max_elements);
+    } catch (const InputError& error) { return without_folder(error.what(), file.parent_path()); }
+    return "";
+}
+
+/// A vector as "1,2.5".
+template <typename Vector>
+std::string with_commas(const Vector& vector, int digits) {
+    std::ostringstream out;
+    out.precision(digits);
+    for (int i = 0; i < vector.length(); ++i)
+        out << (i > 0 ? "," : "") << vector[i] + 0.0f;  // no -0
+    return out.str();
+}
+
+/// A corner as OBJ has it, but with values in place of indices.
+std::string corner_text(const vec3& position, const vec2* uv, const vec3* normal, int digits) {
+    std::string text = with_commas(position, digits);
+    if (uv || normal) text += "/";
+    if (uv) text += with_commas(*uv, digits);
+    if (normal) text += "/" + with_commas(*normal, digits);
+    return text;
+}
+
+std::string face_start(const std::string& group, const std::string& material) {
+    return "group \"" + group + "\" material \"" + material + "\"";
+}
+
+/// All faces, with the values that their corners refer to.
+Lines faces_of(const Scene& scene, int digits = 9) {
+    Lines faces;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Face& face : mesh.faces) {
+            faces.push_back(face_start(mesh.name, scene.materials.at(face.material).name));
+            for (const auto& [position, uv, normal] : mesh.corners_of(face))
+                faces.back() +=
+                    " " + corner_text(mesh.positions.at(position),
+                                      uv == no_index ? nullptr : &mesh.uvs.at(uv),
+                                      normal == no_index ? nullptr : &mesh.normals.at(normal),
+                                      digits);
+        }
+    return faces;
+}
+
+/// The same, as tinyobjloader reads them.
+Lines faces_of_tinyobj(const fs::path& file, int digits) {
+    tinyobj::attrib_t all;
+    std::vector<tinyobj::shape_t> shapes;
+    std::vector<tinyobj::material_t> materials;
+    std::string warnings, errors;
+    const std::string folder = file.parent_path().string() + "/";
+    if (!tinyobj::LoadObj(&all, &shapes, &materials, &warnings, &errors, file.c_str(),
+                          folder.c_str(), false))
+        return {errors};
+
+    const auto vec3_at = [](const auto& values, int i) {
+        return vec3(values.at(3 * i), values.at(3 * i + 1), values.at(3 * i + 2));
+    };
+    Lines faces;
+    for (const auto& [name, mesh, lines, points] : shapes)
+        for (std::size_t face = 0, first = 0; face < mesh.num_face_vertices.size(); ++face) {
+            const int material = mesh.material_ids[face];
+            faces.push_back(
+                face_start(name, material < 0 ? "" : materials[std::size_t(material)].name));
+            for (std::size_t i = 0; i < mesh.num_face_vertices[face]; ++i) {
+                const auto [position, normal, uv] = mesh.indices[first + i];
+                vec2 uv_value;
+                vec3 normal_value;
+                if (uv >= 0) uv_value = {all.texcoords.at(2 * uv), all.texcoords.at(2 * uv + 1)};
+                if (normal >= 0) normal_value = vec3_at(all.normals, normal);
+                faces.back() +=
+                    " " + corner_text(vec3_at(all.vertices, position), uv < 0 ? nullptr : &uv_value,
+                                      normal < 0 ? nullptr : &normal_value, digits);
+            }
+            first += mesh.num_face_vertices[face];
+        }
+    return faces;
+}
+
+/// For EXPECT_TRUE: what every scene keeps to.
+testing::AssertionResult is_sound(const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes) {
+        const auto is_in_range = [&](const Corner& corner) {
+            return corner.position < mesh.positions.size() &&
+                   (corner.uv == no_index || corner.uv < mesh.uvs.size()) &&
+                   (corner.normal == no_index || corner.normal < mesh.normals.size());
+        };
+        Bounds bounds;
+        std::size_t triangle_count = 0, corner_count = 0;
+        for (const Face& face : mesh.faces) {
+            if (face.material >= scene.materials.size() || face.first_corner != corner_count ||
+                face.corner_count < 3)
+                return testing::AssertionFailure() << "wrong face in " << mesh.name;
+            corner_count += face.corner_count, triangle_count += face.corner_count - 2;
+        }
+        if (corner_count != mesh.corners.size() || !std::ranges::all_of(mesh.corners, is_in_range))
+            return testing::AssertionFailure() << "wrong corners in " << mesh.name;
+        for (const Corner& corner : mesh.corners) bounds.add(mesh.positions[corner.position]);
+        if (mesh.faces.empty() || bounds.min != mesh.bounds.min || bounds.max != mesh.bounds.max)
+            return testing::AssertionFailure() << "wrong bounds of " << mesh.name;
+        if (mesh.triangles.size() != triangle_count)
+            return testing::AssertionFailure()
+                   << mesh.triangles.size() << " triangles in " << mesh.name;
+        for (const auto& [corners, material] : mesh.triangles)
+            if (material >= scene.materials.size() || !std::ranges::all_of(corners, is_in_range))
+                return testing::AssertionFailure() << "wrong triangle in " << mesh.name;
+    }
+    return testing::AssertionSuccess();
+}
+
+TEST(Obj, GoodFilesGiveTheFacesAndWarningsThatTheyState) {
+    const auto files = models_in(data / "good");
+    EXPECT_GE(files.size(), 70u);
+    for (const fs::path& file : files) {
+        SCOPED_TRACE(file);
+        const Scene scene = load_obj(file);
+        EXPECT_TRUE(is_sound(scene));
+        EXPECT_EQ(faces_of(scene), expected(file, "face"));
+        Lines warnings;
+        for (const std::string& warning : scene.warnings)
+            warnings.push_back(without_folder(warning, file.parent_path()));
+        EXPECT_EQ(warnings, expected(file, "warning"));
+    }
+}
+
+/// Where tinyobjloader reads something else, and what it does.
+const std::map<std::string, std::string> tinyobj_deviations = {
+    {"comment_at_end_of_line", "takes the comment for corners"},
+    {"continuation_crlf", "does not continue lines"},
+    {"continuation_lines", "does not continue lines"},
+    {"group_name_with_blanks", "writes one blank for several"},
+    {"group_without_name", "keeps the name of the group before"},
+    {"material_name_with_blanks", "takes the first word of a name after usemtl"},
+    {"mtllib_in_quotes", "takes quotes for a part of the name"},
+    {"mtllib_with_backslash", "takes a backslash for an escape"},
+    {"mtllib_with_blanks", "takes each word for a name"},
+    {"polygon_of_300_corners", "counts the corners of a face modulo 256 in some versions"},
+    {"several_mtllibs_on_one_line", "stops at the first that it finds"},
+    {"slashes_at_the_end", "takes a missing index for 0"},
+    {"usemtl_before_mtllib", "knows only the materials read so far"},
+};
+
+TEST(Obj, FacesEqualThoseOfTinyobjloader) {
+    // Six digits: tinyobjloader adds up the digits in double with rounding errors.
+    constexpr int digits = 6;
+    std::size_t compared = 0;
+    const auto files = models_in(data / "good");
+    for (const fs::path& file : files) {
+        if (tinyobj_deviations.contains(file.stem())) continue;
+        SCOPED_TRACE(file);
+        Lines ours = faces_of(load_obj(file), digits), theirs = faces_of_tinyobj(file, digits);
+        // A group that comes again is two shapes there.
+        std::ranges::sort(ours), std::ranges::sort(theirs);
+        EXPECT_EQ(ours, theirs);
+        ++compared;
+    }
+    EXPECT_EQ(compared, files.size() - tinyobj_deviations.size());
+}
+
+TEST(Obj, BadFilesAreErrorsWithFileAndLine) {
+    const std::map<std::string, std::string> unmarked = {
+        // These cannot hold a comment.
+        {"empty", "empty.obj: holds no faces"},
+        {"one_nul_byte", "one_nul_byte.obj:1: not text: control character 0"},
+        {"utf16_be", "utf16_be.obj:1: the text is UTF-16, not UTF-8"},
+        {"utf16_be_without_mark", "utf16_be_without_mark.obj:1: the text is UTF-16, not UTF-8"},
+        {"utf16_le", "utf16_le.obj:1: the text is UTF-16, not UTF-8"},
+        {"utf16_le_without_mark", "utf16_le_without_mark.obj:1: the text is UTF-16, not UTF-8"},
+    };
+    const auto files = models_in(data / "bad");
+    EXPECT_GE(files.size(), 70u);
+    for (const fs::path& file : files) {
+        SCOPED_TRACE(file);
+        if (unmarked.contains(file.stem())) {
+            EXPECT_EQ(error_of(file), unmarked.at(file.stem()));
+            continue;
+        }
+        const Lines messages = expected(file, "error");
+        ASSERT_EQ(messages.size(), 1u);
+        EXPECT_EQ(error_of(file), messages[0]);
+    }
+}
+
+TEST(Obj, MaterialsAreReadWithAllThatTheCourseUses) {
+    const fs::path folder = data / "good";
+    const Scene scene = load_obj(folder / "everything.obj");
+    ASSERT_EQ(scene.materials.size(), 6u);
+
+    const Material &fallback = scene.materials[0], &plain = scene.materials[1];
+    EXPECT_EQ(fallback.name, "");
+    EXPECT_EQ(fallback.diffuse, vec3(0.8f));  // untouched by what stands before the first newmtl
+    EXPECT_EQ(plain.name, "plain");
+    EXPECT_EQ(plain.diffuse, vec3(0.8f));
+    EXPECT_EQ(plain.opacity, 1.0f);
+    EXPECT_TRUE(plain.diffuse_map.file.empty());
+
+    const Material& all = scene.materials[2];
+    EXPECT_EQ(all.ambient, vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(all.diffuse, vec3(0.4f, 0.5f, 0.6f));
+    EXPECT_EQ(all.specular, vec3(0.7f));
+    EXPECT_EQ(all.emission, vec3(1, 2, 3));
+    EXPECT_EQ(all.shininess, 96.5f);
+    EXPECT_EQ(all.opacity, 0.25f);  // d counts more than Tr
+    EXPECT_EQ(all.illumination, 1);
+    EXPECT_EQ(all.diffuse_map.file, folder / "wood.png");
+    EXPECT_EQ(all.specular_map.file, folder / "shine map.png");
+    EXPECT_EQ(all.specular_map.offset, vec3(1, 2, 3));
+    EXPECT_EQ(all.specular_map.scale, vec3(4, 5, 6));
+    EXPECT_TRUE(all.specular_map.clamp);
+    EXPECT_EQ(all.opacity_map.file, folder / "./masks/leaf.png");
+    EXPECT_EQ(all.bump_map.file, folder / "height map.png");
+    EXPECT_EQ(all.bump_map.bump_multiplier, 0.5f);
+    EXPECT_EQ(all.normal_map.file, folder / "normal.png");
+    EXPECT_EQ(all.normal_map.scale, vec3(2, 1, 1));
+
+    const Material& clear = scene.materials[3];
+    EXPECT_EQ(clear.opacity, 0.25f);
+    EXPECT_EQ(clear.diffuse_map.file, "/textures/absolute.png");
+    EXPECT_EQ(clear.bump_map.offset, vec3(0.5f, 0.25f, 0));
+    EXPECT_FALSE(clear.bump_map.clamp);
+
+    const Material& limits = scene.materials[4];
+    EXPECT_EQ(limits.opacity, 1.0f);
+    EXPECT_EQ(limits.shininess, 0.0f);
+    EXPECT_EQ(limits.illumination, 10);
+    EXPECT_EQ(limits.diffuse, vec3(0.8f));
+    EXPECT_EQ(limits.ambient, vec3(1.0f));
+
+    const Material& halo = scene.materials[5];
+    EXPECT_EQ(halo.opacity, 1.0f);
+    EXPECT_EQ(halo.diffuse_map.file, folder / "2 planks.png");
+}
+
+TEST(Obj, AMaterialMayHaveNoName) {
+    const Scene scene = load_obj(data / "good/material_without_name.obj");
+    const Face& face = scene.meshes.at(0).faces.at(0);
+    EXPECT_EQ(scene.materials.at(face.material).diffuse, vec3(0.0f));  // not that of the default
+}
+
+TEST(Obj, PathsAreRelativeToTheFileThatNamesThem) {
+    const Scene scene = load_obj(data / "good/mtllib_with_backslash.obj");
+    EXPECT_EQ(scene.materials.at(1).diffuse_map.file, data / "good/./folder/wood.png");
+}
+
+TEST(Obj, OfTwoMaterialsWithOneNameTheFirstCounts) {
+    const Scene scene = load_obj(data / "good/material_defined_twice.obj");
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_EQ(scene.materials[1].diffuse, vec3(1, 0, 0));
+    EXPECT_EQ(scene.materials[1].opacity, 1.0f);
+}
+
+TEST(Obj, ASingleMeshKeepsAllElements) {
+    const Scene scene = load_obj(data / "good/elements_that_no_face_uses.obj");
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(scene.meshes[0].positions.size(), 5u);
+    EXPECT_EQ(scene.meshes[0].bounds.max, vec3(1, 1, 0));  // but its bounds are of those used
+}
+
+TEST(Obj, EachOfSeveralMeshesHasTheElementsThatItUses) {
+    const Scene scene = load_obj(data / "good/elements_between_groups.obj");
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].positions.size(), 3u);
+    EXPECT_EQ(scene.meshes[0].uvs, std::vector<vec2>{vec2(1)});
+    EXPECT_EQ(scene.meshes[0].normals.size(), 0u);
+    EXPECT_EQ(scene.meshes[1].uvs.size(), 0u);
+    EXPECT_EQ(scene.meshes[1].normals.size(), 1u);
+}
+
+TEST(Obj, TrianglesOfAConcaveFaceAreEars) {
+    const Scene scene = load_obj(data / "good/concave_polygon.obj");
+    float doubled_area = 0;
+    for (const auto& [corners, material] : scene.meshes.at(0).triangles) {
+        const auto position = [&](int i) {
+            return scene.meshes[0].positions[corners[std::size_t(i)].position];
+        };
+        const float doubled = glm::cross(position(1) - position(0), position(2) - position(0)).z;
+        EXPECT_GT(doubled, 0);
+        doubled_area += doubled;
+    }
+    EXPECT_EQ(doubled_area, 20);  // 32 less the notch, 12
+}
+
+TEST(Obj, MoreElementsThanAllowedAreAnError) {
+    const fs::path file =
+        write_file("elements.obj",
+                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\ng a\nf 1 2 3\ng b\n"
+                   "f 1 2 3\ng a\nf 3 2 1\n");
+    EXPECT_EQ(error_of(file, 6), "");
+    EXPECT_EQ(error_of(file, 5), "elements.obj:11: more than 5 corners in a group");
+    EXPECT_EQ(error_of(file, 2), "elements.obj:3: more than 2 positions");
+    EXPECT_EQ(error_of(write_file("uvs.obj", "vt 0 0\nvt 0 0\n"), 1), "uvs.obj:2: more than 1 uvs");
+    EXPECT_EQ(error_of(write_file("normals.obj", "vn 0 0 1\nvn 0 0 1\n"), 1),
+              "normals.obj:2: more than 1 normals");
+}
+
+TEST(Obj, WhatIsNotARegularFileIsAnErrorAndNotAWait) {
+    const fs::path folder = fs::path(testing::TempDir()) / "special_files";
+    fs::remove_all(folder);
+    fs::create_directories(folder / "folder.obj");
+    ASSERT_EQ(mkfifo((folder / "fifo.obj").c_str(), 0600), 0);
+    fs::create_symlink("nowhere", folder / "broken.obj");
+    fs::create_symlink("/dev/zero", folder / "zero.obj");
+    EXPECT_EQ(error_of(folder / "missing.obj"), "missing.obj: there is no such file");
+    EXPECT_EQ(error_of(folder / "broken.obj"), "broken.obj: there is no such file");
+    EXPECT_EQ(error_of(folder / "folder.obj"), "folder.obj: not a regular file");
+    EXPECT_EQ(error_of(folder / "fifo.obj"), "fifo.obj: not a regular file");
+    EXPECT_EQ(error_of(folder / "zero.obj"), "zero.obj: not a regular file");
+
+    for (const std::string name :
+         {"folder.obj", "fifo.obj", "zero.obj"}) {  // In place of a library.
+        const fs::path file = write_file("special_files/model.obj", "mtllib " + name + "\n");
+        EXPECT_EQ(error_of(file), name + ": not a regular file");
+    }
+    const Scene scene = load_obj(write_file(
+        "special_files/model.obj", "mtllib broken.obj\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(without_folder(scene.warnings[0], folder),
+              "model.obj:1: there is no material library \"broken.obj\"");
+}
+
+/// The reader takes a file in parts of 2^16 bytes: each way to end a line meets the end of a part.
+TEST(Obj, StatementsMayLieAcrossTheEndOfAPart) {
+    for (const std::string end : {"\n", "\r\n", "\r", " \\\n\n", " \\\r\n\r\n"})
+        for (std::size_t before = 0; before < 40; ++before) {
+            std::string text = "v 0 0 0\nv 1 0 0\n#";
+            text.resize((1 << 16) - before, '-');
+            text += "\nv 0 1 7" + end + "f 1 2 3" + end + "f 3 2 1" + end + "f 1 2 x";
+            const auto is_line_end = [&](std::size_t i) {
+                return text[i] == '\n' || (text[i] == '\r' && text[i + 1] != '\n');
+            };
+            std::size_t line = 1;
+            for (std::size_t i = 0; i < text.size(); ++i) line += is_line_end(i);
+            const fs::path file = write_file("parts.obj", text);
+            ASSERT_EQ(error_of(file),
+                      "parts.obj:" + std::to_string(line) + ": \"x\" is not a corner of a face");
+            text.back() = '3';
+            const Scene scene = load_obj(write_file("parts.obj", text));
+            ASSERT_EQ(scene.meshes.at(0).faces.size(), 3u);
+            ASSERT_EQ(scene.meshes[0].positions.at(2), vec3(0, 1, 7));
+        }
+}
+
+TEST(Obj, AFaceMayHaveAHundredThousandCorners) {
+    constexpr int corner_count = 100'000;
+    std::string text, face = "f";
+    for (int i = 0; i < corner_count;
+         ++i) {  // Teeth of a comb, along a parabola that opens upwards.
+        const long x = i - corner_count / 2;
+        text += "v " + std::to_string(x) + " " + std::to_string(x * x / 1000 + i % 2) + " 0\n";
+        face += " " + std::to_string(i + 1);
+    }
+    const Scene scene = load_obj(write_file("large.obj", text + face));
+    EXPECT_TRUE(is_sound(scene));
+    EXPECT_EQ(scene.meshes.at(0).triangles.size(), corner_count - 2u);
+}
+
+/// Writes the statements of a model in a random style.
+class RandomWriter {
+  public:
+    explicit RandomWriter(std::mt19937& random)
+        : random_(random), line_end_(pick({"\n", "\r\n", "\r"})) {}
+
+    std::string pick(const std::vector<std::string>& choices) {
+        return choices[random_() % choices.size()];
+    }
+    std::string gap() { return pick({" ", " ", " ", "  ", "\t", " \\" + line_end_ + " "}); }
+    std::string line(const std::vector<std::string>& words) {
+        std::string text = pick({"", "", "", "\t", "  "});
+        for (std::size_t i = 0; i < words.size(); ++i) text += (i > 0 ? gap() : "") + words[i];
+        return text + pick({"", "", " ", " # 1 2 3", "\t#"}) + line_end_ +
+               pick({"", "", "", line_end_, "# f 1" + line_end_});
+    }
+    std::string number(float x) {
+        std::ostringstream out;
+        out.precision(9);
+        if (random_() % 4 == 0) out << std::scientific;
+        if (random_() % 4 == 0) out << std::showpos;
+        out << x;
+        return out.str();
+    }
+
+  private:
+    std::mt19937& random_;
+    std::string line_end_;
+};
+
+TEST(Obj, RandomModelsAreReadBackEqual) {
+    for (unsigned i = 0; i < 300; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", model " + std::to_string(i));
+        std::mt19937 random(seed + i);
+        RandomWriter writer(random);
+        const auto below = [&](std::size_t n) { return std::size_t(random() % n); };
+        std::normal_distribution<float> any_float(0, 100);
+        const auto random_vec3 = [&] {
+            return vec3(any_float(random), any_float(random), any_float(random));
+        };
+        std::vector<vec3> positions(3 + below(20)), normals(below(5));
+        std::vector<vec2> uvs(below(5));
+        for (vec3& position : positions) position = random_vec3();
+        for (vec3& normal : normals) normal = random_vec3();
+        for (vec2& uv : uvs) uv = vec2(random_vec3());
+
+        std::string elements, faces;
+        for (const vec3& v : positions)
+            elements +=
+                writer.line({"v", writer.number(v.x), writer.number(v.y), writer.number(v.z)});
+        for (const vec3& v : normals)
+            elements +=
+                writer.line({"vn", writer.number(v.x), writer.number(v.y), writer.number(v.z)});
+        for (const vec2& v : uvs)
+            elements += writer.line({"vt", writer.number(v.x), writer.number(v.y)});
+
+        const bool faces_first = below(4) == 0;  // Then all indices are positive.
+        const auto index_text = [&](std::size_t index, std::size_t count) {
+            if (!faces_first && below(3) == 0) return std::to_string(long(index) - long(count));
+            return std::to_string(index + 1);
+        };
+        Lines expected_faces;
+        for (std::size_t face = 0, face_count = 1 + below(12); face < face_count; ++face) {
+            const std::string group = writer.pick({"a", "b", "c d"});
+            faces += writer.line({writer.pick({"g", "o"}) + " " + group});
+            std::vector<std::string> words{"f"};
+            std::string text = face_start(group, "");
+            for (std::size_t corner = 0, count = 3 + below(6); corner < count; ++corner) {
+                const std::size_t position = below(positions.size());
+                const std::size_t uv = below(uvs.size() + 1),
+                                  normal = below(normals.size() + 1);  // the last: none
+                const bool has_uv = uv < uvs.size(), has_normal = normal < normals.size();
+                words.push_back(index_text(position, positions.size()));
+                if (has_uv || has_normal) words.back() += "/";
+                if (has_uv) words.back() += index_text(uv, uvs.size());
+                if (has_normal) words.back() += "/" + index_text(normal, normals.size());
+                text += " " + corner_text(positions[position], has_uv ? &uvs[uv] : nullptr,
+                                          has_normal ? &normals[normal] : nullptr, 9);
+            }
+            faces += writer.line(words);
+            expected_faces.push_back(text);
+        }
+        const Scene scene =
+            load_obj(write_file("random.obj", faces_first ? faces + elements : elements + faces));
+        EXPECT_TRUE(is_sound(scene));
+        Lines read_faces = faces_of(scene);
+        // Meshes come in the order of their first faces; within a mesh the order of the file holds.
+        const auto by_group = [](const std::string& s, const std::string& t) {
+            return s.substr(0, s.find("material")) < t.substr(0, t.find("material"));
+        };
+        std::ranges::stable_sort(read_faces, by_group),
+            std::ranges::stable_sort(expected_faces, by_group);
+        ASSERT_EQ(read_faces, expected_faces);
+    }
+}
+
+TEST(Obj, DamagedFilesGiveASoundSceneOrAnError) {
+    std::vector<std::string> models, libraries;
+    for (const auto& entry : fs::recursive_directory_iterator(data / "good")) {
+        if (entry.path().extension() == ".obj" && entry.file_size() < 2000)
+            models.push_back(bytes_of(entry.path()));
+        if (entry.path().extension() == ".mtl") libraries.push_back(bytes_of(entry.path()));
+    }
+    std::ranges::sort(models), std::ranges::sort(libraries);
+    std::mt19937 random(seed);
+    const auto below = [&](std::size_t n) { return std::size_t(random() % n); };
+    const auto damage = [&](std::string text) {
+        const std::string signs = "0123456789 \t\n\r\\/#.-+e\"vfgtn\xff";
+        for (std::size_t i = 0, count = 1 + below(4); i < count && !text.empty(); ++i) {
+            const std::size_t at = below(text.size());
+            const std::size_t kind = below(5);
+            if (kind == 0) text[at] = char(below(256));
+            if (kind == 1) text[at] = signs[below(signs.size())];
+            if (kind == 2) text.insert(at, 1, signs[below(signs.size())]);
+            if (kind == 3) text.erase(at, 1 + below(8));
+            if (kind == 4) text.insert(at, text.substr(below(text.size()), below(30)));
+        }
+        return text;
+    };
+    int read = 0, refused = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        std::string model = damage(models[below(models.size())]);
+        if (i % 4 == 0) {
+            write_file("damaged.mtl", damage(libraries[below(libraries.size())]));
+            model = "mtllib damaged.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+        }
+        const fs::path file = write_file("damaged.obj", model);
+        try {
+            ASSERT_TRUE(is_sound(load_obj(file))) << "seed " << seed << ", file " << i << ":\n"
+                                                  << model;
+            ++read;
+        } catch (const InputError&) { ++refused; }
+    }
+    EXPECT_GT(read, 2000);  // Else the damage is too great to find anything.
+    EXPECT_GT(refused, 2000);
+}
+
+}  // namespace
+}  // namespace rasterbook
