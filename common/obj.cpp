@@ -69,8 +69,7 @@ class StatementReader {
     /// @throws InputError  When the file is missing, not regular, unreadable or UTF-16.
     explicit StatementReader(const fs::path& file);
 
-    /// Goes on to the next statement; false at the end of the file. Ends the views of the one
-    /// before.
+    /// Goes on to the next statement, whose views last until the one after; false at the end.
     bool next(Statement& statement);
 
     const fs::path& file() const { return file_; }
@@ -125,7 +124,7 @@ std::string_view StatementReader::next_logical_line() {
     for (std::size_t begin = begin_;;) {
         const std::size_t line_end = find_line_end(begin);
         const std::size_t end = find_comment(begin, line_end);
-        const bool goes_on = end == line_end && end > begin && text_[end - 1] == '\\';
+        const bool goes_on = end > begin && text_[end - 1] == '\\';
         const std::size_t next = find_next_line(line_end);
         ++next_line_;
         if (!goes_on) {
@@ -537,7 +536,7 @@ bool ObjReader::read_library(std::string_view name) {
     const fs::path file = path_beside(in_.file(), bare_name(name));
     std::error_code ignored;
     if (bare_name(name).empty() || !fs::exists(file, ignored)) return false;
-    if (libraries_.insert(file).second) materials_.read(file);
+    if (libraries_.insert(file.lexically_normal()).second) materials_.read(file);
     return true;
 }
 

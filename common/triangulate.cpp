@@ -320,7 +320,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const vec3> poly
             for (vec2& p : points) std::swap(p.x, p.y);
         return EarClipper(points).run();
     }
-    std::vector<std::array<std::uint32_t, 3>> fan;
+    std::vector<std::array<std::uint32_t, 3>> fan;  // Eq. 2.10
     fan.reserve(polygon.size() - 2);
     for (std::uint32_t i = 2; i < polygon.size(); ++i) fan.push_back({0, i - 1, i});
     return fan;

@@ -23,9 +23,10 @@ int orientation(vec2 a, vec2 b, vec2 c);
 ///
 /// The polygon is seen along the axis on which its normal is longest. When no two of its edges
 /// cross in that view, the areas of the triangles there add up to the polygon's and none is
-/// inverted. Edges may touch and run along each other, as the two sides of a bridge to a hole do.
-/// Corners in one line or at one point give triangles without area; a polygon that crosses itself
-/// gives any n - 2 triangles. Time is O(n) for convex polygons and about O(n log n) for others.
+/// inverted. Edges may touch, and two may run along each other, as the sides of a bridge to a hole
+/// do. Corners in one line or at one point give triangles without area; a polygon that crosses
+/// itself gives any n - 2 triangles. Time is O(n) for convex polygons and about O(n log n) for most
+/// others; it nears O(n^1.5) when most ears are long and thin.
 ///
 /// @return  For each triangle three numbers of corners, 0 to n - 1.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const vec3> polygon);

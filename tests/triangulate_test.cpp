@@ -136,6 +136,34 @@ TEST(Orientation, EqualsTheSignInIntegers) {
     EXPECT_LT(zeros, 199'000);
 }
 
+/// Coefficients with x * v - y * u == the greatest common divisor of u and v.
+Point bezout(std::int64_t u, std::int64_t v) {
+    Point before{0, -1}, current{1, 0};  // each with x * v - y * u equal to u and v
+    for (; v != 0;) {
+        const std::int64_t quotient = u / v;
+        before = std::exchange(current,
+                               {before.x - quotient * current.x, before.y - quotient * current.y});
+        u = std::exchange(v, u - quotient * v);
+    }
+    return before;
+}
+
+TEST(Orientation, HardCase_AreasFarBelowTheRoundingErrors) {
+    std::mt19937 random(seed);
+    for (int i = 0; i < 10'000; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(i));
+        const Point b{1 + std::int64_t(random() >> 8), 1 + std::int64_t(random() >> 8)};
+        const Point a =
+            bezout(b.x, b.y);  // As near to the line through 0 and b as whole numbers can be.
+        const int expected = doubled_area(a, b, {-b.x, -b.y}) > 0 ? 1 : -1;
+        const vec2 near(float(a.x), float(a.y));
+        const vec2 far = std::ldexp(1.0f, int(random() % 80)) * vec2(float(b.x), float(b.y));
+        ASSERT_EQ(orientation(near, far, -far), expected);
+        ASSERT_EQ(orientation(far, near, -far), -expected);
+        ASSERT_EQ(orientation(-far, near, far), expected);
+    }
+}
+
 TEST(Orientation, HoldsForTheLargestAndTheSmallestFloats) {
     const float huge = std::numeric_limits<float>::max(),
                 tiny = std::numeric_limits<float>::denorm_min();
@@ -402,7 +430,7 @@ TEST(Triangulate, RandomStarsAreCutExactly) {
 
 TEST(Triangulate, PolygonsThatCrossThemselvesGiveTriangles) {
     std::mt19937 random(seed);
-    for (const std::size_t corner_count : {4, 5, 8, 50, 2000})
+    for (const std::size_t corner_count : {4u, 5u, 8u, 50u, 2000u})
         for (int i = 0; i < 20; ++i) {
             std::vector<vec3> polygon(corner_count);
             const auto side = 2 + random() % 50;  // small: many points are equal

@@ -34,6 +34,7 @@ struct ScreenTriangle {
 /// @return       Exact, in 1/65536 square pixel.
 /// @see Pineda, "A parallel algorithm for polygon rasterization", 1988
 constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
+    // The side's normal, to its left (Eq. 2.1).
     const std::int64_t normal_x = std::int64_t{b.y} - a.y, normal_y = std::int64_t{a.x} - b.x;
     return normal_x * (std::int64_t{p.x} - a.x) + normal_y * (std::int64_t{p.y} - a.y);
 }
@@ -110,7 +111,8 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
     if (first_pixel.x > last_pixel.x) return;
 
     const int winding = triangle.twice_area > 0 ? 1 : -1;
-    EdgeWalk edge_a(b, c, winding, first_pixel);  // opposite to corner a: its value is a's share
+    // Opposite to its corner, a side's value is the corner's share of the area (Eq. 2.3).
+    EdgeWalk edge_a(b, c, winding, first_pixel);
     EdgeWalk edge_b(c, a, winding, first_pixel);
     EdgeWalk edge_c(a, b, winding, first_pixel);
     const auto per_area =

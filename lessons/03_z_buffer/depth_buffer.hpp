@@ -34,7 +34,7 @@ class DepthBuffer {
     Image<float> depths_;
 };
 
-/// The depth inside a triangle, from the depths of its corners (Eq. 3.3).
+/// The depth inside a triangle: the corners' depths, weighted (Eq. 3.2).
 ///
 /// Measured from the nearest corner, so that the error is small where the triangle's depths differ
 /// little, a triangle of one depth has exactly that depth everywhere, and the order of the corners
@@ -47,7 +47,9 @@ class TriangleDepth {
 
     /// @param weights  The corners' shares, >= 0, as fill_triangle gives them.
     /// @return         Not nearer than the nearest corner.
-    float at(vec3 weights) const { return nearest_ + glm::dot(weights, beyond_nearest_); }
+    float at(vec3 weights) const {
+        return nearest_ + glm::dot(weights, beyond_nearest_);  // Eq. 3.3
+    }
 
   private:
     float nearest_;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How fast the stages are, one thread: pixels and triangles per second.
+/// How fast the stages are, one thread: pixels, triangles and bytes per second.
 ///
-/// Its picture is 1920x1080; the inputs are random but the same in each run.
+/// The picture has the course's default size; the inputs are random but the same in each run.
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <vector>
 
@@ -12,12 +16,41 @@
 #include "01_bresenham_lines/line.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
+#include "common/obj.hpp"
 
 using namespace rasterbook;
 
 namespace {
 
-constexpr ivec2 picture_size(1920, 1080);
+constexpr ivec2 picture_size(1280, 720);
+
+benchmark::Counter per_second(double count) {
+    return {count, benchmark::Counter::kIsIterationInvariantRate};
+}
+
+/// Lines of 700 to 1280 pixels, in any direction.
+template <typename Pixel>
+void long_lines(benchmark::State& state) {
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> x(0, picture_size.x - 1), y(0, picture_size.y - 1);
+    std::vector<std::pair<ivec2, ivec2>> lines;
+    double pixels = 0;
+    while (lines.size() < 1000) {
+        const ivec2 a(x(random), y(random)), b(x(random), y(random));
+        const int steps = std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
+        if (steps < 699) continue;
+        lines.emplace_back(a, b);
+        pixels += steps + 1;
+    }
+    Image<Pixel> picture(picture_size);
+    for (auto _ : state)
+        for (const auto& [a, b] : lines) {
+            draw_line(a, b, picture_size, LineEnd::included,
+                      [&](ivec2 pixel) { picture[pixel] = Pixel(1); });
+            benchmark::ClobberMemory();
+        }
+    state.counters["pixels"] = per_second(pixels);
+}
 
 struct Corners {
     vec3 a, b, c;
@@ -25,50 +58,33 @@ struct Corners {
 
 /// Triangles of about `area` pixels, counter-clockwise, anywhere in the picture.
 std::vector<Corners> random_triangles(std::size_t count, float area) {
+    constexpr float third = 2.0944f, greatest_jitter = 0.3f;
     std::mt19937 random(1);
-    const float radius = std::sqrt(area / 0.9f);
-    std::uniform_real_distribution<float> x(radius, picture_size.x - radius),
-        y(radius, picture_size.y - radius);
-    std::uniform_real_distribution<float> jitter(-0.3f, 0.3f), depth(0.0f, 1.0f), turn(0.0f, 6.28f);
+    const float radius = std::sqrt(area / 1.27f);
+    std::uniform_real_distribution<float> x(radius, picture_size.x - radius);
+    std::uniform_real_distribution<float> y(radius, picture_size.y - radius);
+    std::uniform_real_distribution<float> jitter(-greatest_jitter, greatest_jitter), any(0, 1);
     std::vector<Corners> triangles(count);
     for (Corners& t : triangles) {
         const vec2 center(x(random), y(random));
-        const float start = turn(random);
-        const auto corner = [&](float third) {
-            const float angle = start - third * 2.0944f + jitter(random);
-            return vec3(center + radius * vec2(std::cos(angle), std::sin(angle)), depth(random));
+        const float start_radians = 3 * third * any(random);
+        const auto corner = [&](float number) {
+            const float around_radians = start_radians - number * third + jitter(random);
+            return vec3(center + radius * vec2(std::cos(around_radians), std::sin(around_radians)),
+                        any(random));
         };
         t = {corner(0), corner(1), corner(2)};
     }
     return triangles;
 }
 
-void lines_of_1000_pixels(benchmark::State& state) {
-    std::mt19937 random(1);
-    std::uniform_int_distribution<int> x(0, picture_size.x - 1), y(0, picture_size.y - 1);
-    std::vector<std::pair<ivec2, ivec2>> lines;
-    while (lines.size() < 1000) {
-        const ivec2 a(x(random), y(random)), b(x(random), y(random));
-        if (std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) >= 700) lines.emplace_back(a, b);
-    }
-    Image<vec3> color(picture_size);
-    std::int64_t pixels = 0;
-    for (auto _ : state)
-        for (const auto& [a, b] : lines) {
-            draw_line(a, b, picture_size, LineEnd::included, [&](ivec2 pixel) { color[pixel] = vec3(1.0f); });
-            pixels += std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) + 1;
-            benchmark::ClobberMemory();
-        }
-    state.counters["pixels/s"] =
-        benchmark::Counter(static_cast<double>(pixels), benchmark::Counter::kIsRate);
-}
-
+/// Argument: the area of a triangle in pixels. Snapping, facing and set-up are included.
 template <bool with_depth>
 void triangles(benchmark::State& state) {
     const auto input = random_triangles(4000, static_cast<float>(state.range(0)));
     Image<vec3> color(picture_size);
     DepthBuffer depth(picture_size);
-    std::int64_t covered = 0;
+    double covered = 0;
     for (const Corners& t : input)
         fill_triangle(snap_triangle(t.a, t.b, t.c), picture_size, [&](ivec2, vec3) { ++covered; });
 
@@ -87,25 +103,53 @@ void triangles(benchmark::State& state) {
         }
         benchmark::ClobberMemory();
     }
-    const auto runs = static_cast<double>(state.iterations());
-    state.counters["pixels/s"] =
-        benchmark::Counter(runs * static_cast<double>(covered), benchmark::Counter::kIsRate);
-    state.counters["triangles/s"] =
-        benchmark::Counter(runs * static_cast<double>(input.size()), benchmark::Counter::kIsRate);
-    state.counters["pixels/triangle"] =
-        static_cast<double>(covered) / static_cast<double>(input.size());
+    state.counters["pixels"] = per_second(covered);
+    state.counters["triangles"] = per_second(static_cast<double>(input.size()));
+    state.counters["pixels_per_triangle"] = covered / static_cast<double>(input.size());
+}
+
+/// A height field of quads with uvs and normals, about 30 MB of text, from a warm cache.
+void obj_file(benchmark::State& state) {
+    constexpr int side = 500;
+    const auto file = std::filesystem::temp_directory_path() /
+                      ("rasterbook_" + std::to_string(getpid()) + ".obj");
+    std::ofstream out(file);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (int i = 0; i < side * side; ++i)
+        out << "v " << i % side << ' ' << any(random) << ' ' << i / side << "\nvt " << any(random)
+            << ' ' << any(random) << "\nvn " << any(random) << ' ' << any(random) << ' '
+            << any(random) << '\n';
+    for (int y = 1; y < side; ++y)
+        for (int x = 1; x < side; ++x) {
+            out << 'f';
+            for (const int i :
+                 {(y - 1) * side + x, (y - 1) * side + x + 1, y * side + x + 1, y * side + x})
+                out << ' ' << i << '/' << i << '/' << i;
+            out << '\n';
+        }
+    out.close();
+    for (auto _ : state) benchmark::DoNotOptimize(load_obj(file));
+    state.counters["bytes"] = per_second(static_cast<double>(std::filesystem::file_size(file)));
+    std::filesystem::remove(file);
 }
 
 }  // namespace
 
-BENCHMARK(lines_of_1000_pixels)->Unit(benchmark::kMillisecond);
-BENCHMARK(triangles<false>)
-    ->Name("flat_triangles_of_area")
+BENCHMARK_TEMPLATE(long_lines, u8vec4)
+    ->Name("long_lines/4_bytes_a_pixel")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(long_lines, vec3)
+    ->Name("long_lines/12_bytes_a_pixel")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(triangles, false)
+    ->Name("flat_triangles")
     ->Arg(5000)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(triangles<true>)
-    ->Name("depth_tested_triangles_of_area")
+BENCHMARK_TEMPLATE(triangles, true)
+    ->Name("depth_tested_triangles")
     ->Arg(5000)
     ->Arg(10)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(obj_file)->Unit(benchmark::kMillisecond);
 BENCHMARK_MAIN();
