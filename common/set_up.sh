@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Installs what is missing on Debian and Ubuntu; sourced by lessons/run and tests/run.
 # Elsewhere the README names the packages, and the presets work by themselves.
 

@@ -50,8 +50,8 @@ TEST(NormalizeOr, HasLengthOneWithinOneUlpForEverySize) {
 
 TEST(NormalizeOr, HardCase_WithoutDirectionGivesTheFallback) {
     const vec3 fallback(0, 1, 0);
-    for (const vec3 v :
-         {vec3(0), vec3(-0.0f), vec3(not_a_number, 1, 1), vec3(infinity, 0, 0), vec3(1, -infinity, not_a_number)})
+    for (const vec3 v : {vec3(0), vec3(-0.0f), vec3(not_a_number, 1, 1), vec3(infinity, 0, 0),
+                         vec3(1, -infinity, not_a_number)})
         EXPECT_EQ(normalize_or(v, fallback), fallback);
 }
 
