@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The programs as a reader meets them: what they write, what they say, how they end.
-#include <cstdlib>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <regex>
+#include <iterator>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -17,6 +17,7 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "common/obj.hpp"
+#include "common/triangulate.hpp"
 
 using namespace rasterbook;
 
@@ -108,6 +109,16 @@ void triangles(benchmark::State& state) {
     state.counters["pixels_per_triangle"] = covered / static_cast<double>(input.size());
 }
 
+/// A comb: a polygon of which every second corner is a dent. Argument: the number of its corners.
+void concave_polygon(benchmark::State& state) {
+    std::vector<vec3> comb;
+    for (int i = 0; i < state.range(0) - 2; ++i) comb.emplace_back(i, i % 2 == 0 ? 0 : -1e6f, 0);
+    comb.emplace_back(state.range(0), 1, 0);
+    comb.emplace_back(-1, 1, 0);
+    for (auto _ : state) benchmark::DoNotOptimize(triangulate(comb));
+    state.counters["corners"] = per_second(static_cast<double>(comb.size()));
+}
+
 /// A height field of quads with uvs and normals, about 30 MB of text, from a warm cache.
 void obj_file(benchmark::State& state) {
     constexpr int side = 500;
@@ -151,5 +162,6 @@ BENCHMARK_TEMPLATE(triangles, true)
     ->Arg(5000)
     ->Arg(10)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(concave_polygon)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
 BENCHMARK(obj_file)->Unit(benchmark::kMillisecond);
 BENCHMARK_MAIN();
