@@ -286,11 +286,11 @@ Hits count_hits_in_float(const std::vector<std::array<vec2, 3>>& triangles, ivec
     for (const auto& corners : triangles)
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
-                const vec2 center = vec2(x, y) + 0.5f;
+                const vec2 at = vec2(x, y) + 0.5f;
                 bool inside = true;
                 for (std::size_t i = 0; i < 3; ++i) {
                     const vec2 from = corners[i], e = corners[(i + 1) % 3] - from;
-                    const float value = e.y * (center.x - from.x) - e.x * (center.y - from.y);
+                    const float value = e.y * (at.x - from.x) - e.x * (at.y - from.y);
                     inside &= value > 0 || (value == 0 && (e.y > 0 || (e.y == 0 && e.x < 0)));
                 }
                 hits[{x, y}] += inside;
@@ -382,15 +382,15 @@ TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameWei
     Image<vec3> weights({16, 16});
     fill_triangle(snap_triangle(p[0], p[1], p[2]), {16, 16},
                   [&](ivec2 pixel, vec3 w) { weights[pixel] = w; });
-    for (const auto& [i, j, k] : std::vector<std::array<int, 3>>{
+    for (const auto& order : std::vector<std::array<std::size_t, 3>>{
              {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}) {
-        const auto at = [&](int n) { return p[static_cast<std::size_t>(n)]; };
-        EXPECT_TRUE(same_pixels(covered(at(i), at(j), at(k), {16, 16}), expected)) << i << j << k;
-        fill_triangle(snap_triangle(at(i), at(j), at(k)), {16, 16},
-                      [&, i = i, j = j, k = k](ivec2 pixel, vec3 w) {
-                          EXPECT_EQ(w,
-                                    vec3(weights[pixel][i], weights[pixel][j], weights[pixel][k]));
-                      });
+        const vec2 first = p[order[0]], second = p[order[1]], third = p[order[2]];
+        EXPECT_TRUE(same_pixels(covered(first, second, third, {16, 16}), expected));
+        fill_triangle(snap_triangle(first, second, third), {16, 16}, [&](ivec2 pixel, vec3 w) {
+            for (int n = 0; n < 3; ++n)
+                EXPECT_EQ(w[n],
+                          weights[pixel][static_cast<int>(order[static_cast<std::size_t>(n)])]);
+        });
     }
 }
 

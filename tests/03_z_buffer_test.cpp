@@ -27,13 +27,12 @@ struct Patch {
 Image<int> visible(const std::vector<Patch>& patches, ivec2 size) {
     Image<int> ids(size, -1);
     DepthBuffer depth(size);
-    for (const auto& [p, id] : patches) {
-        const TriangleDepth triangle_depth(vec3(p[0].z, p[1].z, p[2].z));
-        fill_triangle(snap_triangle(p[0], p[1], p[2]), size,
-                      [&, id = id](ivec2 pixel, vec3 weights) {
-                          if (depth.test_and_write(pixel, triangle_depth.at(weights)))
-                              ids[pixel] = id;
-                      });
+    for (const Patch& patch : patches) {
+        const auto& [a, b, c] = patch.corners;
+        const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
+        fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 pixel, vec3 weights) {
+            if (depth.test_and_write(pixel, triangle_depth.at(weights))) ids[pixel] = patch.id;
+        });
     }
     return ids;
 }
@@ -78,7 +77,7 @@ std::vector<Patch> random_patches(unsigned seed, int count, ivec2 size) {
     return patches;
 }
 
-constexpr ivec2 pixel(0, 0);
+constexpr ivec2 origin(0, 0);
 
 }  // namespace
 
@@ -89,9 +88,9 @@ TEST(ZBuffer, Eq3_1_KeepsTheLeastOfAllDepths) {
     float least = 1;
     for (int i = 0; i < 1000; ++i) {
         const float z = any(random);
-        EXPECT_EQ(depth.test_and_write(pixel, z), z < least);
+        EXPECT_EQ(depth.test_and_write(origin, z), z < least);
         least = std::min(least, z);
-        ASSERT_EQ(depth.depths()[pixel], least);
+        ASSERT_EQ(depth.depths()[origin], least);
     }
 }
 
@@ -133,9 +132,9 @@ TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {
 
 TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
     DepthBuffer depth({1, 1});
-    EXPECT_TRUE(depth.test_and_write(pixel, 0.5f));
-    EXPECT_FALSE(depth.test_and_write(pixel, 0.5f));
-    EXPECT_TRUE(depth.test_and_write(pixel, std::nextafter(0.5f, 0.0f)));
+    EXPECT_TRUE(depth.test_and_write(origin, 0.5f));
+    EXPECT_FALSE(depth.test_and_write(origin, 0.5f));
+    EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(0.5f, 0.0f)));
     const std::array<vec3, 3> p = {{{1, 1, 0.3f}, {2, 30, 0.9f}, {38, 5, 0.6f}}};
     const Image<int> ids =
         visible({{p, 1}, {{p[1], p[2], p[0]}, 2}, {{p[2], p[0], p[1]}, 3}}, {40, 30});
@@ -144,19 +143,19 @@ TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
 
 TEST(ZBuffer, HardCase_ClearValueZeroOneAndMinusZero) {
     DepthBuffer depth({1, 1});
-    EXPECT_EQ(depth.depths()[pixel], 1.0f);
-    EXPECT_FALSE(depth.test_and_write(pixel, 1.0f)) << "the far plane itself is not drawn";
-    EXPECT_TRUE(depth.test_and_write(pixel, std::nextafter(1.0f, 0.0f)));
-    EXPECT_TRUE(depth.test_and_write(pixel, 0.0f));
-    EXPECT_FALSE(depth.test_and_write(pixel, -0.0f)) << "-0 equals 0, and the first stays";
-    EXPECT_FALSE(depth.test_and_write(pixel, std::numeric_limits<float>::quiet_NaN()));
-    EXPECT_EQ(depth.depths()[pixel], 0.0f);
+    EXPECT_EQ(depth.depths()[origin], 1.0f);
+    EXPECT_FALSE(depth.test_and_write(origin, 1.0f)) << "the far plane itself is not drawn";
+    EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(1.0f, 0.0f)));
+    EXPECT_TRUE(depth.test_and_write(origin, 0.0f));
+    EXPECT_FALSE(depth.test_and_write(origin, -0.0f)) << "-0 equals 0, and the first stays";
+    EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()));
+    EXPECT_EQ(depth.depths()[origin], 0.0f);
 }
 
 TEST(ZBuffer, HardCase_NotANumberIsNeverNearer) {
     DepthBuffer depth({1, 1});
-    EXPECT_FALSE(depth.test_and_write(pixel, std::numeric_limits<float>::quiet_NaN()));
-    EXPECT_EQ(depth.depths()[pixel], 1.0f);
+    EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()));
+    EXPECT_EQ(depth.depths()[origin], 1.0f);
 }
 
 TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
