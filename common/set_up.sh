@@ -43,6 +43,20 @@ find_lesson() {
     return 1
 }
 
+# Sets `preset`, the build's: "release", or "mine" when $1 is --mine; then says what is the reader's.
+# shellcheck disable=SC2034  # it is for the script that calls
+choose_preset() {
+    preset=release
+    [ "${1-}" = --mine ] || return 0
+    preset=mine
+    local headers=(mine/[0-9][0-9]_*/*.hpp)
+    if [ ! -e "${headers[0]}" ]; then
+        echo "error: there is no header in mine/ yet; ./lessons/run --start NN puts one there" >&2
+        return 1
+    fi
+    echo "Yours: ${headers[*]}"
+}
+
 # Runs a command quietly; shows what it printed when it fails.
 quietly() {
     local log

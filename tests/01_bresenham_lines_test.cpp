@@ -71,6 +71,7 @@ void expect_ideal(ivec2 a, ivec2 b, ivec2 size) {
 TEST(Lines, Eq1_1_IdealRiseOfTheWorkedExample) {
     // Rows 0, 0.4, 0.8, 1.2, 1.6, 2: within half a row of the rows drawn.
     const auto pixels = walk({0, 0}, {5, 2}, {8, 8});
+    ASSERT_EQ(pixels.size(), 6u);
     for (int k = 0; k <= 5; ++k)
         EXPECT_LE(std::abs(k * 2.0 / 5.0 - pixels[static_cast<std::size_t>(k)].y), 0.5);
 }
@@ -100,11 +101,14 @@ TEST(Lines, Eq1_5_WorkedExampleOfTheText) {
 TEST(Lines, Eq1_6_BothDirectionsVisitTheSamePixels) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> coordinate(-300, 300);
+    std::size_t visited = 0;
     for (int i = 0; i < 10'000; ++i) {
         const ivec2 a(coordinate(random), coordinate(random)),
             b(coordinate(random), coordinate(random));
         ASSERT_EQ(walk(a, b, {200, 100}), walk(b, a, {200, 100})) << name(a, b);
+        visited += walk(a, b, {200, 100}).size();
     }
+    EXPECT_GT(visited, 100'000u);
 }
 
 TEST(Lines, Eq1_7_FirstStepOfEachRowOfTheWorkedExample) {
@@ -166,10 +170,11 @@ TEST(Lines, PixelsAreConnectedAndWithinHalfAPixel) {
         const auto pixels = walk(a, b, {1000, 1000});
         const std::int64_t dx = b.x - a.x, dy = b.y - a.y,
                            longer = std::max(std::abs(dx), std::abs(dy));
+        ASSERT_EQ(pixels.size(), static_cast<std::size_t>(longer + 1)) << name(a, b);
         for (std::size_t k = 0; k < pixels.size(); ++k) {
             // |cross product| / longer = distance along the shorter axis
             const std::int64_t cross = dx * (pixels[k].y - a.y) - dy * (pixels[k].x - a.x);
-            ASSERT_LE(2 * std::abs(cross), longer * longer == 0 ? 0 : longer) << name(a, b);
+            ASSERT_LE(2 * std::abs(cross), longer) << name(a, b);
             if (k > 0) {
                 const ivec2 step = glm::abs(pixels[k] - pixels[k - 1]);
                 ASSERT_EQ(std::max(step.x, step.y), 1) << name(a, b);
@@ -238,7 +243,7 @@ TEST(Lines, ExcludedEndLeavesOutThatPixelAndNoOther) {
          {ivec2(9, 4), {4, 9}, {-4, 9}, {-9, 4}, {-9, -4}, {-4, -9}, {4, -9}, {9, -4}, {0, 0}}) {
         const ivec2 a(10, 10), end = a + b;
         Pixels expected = set_of(walk(a, end, {21, 21}));
-        expected.erase({end.x, end.y});
+        EXPECT_EQ(expected.erase({end.x, end.y}), 1u) << name(a, end);
         EXPECT_TRUE(same_pixels(set_of(walk(a, end, {21, 21}, LineEnd::excluded)), expected))
             << name(a, end);
     }

@@ -12,11 +12,13 @@
 #include "common/image.hpp"
 #include "common/math/numerics.hpp"
 #include "support/ascii_picture.hpp"
+#include "support/exact.hpp"
 #include "support/golden.hpp"
 #include "support/triangulations.hpp"
 
 using namespace rasterbook;
-using rasterbook::test::Pixels, rasterbook::test::same_pixels;
+using rasterbook::test::exact_center, rasterbook::test::exact_twice_area,
+    rasterbook::test::exactly_snapped, rasterbook::test::Pixels, rasterbook::test::same_pixels;
 
 namespace {
 
@@ -29,15 +31,9 @@ Pixels covered(vec2 a, vec2 b, vec2 c, ivec2 size) {
     return pixels;
 }
 
-/// The sign of the area of a, b, p by the rule of Sarrus, in 128 bits; > 0 where seen
-/// counter-clockwise.
 int exact_side(ivec2 a, ivec2 b, ivec2 p) {
-    const auto product = [](int u, int v) { return int128{u} * v; };
-    const int128 determinant = product(a.x, b.y) + product(b.x, p.y) + product(p.x, a.y) -
-                               product(a.y, b.x) - product(b.y, p.x) - product(p.y, a.x);
-    return determinant < 0   ? 1
-           : determinant > 0 ? -1
-                             : 0;  // y points down: what turns left is negative
+    const int128 twice_area = exact_twice_area(a, b, p);
+    return (twice_area > 0) - (twice_area < 0);
 }
 
 /// The oracle: a centre on a side counts as where it gets when nudged right, or else nudged down.
@@ -45,7 +41,7 @@ bool exactly_covered(std::array<ivec2, 3> corners, ivec2 pixel) {
     auto [a, b, c] = corners;
     if (exact_side(a, b, c) == 0) return false;
     if (exact_side(a, b, c) < 0) std::swap(b, c);
-    const ivec2 center = pixel * 256 + 128;
+    const ivec2 center = exact_center(pixel);
     const auto inside = [&](ivec2 from, ivec2 to) {
         for (const ivec2 nudge : {ivec2(0, 0), ivec2(1, 0), ivec2(0, 1)})
             if (const int side = exact_side(from, to, center + nudge)) return side > 0;
@@ -119,33 +115,46 @@ TEST(TriangleFill, Eq2_4_WeightsAreWithinTwoUlpOfTheExactOnes) {
         2.0L * FLT_EPSILON;  // three roundings of half an ulp each, one of 1/area
     std::mt19937 random(2);
     std::uniform_real_distribution<float> coordinate(-400, 500);
+    int visited = 0;
     for (int i = 0; i < 2'000; ++i) {
         const auto point = [&] { return vec2(coordinate(random), coordinate(random)); };
-        const ScreenTriangle t = snap_triangle(point(), point(), point());
-        const auto& [p, q, r] = t.corners;
-        fill_triangle(t, {64, 48}, [&](ivec2 pixel, vec3 weights) {
-            const ivec2 at = pixel * 256 + 128;
-            const auto area = static_cast<long double>(t.twice_area);
-            const long double exact[] = {edge_function(q, r, at) / area,
-                                         edge_function(r, p, at) / area,
-                                         edge_function(p, q, at) / area};
+        const vec2 a = point(), b = point(), c = point();
+        const ivec2 p = exactly_snapped(a), q = exactly_snapped(b), r = exactly_snapped(c);
+        const auto area = static_cast<long double>(exact_twice_area(p, q, r));
+        fill_triangle(snap_triangle(a, b, c), {64, 48}, [&](ivec2 pixel, vec3 weights) {
+            ++visited;
+            const ivec2 at = exact_center(pixel);
+            const auto share = [&](ivec2 from, ivec2 to) {
+                return static_cast<long double>(exact_twice_area(from, to, at)) / area;
+            };
+            const long double exact[] = {share(q, r), share(r, p), share(p, q)};
             for (int k = 0; k < 3; ++k) {
                 ASSERT_GE(weights[k], 0.0f) << "triangle " << i;
                 ASSERT_LE(std::abs(weights[k] - exact[k]), two_ulp * exact[k]) << "triangle " << i;
             }
         });
     }
+    EXPECT_GT(visited, 100'000);
 }
 
 TEST(TriangleFill, Eq2_4_WeightsDoNotDependOnThePicturesSize) {
     const ScreenTriangle t = snap_triangle({-700.3f, -20.7f}, {50.1f, 911.9f}, {803.7f, -77.2f});
     Image<vec3> weights({64, 48});
     fill_triangle(t, {64, 48}, [&](ivec2 p, vec3 w) { weights[p] = w; });
-    fill_triangle(t, {31, 17}, [&](ivec2 p, vec3 w) { EXPECT_EQ(w, weights[p]); });
+    int visited = 0;
+    fill_triangle(t, {31, 17}, [&](ivec2 p, vec3 w) {
+        EXPECT_EQ(w, weights[p]);
+        ++visited;
+    });
+    EXPECT_EQ(visited, 31 * 17);
 }
 
 TEST(TriangleFill, Eq2_5_EdgeStepsEqualTheEdgeFunctionAtTheNeighbours) {
     const EdgeWalk edge(snapped_b, snapped_c, 1, {1, 2});
+    constexpr std::int64_t unit = 256 * 256;  // one square pixel
+    EXPECT_EQ(edge.value, 8 * unit);
+    EXPECT_EQ(edge.step_x, -4 * unit);
+    EXPECT_EQ(edge.step_y, -4 * unit);
     EXPECT_EQ(edge.value, edge_function(snapped_b, snapped_c, {384, 640}));
     EXPECT_EQ(edge.value + edge.step_x, edge_function(snapped_b, snapped_c, {640, 640}));
     EXPECT_EQ(edge.value + edge.step_y, edge_function(snapped_b, snapped_c, {384, 896}));
@@ -194,8 +203,7 @@ TEST(TriangleFill, Eq2_9_EdgeFunctionsAreExactUpToTheCoordinateLimit) {
     for (int i = 0; i < 100'000; ++i) {
         const ivec2 p(any(random), any(random)), q(any(random), any(random)),
             r(any(random), any(random));
-        const std::int64_t value = edge_function(p, q, r);
-        ASSERT_EQ((value > 0) - (value < 0), exact_side(p, q, r)) << "case " << i;
+        ASSERT_TRUE(edge_function(p, q, r) == exact_twice_area(p, q, r)) << "case " << i;
     }
 }
 
@@ -226,13 +234,14 @@ TEST(TriangleFill, ExhaustiveAllTrianglesOfAQuarterPixelLatticeAreExact) {
     for (int i = 0; i < points; ++i)
         for (int j = 0; j < points; ++j)
             for (int k = 0; k < points; ++k, ++triangles) {
-                const ScreenTriangle t = snap_triangle(point(i), point(j), point(k));
+                const std::array corners = {exactly_snapped(point(i)), exactly_snapped(point(j)),
+                                            exactly_snapped(point(k))};
                 unsigned actual = 0, expected = 0;
-                fill_triangle(t, {3, 3}, [&](ivec2 p, vec3) { actual |= 1u << (3 * p.y + p.x); });
+                fill_triangle(snap_triangle(point(i), point(j), point(k)), {3, 3},
+                              [&](ivec2 p, vec3) { actual |= 1u << (3 * p.y + p.x); });
                 for (int bit = 0; bit < 9; ++bit)
-                    expected |=
-                        static_cast<unsigned>(exactly_covered(t.corners, {bit % 3, bit / 3}))
-                        << bit;
+                    expected |= static_cast<unsigned>(exactly_covered(corners, {bit % 3, bit / 3}))
+                                << bit;
                 ASSERT_EQ(actual, expected) << "lattice points " << i << ", " << j << ", " << k;
             }
     EXPECT_EQ(triangles, 531'441);
@@ -248,9 +257,9 @@ TEST(TriangleFill, RandomTrianglesOfAllSizesAreExact) {
                                      0.9f;
         };
         const vec2 p = point(), q = point(), r = point();
-        const ScreenTriangle t = snap_triangle(p, q, r);
+        const std::array corners = {exactly_snapped(p), exactly_snapped(q), exactly_snapped(r)};
         ASSERT_TRUE(
-            same_pixels(covered(p, q, r, {20, 16}), exactly_covered_pixels(t.corners, {20, 16})))
+            same_pixels(covered(p, q, r, {20, 16}), exactly_covered_pixels(corners, {20, 16})))
             << "seed 4, case " << i;
     }
 }
@@ -369,7 +378,8 @@ TEST(TriangleFill, HardCase_SliversThinnerThanASubpixelAreExact) {
     for (int i = 0; i < 5'000; ++i) {
         const vec2 p(x(random), y(random)), q(x(random), y(random));
         const vec2 r = glm::mix(p, q, along(random)) + vec2(across(random), across(random));
-        const Pixels expected = exactly_covered_pixels(snap_triangle(p, q, r).corners, size);
+        const Pixels expected = exactly_covered_pixels(
+            {exactly_snapped(p), exactly_snapped(q), exactly_snapped(r)}, size);
         ASSERT_TRUE(same_pixels(covered(p, q, r, size), expected)) << "seed 7, case " << i;
         covering += !expected.empty();
     }
@@ -379,6 +389,7 @@ TEST(TriangleFill, HardCase_SliversThinnerThanASubpixelAreExact) {
 TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameWeights) {
     const std::array<vec2, 3> p = {{{3.3f, 1.7f}, {1.2f, 13.9f}, {14.6f, 9.1f}}};
     const Pixels expected = covered(p[0], p[1], p[2], {16, 16});
+    EXPECT_GT(expected.size(), 40u);
     Image<vec3> weights({16, 16});
     fill_triangle(snap_triangle(p[0], p[1], p[2]), {16, 16},
                   [&](ivec2 pixel, vec3 w) { weights[pixel] = w; });

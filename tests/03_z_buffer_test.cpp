@@ -7,13 +7,17 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "02_triangle_fill/triangle.hpp"
 #include "common/math/numerics.hpp"
+#include "support/exact.hpp"
 #include "support/golden.hpp"
 
 using namespace rasterbook;
+using rasterbook::test::exact_center, rasterbook::test::exact_twice_area,
+    rasterbook::test::exactly_snapped;
 
 namespace {
 
@@ -46,15 +50,15 @@ Image<float> depths_of(const std::array<vec3, 3>& p, ivec2 offset, ivec2 size) {
     return depths;
 }
 
-/// The plane through the snapped corners at a pixel's centre, in long double from exact shares.
+/// The plane through the snapped corners at a pixel's centre, in long double.
 long double exact_depth(const std::array<vec3, 3>& p, ivec2 pixel) {
-    const ScreenTriangle t = snap_triangle(p[0], p[1], p[2]);
-    const auto& [a, b, c] = t.corners;
-    const ivec2 center = pixel * subpixels + subpixels / 2;
-    return (static_cast<long double>(edge_function(b, c, center)) * p[0].z +
-            static_cast<long double>(edge_function(c, a, center)) * p[1].z +
-            static_cast<long double>(edge_function(a, b, center)) * p[2].z) /
-           static_cast<long double>(t.twice_area);
+    const ivec2 a = exactly_snapped(p[0]), b = exactly_snapped(p[1]), c = exactly_snapped(p[2]);
+    const auto area = [](ivec2 from, ivec2 to, ivec2 at) {
+        return static_cast<long double>(exact_twice_area(from, to, at));
+    };
+    const ivec2 at = exact_center(pixel);
+    return (area(b, c, at) * p[0].z + area(c, a, at) * p[1].z + area(a, b, at) * p[2].z) /
+           area(a, b, c);
 }
 
 /// Error of TriangleDepth::at: each of two weighted differences within 2 ulp + 2 roundings, their
@@ -106,28 +110,35 @@ TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestCornerIsTheSameDepth) {
 }
 
 TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
+    int compared = 0;
     for (const auto& [p, id] : random_patches(2, 2'000, {40, 30})) {
         const auto depths = depths_of(p, {0, 0}, {40, 30});
         for (int y = 0; y < 30; ++y)
             for (int x = 0; x < 40; ++x)
                 if (depths[{x, y}] >= 0) {
+                    ++compared;
                     ASSERT_LE(std::abs(depths[{x, y}] - exact_depth(p, {x, y})), depth_tolerance(p))
                         << "seed 2, case " << id;
                     ASSERT_GE(depths[ivec2(x, y)], std::min({p[0].z, p[1].z, p[2].z}))
                         << "seed 2, case " << id;
                 }
     }
+    EXPECT_GT(compared, 100'000);
 }
 
 TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {
+    int covered = 0;
     for (const float z : {0.0f, 0.1f, 0.7f, 0.333333f, 1.0f})
         for (const auto& [p, id] : random_patches(3, 100, {40, 30})) {
             const auto depths =
                 depths_of({{vec3(vec2(p[0]), z), vec3(vec2(p[1]), z), vec3(vec2(p[2]), z)}}, {0, 0},
                           {40, 30});
-            for (const float depth : depths.pixels())
+            for (const float depth : depths.pixels()) {
                 ASSERT_TRUE(depth == z || depth == -1.0f) << depth;
+                covered += depth == z;
+            }
         }
+    EXPECT_GT(covered, 10'000);
 }
 
 TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
@@ -161,6 +172,7 @@ TEST(ZBuffer, HardCase_NotANumberIsNeverNearer) {
 TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
     std::vector<Patch> patches = random_patches(4, 12, {60, 40});
     const Image<int> first = visible(patches, {60, 40});
+    EXPECT_GT(std::set<int>(first.pixels().begin(), first.pixels().end()).size(), 5u);
     std::mt19937 random(5);
     for (int i = 0; i < 200; ++i) {
         std::shuffle(patches.begin(), patches.end(), random);
@@ -169,6 +181,7 @@ TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
 }
 
 TEST(ZBuffer, HardCase_RotatedCornersGiveTheSameBits) {
+    std::set<float> different;
     for (const auto& [p, id] : random_patches(6, 3'000, {40, 30})) {
         const auto depths = depths_of(p, {0, 0}, {40, 30});
         ASSERT_EQ(depths, depths_of({{p[1], p[2], p[0]}}, {0, 0}, {40, 30}))
@@ -177,7 +190,9 @@ TEST(ZBuffer, HardCase_RotatedCornersGiveTheSameBits) {
             << "seed 6, case " << id;
         ASSERT_EQ(depths, depths_of({{p[2], p[1], p[0]}}, {0, 0}, {40, 30}))
             << "seed 6, case " << id;
+        different.insert(depths.pixels().begin(), depths.pixels().end());
     }
+    EXPECT_GT(different.size(), 100'000u);
 }
 
 /// The greatest error of the plane z = c + sx x + sy y in float, with c at the picture's origin.

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Which pixels a triangle covers. Introduced in lesson 02; derivation:
+/// docs/derivations/02_triangle_fill.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+constexpr int subpixel_bits = 8;
+constexpr int subpixels = 1 << subpixel_bits;  ///< Steps of a snapped coordinate in one pixel.
+
+/// Coordinates stay below this many pixels from the origin: then no edge function leaves 64 bits
+/// (Eq. 2.9).
+constexpr float coordinate_limit = 1 << 22;
+
+/// A triangle on the screen, its corners snapped to 1/256 pixel.
+struct ScreenTriangle {
+    std::array<ivec2, 3> corners;  ///< In 1/256 pixel, x right, y down.
+    std::int64_t twice_area;       ///< In 1/65536 square pixel; > 0 where seen counter-clockwise.
+};
+
+/// Twice the area of the triangle a, b, p: positive for p on the left of the way from a to b as
+/// seen on the screen, 0 on the line, negative on the right (Eq. 2.2).
+///
+/// @param a,b,p  In 1/256 pixel, each coordinate below 2^30 in size.
+/// @return       Exact, in 1/65536 square pixel.
+/// @see Pineda, "A parallel algorithm for polygon rasterization", 1988
+constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
+    // TODO: Eq. 2.1 and 2.2; widen before you multiply.
+    return 0;
+}
+
+/// The triangle with its corners snapped to the nearest 1/256 pixel (Eq. 2.8).
+///
+/// @param a,b,c  Screen space, pixels. When a coordinate is not a number or is not below
+///               coordinate_limit in size, the triangle becomes one of no area, which covers
+///               nothing.
+inline ScreenTriangle snap_triangle(vec2 a, vec2 b, vec2 c) {
+    // TODO: refuse what is not usable; Eq. 2.8; twice the area by Eq. 2.2.
+    return {};
+}
+
+/// Whether the corners are seen counter-clockwise. False for a triangle of no area.
+constexpr bool is_front_facing(const ScreenTriangle& triangle) {
+    // TODO
+    return false;
+}
+
+/// One side of a triangle, to be asked about one pixel centre after the other (Eq. 2.5).
+struct EdgeWalk {
+    std::int64_t value;           ///< Edge function, inside > 0, at the first column of the row.
+    std::int64_t step_x, step_y;  ///< Change from a pixel to its right and lower neighbour.
+    std::int64_t least;           ///< Inside or owned from this value on: 0 or 1 (Eq. 2.7).
+
+    /// @param winding  1 for a triangle seen counter-clockwise, -1 for one seen clockwise.
+    EdgeWalk(ivec2 a, ivec2 b, int winding, ivec2 first_pixel) {
+        // TODO: Eq. 2.1 times the winding; Eq. 2.5 in steps of a pixel; Eq. 2.7; Eq. 2.2 at a
+        // centre.
+        value = step_x = step_y = least = 0;
+    }
+
+    /// Cuts [first, last], columns counted from the first one, down to those inside (Eq. 2.6).
+    void narrow(std::int64_t& first, std::int64_t& last) const {
+        // TODO: Eq. 2.6.
+    }
+};
+
+/// Visits each pixel of a picture whose centre the triangle covers.
+///
+/// A centre on a side belongs to the triangle when the side is a left or a top one, so that
+/// triangles which share sides visit each pixel once (Eq. 2.7). The order of the corners does not
+/// matter.
+///
+/// @param triangle  A triangle of no area visits nothing.
+/// @param size      Width and height in pixels, each 0 to 2^22.
+/// @param emit      Called as emit(ivec2 pixel, vec3 weights), row by row, once for each pixel.
+///                  The weights are the corners' shares at the pixel's centre: >= 0, each within 2
+///                  ulp of its exact value (Eq. 2.4), and the same whatever the picture's size.
+template <std::invocable<ivec2, vec3> Emit>
+void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
+    // TODO: the five steps at the end of the derivation.
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Which of several surfaces is seen in a pixel. Introduced in lesson 03;
+/// derivation: docs/derivations/03_z_buffer.md.
+#pragma once
+
+#include <algorithm>
+
+#include "common/image.hpp"
+
+namespace rasterbook {
+
+/// The depth of the nearest surface so far, for each pixel.
+///
+/// Depths run from 0, nearest, to 1, farthest; a cleared pixel holds 1.
+class DepthBuffer {
+  public:
+    /// @param size  Width and height in pixels.
+    explicit DepthBuffer(ivec2 size) : depths_(size, 1.0f) {}
+
+    /// Whether `depth` is nearer than all before it in this pixel; if so, it is kept (Eq. 3.1).
+    ///
+    /// Of equal depths the first stays: -0 equals 0. NaN is never nearer.
+    bool test_and_write(ivec2 pixel, float depth) {
+        // TODO: Eq. 3.1.
+        return false;
+    }
+
+    const Image<float>& depths() const { return depths_; }
+
+  private:
+    Image<float> depths_;
+};
+
+/// The depth inside a triangle: the corners' depths, weighted (Eq. 3.2).
+///
+/// Measured from the nearest corner, so that the error is small where the triangle's depths differ
+/// little, a triangle of one depth has exactly that depth everywhere, and the order of the corners
+/// does not change a single bit.
+class TriangleDepth {
+  public:
+    /// @param depths  Of the three corners, finite.
+    explicit TriangleDepth(vec3 depths) : nearest_(0), beyond_nearest_(0) {
+        // TODO: the least depth, and how far the others lie behind it.
+    }
+
+    /// @param weights  The corners' shares, >= 0, as fill_triangle gives them.
+    /// @return         Not nearer than the nearest corner.
+    float at(vec3 weights) const {
+        // TODO: Eq. 3.3; mind the bracket.
+        return 0;
+    }
+
+  private:
+    float nearest_;
+    vec3 beyond_nearest_;
+};
+
+/// The depth buffer as a picture: the nearest pixel is white, the farthest dark, an empty one
+/// black.
+///
+/// @return  Linear colour.
+inline Image<vec3> depth_picture(const DepthBuffer& buffer) {
+    constexpr float cleared = 1.0f;
+    float nearest = cleared, farthest = 0.0f;
+    for (const float depth : buffer.depths().pixels())
+        if (depth < cleared)
+            nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+    const float extent = std::max(farthest - nearest, 1e-6f);
+
+    Image<vec3> picture(buffer.depths().size(), vec3(0.0f));
+    for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
+        const float depth = buffer.depths().pixels()[i];
+        const float shade = 1.0f - 0.9f * (depth - nearest) / extent;
+        if (depth < cleared) picture.pixels()[i] = vec3(shade * shade);  // even steps to the eye
+    }
+    return picture;
+}
+
+}  // namespace rasterbook
