@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Texts, code and tests belong together; these tests notice when one of them moves on alone.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = fs::path(RASTERBOOK_ASSETS).parent_path();
+
+std::string read_text(const fs::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The course's files with one of the endings; not what is built, and not the reader's own.
+std::vector<fs::path> files_with(const std::set<std::string>& endings) {
+    std::vector<fs::path> files;
+    for (const char* folder : {"", "assets", "common", "docs", "lessons", "tests"}) {
+        const auto add = [&](const fs::directory_entry& entry) {
+            if (entry.is_regular_file() && endings.contains(entry.path().extension().string()))
+                files.push_back(entry.path());
+        };
+        if (*folder == '\0')
+            for (const auto& entry : fs::directory_iterator(root)) add(entry);
+        else
+            for (const auto& entry : fs::recursive_directory_iterator(root / folder)) add(entry);
+    }
+    return files;
+}
+
+/// "01_bresenham_lines" and so on, in order.
+std::vector<std::string> lessons() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(root / "lessons"))
+        if (entry.is_directory()) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// What stands between `before` and `after`, wherever it does on one line.
+std::vector<std::string> all_between(const std::string& text, const std::string& before,
+                                     const std::string& after) {
+    std::vector<std::string> found;
+    for (auto at = text.find(before); at != text.npos; at = text.find(before, at)) {
+        at += before.size();
+        const auto end = text.find(after, at), line_end = text.find('\n', at);
+        if (end < line_end) found.push_back(text.substr(at, end - at));
+    }
+    return found;
+}
+
+/// A text without its blocks of code.
+std::string without_code(std::string text) {
+    const std::string fence = "\n```";
+    for (auto begin = text.find(fence); begin != text.npos; begin = text.find(fence, begin)) {
+        const auto end = text.find(fence, begin + fence.size());
+        text.erase(begin, end == text.npos ? end : end + fence.size() - begin);
+    }
+    return text;
+}
+
+/// The numbers in "Eq. 1.4", "Eq. 1.3, 1.4" or "Eq. 2.1 and 2.2".
+std::set<std::string> cited_equations(const std::string& text) {
+    std::set<std::string> numbers;
+    for (auto at = text.find("Eq. "); at != text.npos; at = text.find("Eq. ", at)) {
+        at += 4;
+        for (;;) {
+            const auto end = std::min(text.find_first_not_of("0123456789.", at), text.size());
+            std::string number = text.substr(at, end - at);
+            if (number.ends_with('.')) number.pop_back();
+            if (number.find('.') == number.npos) break;
+            numbers.insert(number);
+            at = end;
+            if (text.compare(at, 2, ", ") == 0)
+                at += 2;
+            else if (text.compare(at, 5, " and ") == 0)
+                at += 5;
+            else
+                break;
+        }
+    }
+    return numbers;
+}
+
+}  // namespace
+
+TEST(Drift, EveryLessonHasAllItsParts) {
+    ASSERT_GE(lessons().size(), 3u);
+    for (const std::string& name : lessons()) {
+        const fs::path lesson = root / "lessons" / name;
+        for (const fs::path& part :
+             {lesson / "README.md", lesson / "main.cpp", root / "docs/derivations" / (name + ".md"),
+              root / "tests" / (name + "_test.cpp"), root / "tests/golden" / (name + ".png")})
+            EXPECT_TRUE(fs::exists(part)) << part;
+        EXPECT_TRUE(fs::is_directory(lesson / "starter") && !fs::is_empty(lesson / "starter"))
+            << name << " has no starter";
+        if (!fs::is_directory(lesson / "starter")) continue;
+        for (const auto& starter : fs::directory_iterator(lesson / "starter"))
+            EXPECT_TRUE(fs::exists(lesson / starter.path().filename())) << starter.path();
+        const std::string readme = read_text(lesson / "README.md"),
+                          front = read_text(root / "README.md");
+        EXPECT_EQ(readme.rfind("# Lesson " + name.substr(0, 2) + ": ", 0), 0u) << name;
+        for (const char* part :
+             {"\n> ", "\n## What goes wrong", "\n## Write it yourself", "\n## Your turn"})
+            EXPECT_NE(readme.find(part), std::string::npos) << name << ": " << part;
+        EXPECT_NE(front.find("lessons/" + name + "/README.md"), std::string::npos) << name;
+    }
+}
+
+TEST(Drift, NoLessonIncludesALaterOne) {
+    int includes = 0;
+    for (const std::string& name : lessons())
+        for (const auto& entry : fs::recursive_directory_iterator(root / "lessons" / name))
+            if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
+                for (const std::string& header :
+                     all_between(read_text(entry.path()), "#include \"", "\"")) {
+                    if (header.rfind("common/", 0) == 0) continue;
+                    ++includes;
+                    EXPECT_LE(header.substr(0, header.find('/')), name)
+                        << entry.path() << ": " << header;
+                }
+    EXPECT_GT(includes, 5);
+}
+
+TEST(Drift, NothingInCommonIncludesALesson) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / "common")) {
+        if (!entry.is_regular_file()) continue;
+        for (const std::string& header : all_between(read_text(entry.path()), "#include \"", "\""))
+            EXPECT_EQ(header.rfind("common/", 0), 0u) << entry.path() << ": " << header;
+    }
+}
+
+TEST(Drift, EveryNumberedEquationIsCitedInCodeAndInATest) {
+    std::set<std::string> numbered, in_code, in_tests;
+    for (const std::string& name : lessons())
+        for (const std::string& number :
+             all_between(read_text(root / "docs/derivations" / (name + ".md")), "\\tag{", "}"))
+            EXPECT_TRUE(numbered.insert(number).second) << number << " is there twice";
+    for (const char* folder : {"common", "lessons"})
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+            if (entry.is_regular_file() && entry.path().parent_path().filename() != "starter" &&
+                entry.path().extension() != ".md")
+                in_code.merge(cited_equations(read_text(entry.path())));
+    for (const auto& entry : fs::directory_iterator(root / "tests"))
+        if (entry.path().extension() == ".cpp" && entry.path().filename() != "drift_test.cpp")
+            for (std::string number : all_between(read_text(entry.path()), ", Eq", ")")) {
+                if (!std::isdigit(static_cast<unsigned char>(number[0]))) continue;
+                number = number.substr(0, number.find('_', number.find('_') + 1));
+                std::replace(number.begin(), number.end(), '_', '.');
+                in_tests.insert(number);
+            }
+    EXPECT_EQ(in_code, numbered);
+    EXPECT_EQ(in_tests, numbered);
+    EXPECT_GT(numbered.size(), 15u);
+}
+
+TEST(Drift, CodeInTextsIsQuotedFromCompiledFiles) {
+    int quotes = 0;
+    for (const std::string& name : lessons()) {
+        std::string code;
+        for (const auto& entry : fs::directory_iterator(root / "lessons" / name))
+            if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
+                code += read_text(entry.path());
+        for (const fs::path& text :
+             {root / "lessons" / name / "README.md", root / "docs/derivations" / (name + ".md")}) {
+            const std::string words = read_text(text), fence = "```cpp\n";
+            for (auto at = words.find(fence); at != words.npos; at = words.find(fence, at)) {
+                at += fence.size();
+                const std::string quote = words.substr(at, words.find("```", at) - at);
+                ++quotes;
+                EXPECT_NE(code.find(quote), std::string::npos)
+                    << text << " quotes what is not there:\n"
+                    << quote;
+            }
+        }
+    }
+    EXPECT_GT(quotes, 5);
+}
+
+TEST(Drift, LinksAndPicturesInTextsLeadSomewhere) {
+    int links = 0;
+    for (const fs::path& file : files_with({".md"}))
+        for (const std::string& link : all_between(without_code(read_text(file)), "](", ")")) {
+            if (link.rfind("http", 0) == 0) continue;
+            ++links;
+            EXPECT_TRUE(fs::exists(file.parent_path() / link.substr(0, link.find('#'))))
+                << file << ": " << link;
+        }
+    EXPECT_GT(links, 30);
+}
+
+TEST(Drift, PicturesInReadmesAreGoldenOnesThatATestDraws) {
+    std::string tests;
+    for (const std::string& name : lessons())
+        tests += read_text(root / "tests" / (name + "_test.cpp"));
+    int pictures = 0;
+    for (const std::string& name : lessons())
+        for (const std::string& picture :
+             all_between(read_text(root / "lessons" / name / "README.md"), "](", ".png)")) {
+            ++pictures;
+            EXPECT_EQ(picture.rfind("../../tests/golden/", 0), 0u) << name << ": " << picture;
+            EXPECT_NE(tests.find('"' + fs::path(picture).filename().string() + '"'),
+                      std::string::npos)
+                << picture;
+        }
+    EXPECT_GE(pictures, 5);
+}
