@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/lesson_app.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <iostream>
@@ -9,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/backdrop.hpp"
 #include "common/image_io.hpp"
 #include "common/input_error.hpp"
 #include "common/math/color.hpp"
@@ -74,6 +76,11 @@ void make_picture(const LessonProgram& program) {
     const auto render_start = std::chrono::steady_clock::now();
     const Image<vec3> picture = program.render(scene, options.stats ? &counters : nullptr);
     const double render_ms = elapsed_ms(render_start);
+
+    if (std::ranges::equal(picture.pixels(), backdrop(options.size).pixels()))
+        std::cerr << "warning: " << options.model.string()
+                  << ": nothing of it is to be seen; perhaps its faces are named clockwise or have "
+                     "no area\n";
 
     const auto write_start = std::chrono::steady_clock::now();
     write_image(options.out, srgb8_from_linear(picture));

@@ -39,7 +39,7 @@ find_lesson() {
         folder=$(basename "$folder")
         if [ "$folder" = "$1" ] || [ "${folder%%_*}" = "$number" ]; then echo "$folder"; return; fi
     done
-    echo "error: there is no lesson '$1'; there are: $(cd lessons && echo [0-9][0-9]_*)" >&2
+    echo "error: there is no lesson '$1' (its number comes first); there are: $(cd lessons && echo [0-9][0-9]_*)" >&2
     return 1
 }
 
@@ -55,6 +55,17 @@ choose_preset() {
         return 1
     fi
     echo "Yours: ${headers[*]}"
+}
+
+# Builds the targets in build/$preset; a build folder of another place, as in a moved clone, starts anew.
+build() {
+    local home fresh=()
+    home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
+    [ -z "$home" ] || [ "$home" = "$PWD" ] || fresh=(--fresh)
+    quietly cmake --preset "$preset" "${fresh[@]}"
+    cmake --build --preset "$preset" --target "$@" -- -n | grep -q 'no work to do' && return
+    echo "Building (the first time takes a minute or two)"
+    quietly cmake --build --preset "$preset" --target "$@"
 }
 
 # Runs a command quietly; shows what it printed when it fails.

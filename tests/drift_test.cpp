@@ -208,7 +208,8 @@ TEST(Drift, PicturesInReadmesAreGoldenOnesThatATestDraws) {
         for (const std::string& picture :
              all_between(read_text(root / "lessons" / name / "README.md"), "](", ".png)")) {
             ++pictures;
-            EXPECT_EQ(picture.rfind("../../tests/golden/", 0), 0u) << name << ": " << picture;
+            EXPECT_EQ(picture.rfind("../../tests/golden/" + name, 0), 0u)
+                << name << ": " << picture;
             EXPECT_NE(tests.find('"' + fs::path(picture).filename().string() + '"'),
                       std::string::npos)
                 << picture;

@@ -140,6 +140,18 @@ TEST(LessonApp, HardCase_ModelOfExtremeSizeIsDrawnAllTheSame) {
     }
 }
 
+TEST(LessonApp, HardCase_ModelThatCannotBeSeenIsAWarning) {
+    const auto folder = fresh_folder("app");
+    for (const char* face : {"f 3 2 1", "f 1 2 1"}) {
+        std::ofstream(folder / "a.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\n" << face << '\n';
+        const ProcessResult result =
+            run_program(lesson, {"--size", "64x48", "--model", (folder / "a.obj").string(), "--out",
+                                 (folder / "a.png").string()});
+        EXPECT_EQ(result.exit_status, 0);
+        EXPECT_NE(result.err.find("nothing of it is to be seen"), std::string::npos) << result.err;
+    }
+}
+
 TEST(LessonApp, WarningsOfTheModelAreShown) {
     const auto folder = fresh_folder("app");
     std::ofstream(folder / "a.obj") << "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -33,9 +33,15 @@ struct LineSteps {
     LineSteps(ivec2 a, ivec2 b) {
         std::int64_t ax = a.x, ay = a.y, bx = b.x, by = b.y;
         steep = std::abs(bx - ax) < std::abs(by - ay);
-        if (steep) std::swap(ax, ay), std::swap(bx, by);
+        if (steep) {
+            std::swap(ax, ay);
+            std::swap(bx, by);
+        }
         swapped = ax > bx;
-        if (swapped) std::swap(ax, bx), std::swap(ay, by);
+        if (swapped) {
+            std::swap(ax, bx);
+            std::swap(ay, by);
+        }
         major_start = ax;
         minor_start = ay;
         major_length = bx - ax;

@@ -4,6 +4,8 @@
 /// lighting.
 #pragma once
 
+#include <algorithm>
+
 #include "common/math/numerics.hpp"
 #include "common/mesh.hpp"
 

@@ -16,6 +16,7 @@ namespace rasterbook {
 
 constexpr int subpixel_bits = 8;
 constexpr int subpixels = 1 << subpixel_bits;  ///< Steps of a snapped coordinate in one pixel.
+static_assert(subpixel_bits >= 1, "a pixel's centre has to be a whole step");
 
 /// Coordinates stay below this many pixels from the origin: then no edge function leaves 64 bits
 /// (Eq. 2.9).
@@ -84,7 +85,7 @@ struct EdgeWalk {
         } else if (missing > 0) {
             last = -1;
         } else if (step_x < 0) {
-            last = std::min(last, missing / step_x);
+            last = std::min(last, missing / step_x);  // neither is > 0, so this rounds down
         }
     }
 };
@@ -119,7 +120,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
         static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
 
     for (int y = first_pixel.y; y <= last_pixel.y; ++y) {
-        std::int64_t first = 0, last = last_pixel.x - first_pixel.x;
+        std::int64_t first = 0, last = last_pixel.x - first_pixel.x;  // from first_pixel.x
         for (const EdgeWalk* edge : {&edge_a, &edge_b, &edge_c}) edge->narrow(first, last);
         std::int64_t share_a = edge_a.value + first * edge_a.step_x;
         std::int64_t share_b = edge_b.value + first * edge_b.step_x;

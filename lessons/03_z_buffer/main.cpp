@@ -12,10 +12,15 @@ using namespace rasterbook;
 
 namespace {
 
+enum class Paint { flat, weights };
+
 struct Options : LessonOptions {
+    Paint paint = Paint::flat;
     bool show_depth = false;
 
     void declare(Knobs& knobs) {
+        knobs.choice("--paint", paint, {{"flat", Paint::flat}, {"weights", Paint::weights}},
+                     "One colour for each triangle, or its three weights as red, green and blue");
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
     }
@@ -45,7 +50,7 @@ Image<vec3> render(const Options& options, const Scene& scene, Counters& counter
                 counters.add(Counter::fragments_tested);
                 if (!depth.test_and_write(pixel, triangle_depth.at(weights))) return;
                 counters.add(Counter::fragments_shaded);
-                color[pixel] = face_color;
+                color[pixel] = options.paint == Paint::flat ? face_color : weights;
             });
         }
     }

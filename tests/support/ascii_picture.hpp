@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/math/types.hpp"
+#include "support/printers.hpp"
 
 namespace rasterbook::test {
 

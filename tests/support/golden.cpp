@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 
 #include "common/image_io.hpp"
 #include "support/lesson_process.hpp"
@@ -49,14 +50,18 @@ testing::AssertionResult equals_golden(const std::string& lesson, const std::str
     const ProcessResult run = run_program(lesson, all);
     if (run.exit_status != 0)
         return testing::AssertionFailure() << lesson << " failed: " << run.err;
-    if (std::getenv("RASTERBOOK_UPDATE_GOLDEN")) {
+    const auto replace_golden = [&] {
         std::filesystem::create_directories(RASTERBOOK_GOLDEN);
         std::filesystem::rename(actual_file, expected_file);
+        std::cout << "replaced " << expected_file.string() << '\n';
         return testing::AssertionSuccess();
-    }
+    };
+    const bool may_replace = std::getenv("RASTERBOOK_UPDATE_GOLDEN") != nullptr;
+    if (may_replace && !std::filesystem::exists(expected_file)) return replace_golden();
 
     const Image<u8vec4> expected = read_image(expected_file), actual = read_image(actual_file);
-    if (expected.size() != actual.size()) return testing::AssertionFailure() << "the sizes differ";
+    if (expected.size() != actual.size())
+        return may_replace ? replace_golden() : testing::AssertionFailure() << "the sizes differ";
     std::size_t differing = 0;
     int greatest = 0;
     for (std::size_t i = 0; i < expected.pixels().size(); ++i) {
@@ -70,6 +75,7 @@ testing::AssertionResult equals_golden(const std::string& lesson, const std::str
         std::filesystem::remove(actual_file);
         return testing::AssertionSuccess();
     }
+    if (may_replace) return replace_golden();
     const auto comparison =
         std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_comparison.png");
     write_image(comparison, side_by_side(expected, actual));

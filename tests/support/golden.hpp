@@ -16,8 +16,8 @@ constexpr const char* golden_size = "960x540";
 /// For EXPECT_TRUE: a lesson's picture equals tests/golden/GOLDEN.png.
 ///
 /// On a mismatch, expected | actual | difference side by side are written into the build folder and
-/// the failure names that file. With RASTERBOOK_UPDATE_GOLDEN set in the environment, the golden
-/// picture is replaced instead.
+/// the failure names that file. With RASTERBOOK_UPDATE_GOLDEN set in the environment, a golden
+/// picture that differs is replaced instead.
 ///
 /// @param lesson     The program's name, NN_name.
 /// @param golden     The picture's name without ".png".
