@@ -2,7 +2,9 @@
 /// @file
 /// Makes every model and texture of the course again: generate_assets [OUT_DIR].
 ///
-/// The same bytes on every machine: only + - * / and sqrt, whose results IEEE 754 fixes.
+/// The same bytes on every machine: only + - * / and sqrt, whose results IEEE 754 fixes. (Another
+/// version of stb may compress a PNG otherwise.)
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +21,7 @@
 #include "assets/generate/texture.hpp"
 #include "assets/generate/tiles.hpp"
 #include "assets/generate/wood.hpp"
+#include "common/file.hpp"
 #include "common/image_io.hpp"
 #include "common/input_error.hpp"
 
@@ -38,10 +41,7 @@ std::vector<Part> load_teapot(const path& file) {
 }
 
 void write_text(const path& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);  // binary: no \r\n on Windows
-    out << text;
-    out.close();
-    if (!out) throw InputError(file, "cannot be written");
+    write_whole_file(file, std::vector<std::uint8_t>(text.begin(), text.end()));
 }
 
 /// One OBJ and the MTL of the same name.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// BMP, the plainest picture file: a header, then rows of blue, green and red. Used from lesson 01
-/// on.
+/// BMP, the plainest picture file: a header, then rows of blue, green and red.
 #pragma once
 
 #include <cstdint>

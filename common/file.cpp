@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "common/file.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -19,14 +20,16 @@ namespace fs = std::filesystem;
 /// The system's own words for the operation that has just failed.
 std::string system_reason() { return std::generic_category().message(errno); }
 
-/// A name beside the target that no other thread or process uses; whatever bears it at the end is
-/// removed. After a rename that is nothing.
+/// A new file beside the target, which no other thread or process has; whatever bears its name at
+/// the end is removed. After a rename that is nothing.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& target) {
-        static std::atomic<int> count{0};
-        path_ = target.parent_path() / (".rasterbook_" + std::to_string(getpid()) + "_" +
-                                        std::to_string(count++) + ".part");
+        std::string name = (target.parent_path() / ".rasterbook_XXXXXX.part").string();
+        const int descriptor = mkstemps(name.data(), 5);  // 5: the length of ".part"
+        if (descriptor < 0) throw InputError(target, "cannot be written: " + system_reason());
+        close(descriptor);
+        path_ = name;
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -41,11 +44,22 @@ class TemporaryFile {
     fs::path path_;
 };
 
+/// The permissions that the file has, or that a new one gets.
+fs::perms permissions_of(const fs::path& target) {
+    std::error_code error;
+    if (fs::exists(target, error)) return fs::status(target, error).permissions();
+    const mode_t mask = umask(0);
+    umask(mask);
+    return fs::perms{0666u & ~mask};
+}
+
 /// The file that a name stands for, once it is certain that a file may be put there.
 fs::path writable_target(const fs::path& file) {
     std::error_code error;
     const fs::path target = fs::exists(file, error) ? fs::canonical(file, error) : file;
     if (error) throw InputError(file, "cannot be written: " + error.message());
+    if (!fs::exists(file, error) && fs::is_symlink(file, error))
+        throw InputError(file, "cannot be written: a link that leads nowhere");
     if (fs::exists(target, error) && !fs::is_regular_file(target, error))
         throw InputError(file, "cannot be written: not a regular file");
 
@@ -88,7 +102,8 @@ void write_whole_file(const fs::path& file, std::span<const std::uint8_t> bytes)
     if (!stream) throw InputError(file, "cannot be written: " + system_reason());
 
     std::error_code error;
-    fs::rename(temporary.path(), target, error);
+    fs::permissions(temporary.path(), permissions_of(target), error);
+    if (!error) fs::rename(temporary.path(), target, error);
     if (error) throw InputError(file, "cannot be written: " + error.message());
 }
 

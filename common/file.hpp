@@ -20,7 +20,8 @@ std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file,
 /// Writes a file beside its name and renames it at the end: it appears whole or not at all.
 ///
 /// When anything fails, an older file of that name stays as it was and nothing new is left behind.
-/// A symbolic link is followed, so that it still is one afterwards.
+/// A new file takes the older one's permissions. A symbolic link is followed, so that it still is
+/// one afterwards; one that leads nowhere is refused.
 ///
 /// @throws InputError  When the folder is missing, the name belongs to something else than a
 /// regular

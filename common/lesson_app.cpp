@@ -7,6 +7,8 @@
 #include <iostream>
 #include <new>
 #include <sstream>
+#include <stdexcept>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -41,8 +43,9 @@ ivec2 parse_size(const std::string& text) {
 /// The model as named, or else the one of that name among the course's models.
 std::filesystem::path find_model(const std::filesystem::path& name) {
     const std::filesystem::path own = std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name;
+    std::error_code ignored;
     for (const auto& candidate : {name, own})
-        if (std::filesystem::exists(candidate)) return candidate;
+        if (!name.empty() && std::filesystem::exists(candidate, ignored)) return candidate;
     throw InputError(name, "there is no such file; tried " +
                                std::filesystem::absolute(name).string() +
                                (own == name ? "" : " and " + own.string()));
@@ -95,7 +98,7 @@ void make_picture(const LessonProgram& program) {
 }  // namespace
 
 void Knobs::flag(const std::string& name, bool& value, const std::string& help) {
-    static_cast<CLI::App*>(command_line_)->add_flag(name, value, help);
+    command_line_.add_flag(name, value, help);
 }
 
 void Knobs::add_choice(const std::string& name, const std::vector<std::string>& words,
@@ -108,8 +111,7 @@ void Knobs::add_choice(const std::string& name, const std::vector<std::string>& 
             if (words[i] == word) return choose(i);
         throw CLI::ValidationError(name, "'" + word + "' is not one of " + all);
     };
-    static_cast<CLI::App*>(command_line_)
-        ->add_option_function<std::string>(name, take, help + " [" + preset + "]")
+    command_line_.add_option_function<std::string>(name, take, help + " [" + preset + "]")
         ->type_name(all);
 }
 
@@ -133,12 +135,13 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
             "The picture's size in pixels [1280x720]")
         ->type_name("WIDTHxHEIGHT");
     line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
-    Knobs knobs(&line);
+    Knobs knobs(line);
     program.declare_knobs(knobs);
 
     try {
         line.parse(argc, argv);
         make_picture(program);
+        if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
         return 0;
     } catch (const CLI::CallForHelp&) {
         std::cout << line.help();

@@ -15,6 +15,10 @@
 #include "common/image.hpp"
 #include "common/mesh.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace rasterbook {
 
 /// What every lesson can be asked for. A lesson adds its own knobs in a struct derived from this.
@@ -28,7 +32,7 @@ struct LessonOptions {
 /// Where a lesson declares its knobs: one line gives the flag, its help, its check and its default.
 class Knobs {
   public:
-    explicit Knobs(void* command_line) : command_line_(command_line) {}
+    explicit Knobs(CLI::App& command_line) : command_line_(command_line) {}
 
     /// `--name`: sets `value` to true.
     void flag(const std::string& name, bool& value, const std::string& help);
@@ -54,7 +58,7 @@ class Knobs {
                     const std::string& preset, const std::string& help,
                     std::function<void(std::size_t)> choose);
 
-    void* command_line_;  // the library's object, which only lesson_app.cpp knows
+    CLI::App& command_line_;
 };
 
 /// A lesson, ready to run: run_lesson fills it in.

@@ -95,9 +95,10 @@ Scene ObjReader::read() {
 void ObjReader::read_statement(const Statement& statement) {
     const auto [keyword, arguments] = statement;
     if (keyword == "v")
-        append(positions_, read_vector<3>(in_, statement), kinds_[0]);
+        append(positions_, read_vector<3>(in_, statement, 3, 7),
+               kinds_[0]);  // w or a colour follow
     else if (keyword == "vt")
-        append(uvs_, read_vector<2>(in_, statement, 1), kinds_[1]);
+        append(uvs_, read_vector<2>(in_, statement, 1, 3), kinds_[1]);
     else if (keyword == "vn")
         append(normals_, read_vector<3>(in_, statement), kinds_[2]);
     else if (keyword == "f")

@@ -22,9 +22,10 @@ namespace rasterbook {
 ///          cut into triangles. A single mesh keeps all positions, uvs and normals of the file; of
 ///          several, each has those that its faces use.
 /// @throws InputError  With file and line, when an index is 0 or out of range, a face has fewer
-///          than 3 corners, a number does not parse or is not finite, the file is not text in
-///          UTF-8, or it has more elements than accepted; without line, when it has no faces, is
-///          missing or is not a regular file. The file may also be a material library.
+///          than 3 corners, a number does not parse or is not finite, the file is not text
+///          (control characters, UTF-16), or it has more elements than accepted; without line, when
+///          it has no faces, is missing or is not a regular file. The file may also be a material
+///          library.
 Scene load_obj(const std::filesystem::path& file, std::uint32_t max_elements = no_index);
 
 }  // namespace rasterbook

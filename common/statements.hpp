@@ -102,20 +102,21 @@ std::errc parse(std::string_view word, Number& number) {
 /// @throws InputError  Unless the word is a number that is finite as a float.
 float read_number(const StatementReader& in, std::string_view word);
 
-/// The first numbers of a statement, 0 where those after `needed` are missing. What follows them,
-/// as w or a colour, is not looked at.
+/// The first `count` numbers of a statement, 0 where those after `needed` are missing. Up to `most`
+/// have to be numbers; what follows is not looked at.
 template <int count>
 glm::vec<count, float> read_vector(const StatementReader& in, const Statement& statement,
-                                   int needed = count) {
+                                   int needed = count, int most = count) {
     glm::vec<count, float> vector(0.0f);
     std::string_view words = statement.arguments;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < most; ++i) {
         const std::string_view word = next_word(words);
         if (word.empty() && i >= needed) break;
         if (word.empty())
             in.fail(std::string(statement.keyword) + " needs " + std::to_string(needed) +
                     " numbers and has " + std::to_string(i));
-        vector[i] = read_number(in, word);
+        const float number = read_number(in, word);
+        if (i < count) vector[i] = number;
     }
     return vector;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// TGA: a header of 18 bytes, then the pixels, plain or in runs. Used from lesson 01 on.
+/// TGA: a header of 18 bytes, then the pixels, plain or in runs.
 #pragma once
 
 #include "common/image.hpp"

@@ -170,6 +170,7 @@ class ImageIo : public testing::Test {
     fs::path path(const std::string& name) const { return folder_ / name; }
 
     fs::path put(const Bytes& bytes, const std::string& name = "picture") const {
+        fs::remove(path(name));  // to write over a file makes some file systems wait for the disk
         std::ofstream(path(name), std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
         return path(name);
@@ -729,4 +730,20 @@ TEST_F(ImageIo, LinkStaysALinkToTheNewFile) {
 }
 
 }  // namespace
+TEST_F(ImageIo, OverwritingKeepsThePermissions) {
+    write_image(path("a.bmp"), four_pixels());
+    fs::permissions(path("a.bmp"), fs::perms::owner_read | fs::perms::owner_write);
+    write_image(path("a.bmp"), four_pixels());
+    EXPECT_EQ(fs::status(path("a.bmp")).permissions(),
+              fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(ImageIo, HardCase_LinkThatLeadsNowhereIsNotReplaced) {
+    fs::create_symlink("nothing.bmp", path("link.bmp"));
+    EXPECT_EQ(write_error(path("link.bmp"), four_pixels()),
+              "cannot be written: a link that leads nowhere");
+    EXPECT_TRUE(fs::is_symlink(path("link.bmp")));
+    EXPECT_FALSE(fs::exists(path("nothing.bmp")));
+}
+
 }  // namespace rasterbook

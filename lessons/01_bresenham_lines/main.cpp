@@ -18,8 +18,8 @@ vec3 line_color(float depth) {
     return glm::mix(near_color, far_color, depth);
 }
 
-template <typename Counters>
-Image<vec3> render(const Options& options, const Scene& scene, Counters& counters) {
+template <typename CounterPolicy>
+Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
     const ParallelView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 

@@ -22,8 +22,8 @@ struct Options : LessonOptions {
     }
 };
 
-template <typename Counters>
-Image<vec3> render(const Options& options, const Scene& scene, Counters& counters) {
+template <typename CounterPolicy>
+Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
     const ParallelView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 

@@ -51,12 +51,20 @@ ProcessResult run_program(const std::string& name, const std::vector<std::string
 }
 
 std::filesystem::path fresh_folder(const std::string& name) {
-    static int count = 0;
-    const auto folder =
-        std::filesystem::temp_directory_path() /
-        ("rasterbook_" + name + "_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    struct Folders {
+        std::vector<std::filesystem::path> paths;
+        ~Folders() {
+            std::error_code ignored;
+            for (const auto& path : paths) std::filesystem::remove_all(path, ignored);
+        }
+    };
+    static Folders folders;
+    const auto folder = std::filesystem::temp_directory_path() /
+                        ("rasterbook_" + name + "_" + std::to_string(getpid()) + "_" +
+                         std::to_string(folders.paths.size()));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
+    folders.paths.push_back(folder);
     return folder;
 }
 

@@ -17,7 +17,8 @@ struct ProcessResult {
 /// Runs a program of the build, such as "03_z_buffer", and waits for it.
 ProcessResult run_program(const std::string& name, const std::vector<std::string>& arguments);
 
-/// An empty folder for this test alone, below the system's folder for temporary files.
+/// An empty folder for this test alone, below the system's folder for temporary files; removed when
+/// the test program ends.
 std::filesystem::path fresh_folder(const std::string& name);
 
 }  // namespace rasterbook::test
