@@ -214,23 +214,34 @@ TEST(Obj, GoodFilesGiveTheFacesAndWarningsThatTheyState) {
     }
 }
 
+enum class Deviation { of_names, of_corners };
+
 /// Where tinyobjloader reads something else, and what it does.
-const std::map<std::string, std::string> tinyobj_deviations = {
-    {"comment_at_end_of_line", "takes the comment for corners"},
-    {"continuation_crlf", "does not continue lines"},
-    {"continuation_lines", "does not continue lines"},
-    {"group_name_with_blanks", "writes one blank for several"},
-    {"group_without_name", "keeps the name of the group before"},
-    {"material_name_with_blanks", "takes the first word of a name after usemtl"},
-    {"mtllib_in_quotes", "takes quotes for a part of the name"},
-    {"mtllib_with_backslash", "takes a backslash for an escape"},
-    {"mtllib_with_blanks", "takes each word for a name"},
-    {"polygon_of_300_corners", "counts the corners of a face modulo 256 in some versions"},
-    {"several_mtllibs_on_one_line", "stops at the first that it finds"},
-    {"slashes_at_the_end", "takes a missing index for 0"},
-    {"usemtl_before_mtllib", "knows only the materials read so far"},
-    {"utf8_byte_order_mark", "takes the mark for a part of the first word in some versions"},
+const std::map<std::string, std::pair<Deviation, std::string>> tinyobj_deviations = {
+    {"comment_at_end_of_line", {Deviation::of_corners, "takes the comment for corners"}},
+    {"continuation_crlf", {Deviation::of_corners, "does not continue lines"}},
+    {"continuation_lines", {Deviation::of_corners, "does not continue lines"}},
+    {"group_name_with_blanks", {Deviation::of_names, "writes one blank for several"}},
+    {"group_without_name", {Deviation::of_names, "keeps the name of the group before"}},
+    {"material_name_with_blanks", {Deviation::of_names, "takes the first word after usemtl"}},
+    {"mtllib_in_quotes", {Deviation::of_names, "takes quotes for a part of the name"}},
+    {"mtllib_with_backslash", {Deviation::of_names, "takes a backslash for an escape"}},
+    {"mtllib_with_blanks", {Deviation::of_names, "takes each word for a name"}},
+    {"polygon_of_300_corners", {Deviation::of_corners, "counts modulo 256 in some versions"}},
+    {"several_mtllibs_on_one_line", {Deviation::of_names, "stops at the first that it finds"}},
+    {"slashes_at_the_end", {Deviation::of_corners, "takes a missing index for 0"}},
+    {"usemtl_before_mtllib", {Deviation::of_names, "knows only the materials read so far"}},
+    {"utf8_byte_order_mark",
+     {Deviation::of_corners, "takes the mark for a part of the first word in some versions"}},
 };
+
+/// The faces' corners alone.
+Lines without_names(Lines faces) {
+    const std::string start_of_corners = "\" ";  // behind the material's name
+    for (std::string& face : faces)
+        if (const auto end = face.rfind(start_of_corners); end != face.npos) face.erase(0, end + 2);
+    return faces;
+}
 
 TEST(Obj, FacesEqualThoseOfTinyobjloader) {
     // Six digits: tinyobjloader adds up the digits in double with rounding errors.
@@ -238,15 +249,20 @@ TEST(Obj, FacesEqualThoseOfTinyobjloader) {
     std::size_t compared = 0;
     const auto files = models_in(data / "good");
     for (const fs::path& file : files) {
-        if (tinyobj_deviations.contains(file.stem())) continue;
+        const auto deviation = tinyobj_deviations.find(file.stem());
+        const bool deviates = deviation != tinyobj_deviations.end();
+        if (deviates && deviation->second.first == Deviation::of_corners) continue;
         SCOPED_TRACE(file);
         Lines ours = faces_of(load_obj(file), digits), theirs = faces_of_tinyobj(file, digits);
+        if (deviates) ours = without_names(ours), theirs = without_names(theirs);
         // A group that comes again is two shapes there.
         std::ranges::sort(ours), std::ranges::sort(theirs);
         EXPECT_EQ(ours, theirs);
         ++compared;
     }
-    EXPECT_EQ(compared, files.size() - tinyobj_deviations.size());
+    const auto skipped = std::ranges::count(tinyobj_deviations, Deviation::of_corners,
+                                            [](const auto& entry) { return entry.second.first; });
+    EXPECT_EQ(compared + static_cast<std::size_t>(skipped), files.size());
 }
 
 TEST(Obj, BadFilesAreErrorsWithFileAndLine) {
