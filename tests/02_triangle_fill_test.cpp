@@ -124,27 +124,31 @@ TEST(TriangleFill, Eq2_4_WeightsAreWithinTwoUlpOfTheExactOnes) {
     std::string first_wrong;
     for (int i = 0; i < 2'000; ++i) {
         const auto point = [&] { return vec2(coordinate(random), coordinate(random)); };
-        const vec2 a = point(), b = point(), c = point();
-        const ivec2 p = exactly_snapped(a), q = exactly_snapped(b), r = exactly_snapped(c);
+        const vec2 first = point(), second = point(), third = point();
+        const ivec2 p = exactly_snapped(first), q = exactly_snapped(second),
+                    r = exactly_snapped(third);
         const auto area = static_cast<long double>(exact_twice_area(p, q, r));
-        fill_triangle(snap_triangle(a, b, c), {64, 48}, [&](ivec2 pixel, vec3 weights) {
-            ++visited;
-            const ivec2 at = exact_center(pixel);
-            const auto share = [&](ivec2 from, ivec2 to) {
-                return static_cast<long double>(exact_twice_area(from, to, at)) / area;
-            };
-            const long double exact[] = {share(q, r), share(r, p), share(p, q)};
-            for (int k = 0; k < 3; ++k)
-                if (!(weights[k] >= 0 && std::abs(weights[k] - exact[k]) <= two_ulp * exact[k]) &&
-                    first_wrong.empty()) {
-                    std::ostringstream text;
-                    text << "corners (" << a.x << ", " << a.y << "), (" << b.x << ", " << b.y
-                         << "), (" << c.x << ", " << c.y << "), pixel (" << pixel.x << ", "
-                         << pixel.y << "): the weight of corner " << "abc"[k] << " is "
-                         << weights[k] << ", exactly " << exact[k];
-                    first_wrong = text.str();
-                }
-        });
+        fill_triangle(
+            snap_triangle(first, second, third), {64, 48}, [&](ivec2 pixel, vec3 weights) {
+                ++visited;
+                const ivec2 at = exact_center(pixel);
+                const auto share = [&](ivec2 from, ivec2 to) {
+                    return static_cast<long double>(exact_twice_area(from, to, at)) / area;
+                };
+                const long double exact[] = {share(q, r), share(r, p), share(p, q)};
+                for (int k = 0; k < 3; ++k)
+                    if (!(weights[k] >= 0 &&
+                          std::abs(weights[k] - exact[k]) <= two_ulp * exact[k]) &&
+                        first_wrong.empty()) {
+                        std::ostringstream text;
+                        text << "corners (" << first.x << ", " << first.y << "), (" << second.x
+                             << ", " << second.y << "), (" << third.x << ", " << third.y
+                             << "), pixel (" << pixel.x << ", " << pixel.y
+                             << "): the weight of corner " << "abc"[k] << " is " << weights[k]
+                             << ", exactly " << exact[k];
+                        first_wrong = text.str();
+                    }
+            });
         ASSERT_EQ(first_wrong, "") << "seed 2, case " << i;
     }
     EXPECT_GT(visited, 100'000);
