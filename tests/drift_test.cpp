@@ -69,6 +69,14 @@ std::string without_code(std::string text) {
     return text;
 }
 
+/// A text whose lines all begin at the margin.
+std::string without_indentation(const std::string& text) {
+    std::string flat;
+    for (const char c : text)
+        if (c != ' ' || (!flat.empty() && flat.back() != '\n')) flat += c;
+    return flat;
+}
+
 /// The numbers in "Eq. 1.4", "Eq. 1.3, 1.4" or "Eq. 2.1 and 2.2".
 std::set<std::string> cited_equations(const std::string& text) {
     std::set<std::string> numbers;
@@ -170,7 +178,7 @@ TEST(Drift, CodeInTextsIsQuotedFromCompiledFiles) {
         std::string code;
         for (const auto& entry : fs::directory_iterator(root / "lessons" / name))
             if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
-                code += read_text(entry.path());
+                code += without_indentation(read_text(entry.path()));
         for (const fs::path& text :
              {root / "lessons" / name / "README.md", root / "docs/derivations" / (name + ".md")}) {
             const std::string words = read_text(text), fence = "```cpp\n";
@@ -178,7 +186,7 @@ TEST(Drift, CodeInTextsIsQuotedFromCompiledFiles) {
                 at += fence.size();
                 const std::string quote = words.substr(at, words.find("```", at) - at);
                 ++quotes;
-                EXPECT_NE(code.find(quote), std::string::npos)
+                EXPECT_NE(code.find(without_indentation(quote)), std::string::npos)
                     << text << " quotes what is not there:\n"
                     << quote;
             }
