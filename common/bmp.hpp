@@ -31,8 +31,7 @@ constexpr std::uint64_t bmp_file_bytes(ivec2 size) {
 Bytes encode_bmp(const Image<u8vec3>& pixels, const std::filesystem::path& file);
 
 /// @param bytes  A whole file that begins with "BM". 24 or 32 bits a pixel, or 8 with a palette;
-/// not
-///               compressed; the bottom or the top row first.
+///               not compressed; the bottom or the top row first.
 /// @param file   Named in the error.
 /// @throws InputError  When the file is truncated or of another kind.
 Image<u8vec4> decode_bmp(ByteView bytes, const std::filesystem::path& file);

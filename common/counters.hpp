@@ -34,9 +34,6 @@ struct Counters {
     std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> values{};
 
     void add(Counter counter) { ++values[static_cast<std::size_t>(counter)]; }
-    std::uint64_t operator[](Counter counter) const {
-        return values[static_cast<std::size_t>(counter)];
-    }
 };
 
 /// Takes the place of Counters where nothing is to be counted: compiles to nothing.

@@ -71,14 +71,18 @@ fs::path writable_target(const fs::path& file) {
 
 }  // namespace
 
-std::vector<std::uint8_t> read_whole_file(const fs::path& file, std::uintmax_t max_bytes) {
+void check_regular_file(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (status.type() == fs::file_type::not_found) throw InputError(file, "there is no such file");
     if (status.type() == fs::file_type::none)
         throw InputError(file, "cannot be read: " + error.message());
     if (!fs::is_regular_file(status)) throw InputError(file, "not a regular file");
+}
 
+std::vector<std::uint8_t> read_whole_file(const fs::path& file, std::uintmax_t max_bytes) {
+    check_regular_file(file);
+    std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
     if (error) throw InputError(file, "cannot be read: " + error.message());
     if (size > max_bytes)

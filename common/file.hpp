@@ -10,8 +10,12 @@
 
 namespace rasterbook {
 
-/// Reads a file at once. A directory, FIFO or device is refused before it is opened, so that a read
-/// never waits.
+/// To be asked before a file is opened: to open a FIFO would wait for its writer.
+///
+/// @throws InputError  When the file is missing or is a directory, FIFO or device.
+void check_regular_file(const std::filesystem::path& file);
+
+/// Reads a file at once.
 ///
 /// @throws InputError  When the file is missing, not regular, longer than max_bytes or unreadable.
 std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file,
@@ -24,8 +28,7 @@ std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file,
 /// one afterwards; one that leads nowhere is refused.
 ///
 /// @throws InputError  When the folder is missing, the name belongs to something else than a
-/// regular
-///          file, or the bytes cannot be written (no permission, no space).
+///          regular file, or the bytes cannot be written (no permission, no space).
 void write_whole_file(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 }  // namespace rasterbook

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/lesson_app.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <iostream>
@@ -80,7 +79,7 @@ void make_picture(const LessonProgram& program) {
     const Image<vec3> picture = program.render(scene, options.stats ? &counters : nullptr);
     const double render_ms = elapsed_ms(render_start);
 
-    if (std::ranges::equal(picture.pixels(), backdrop(options.size).pixels()))
+    if (is_backdrop(picture))
         std::cerr << "warning: " << options.model.string()
                   << ": nothing of it is to be seen; perhaps its faces are named clockwise or have "
                      "no area\n";

@@ -32,8 +32,7 @@ class ParallelView {
     }
 
     /// @return  For each position: x right and y down in pixels, and the depth: 0.01 for the
-    /// nearest
-    ///          point of the scene to 0.99 for the farthest.
+    ///          nearest point of the scene to 0.99 for the farthest.
     std::vector<vec3> screen_from_model(const std::vector<vec3>& positions_model) const {
         const dvec3 middle = 0.5 * (min_ + max_);
         const double depth_extent =

@@ -9,15 +9,14 @@
 #include <sstream>
 #include <utility>
 
+#include "common/file.hpp"
+
 namespace rasterbook {
 
 namespace fs = std::filesystem;
 
 StatementReader::StatementReader(const fs::path& file) : file_(file) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) throw InputError(file, "there is no such file");
-    // Looked at before it is opened: to open a FIFO would wait for its writer.
-    if (!fs::is_regular_file(file, ignored)) throw InputError(file, "not a regular file");
+    check_regular_file(file);
     in_.open(file, std::ios::binary);
     if (!in_) throw InputError(file, "cannot be opened");
 

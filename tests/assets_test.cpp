@@ -35,9 +35,8 @@ std::vector<path> files_in(const path& folder, const std::string& extension = ""
 }
 
 std::string bytes_of(const path& file) {
-    std::ifstream in(file, std::ios::binary);
-    EXPECT_TRUE(in) << file;
-    return {std::istreambuf_iterator<char>(in), {}};
+    EXPECT_TRUE(std::filesystem::exists(file)) << file;
+    return test::read_text(file);
 }
 
 /// Relative names, with folders.

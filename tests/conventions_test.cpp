@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -24,6 +23,7 @@
 #include "support/lesson_process.hpp"
 
 using namespace rasterbook;
+using rasterbook::test::read_text;
 
 namespace {
 
@@ -34,11 +34,6 @@ void expect_near(vec3 actual, vec3 expected) {
 }
 
 const std::filesystem::path root = std::filesystem::path(RASTERBOOK_ASSETS).parent_path();
-
-std::string read_text(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// C6 in code, as long as no lesson has needed it.
 vec2 screen_from_ndc(vec2 ndc, vec2 size) {

@@ -3,24 +3,20 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "support/lesson_process.hpp"
+
 namespace fs = std::filesystem;
+using rasterbook::test::read_text;
 
 namespace {
 
 const fs::path root = fs::path(RASTERBOOK_ASSETS).parent_path();
-
-std::string read_text(const fs::path& file) {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// The course's files with one of the endings; not what is built, and not the reader's own.
 std::vector<fs::path> files_with(const std::set<std::string>& endings) {

@@ -106,8 +106,7 @@ TEST(LessonApp, HardCase_BrokenModelNamesFileAndLineAndWritesNothing) {
     const ProcessResult result = run_program(lesson, {"--model", (folder / "broken.obj").string(),
                                                       "--out", (folder / "picture.png").string()});
     expect_error(result, 1, (folder / "broken.obj").string() + ":4: ");
-    std::ifstream picture(folder / "picture.png");
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(picture), {}), "old");
+    EXPECT_EQ(test::read_text(folder / "picture.png"), "old");
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 2)
         << "something was left behind";
 }

@@ -15,8 +15,10 @@ namespace rasterbook {
 /// Depths run from 0, nearest, to 1, farthest; a cleared pixel holds 1.
 class DepthBuffer {
   public:
+    static constexpr float cleared = 1.0f;  ///< The depth of a pixel that nothing covers yet.
+
     /// @param size  Width and height in pixels.
-    explicit DepthBuffer(ivec2 size) : depths_(size, 1.0f) {}
+    explicit DepthBuffer(ivec2 size) : depths_(size, cleared) {}
 
     /// Whether `depth` is nearer than all before it in this pixel; if so, it is kept (Eq. 3.1).
     ///
@@ -61,7 +63,7 @@ class TriangleDepth {
 ///
 /// @return  Linear colour.
 inline Image<vec3> depth_picture(const DepthBuffer& buffer) {
-    constexpr float cleared = 1.0f;
+    constexpr float cleared = DepthBuffer::cleared;
     float nearest = cleared, farthest = 0.0f;
     for (const float depth : buffer.depths().pixels())
         if (depth < cleared)

@@ -13,14 +13,10 @@
 
 namespace rasterbook::test {
 
-namespace {
-
 std::string read_text(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
-
-}  // namespace
 
 ProcessResult run_program(const std::string& name, const std::vector<std::string>& arguments) {
     const std::filesystem::path folder = fresh_folder("process"), out = folder / "out",
