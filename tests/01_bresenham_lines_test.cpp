@@ -123,10 +123,11 @@ TEST(Lines, Eq1_7_FirstStepOfEachRowOfTheWorkedExample) {
 
 TEST(Lines, Eq1_8_StepsInsideOfALineThatCrossesThePicture) {
     // From (-4, -2) to (16, 8): row 0 from step 4 on, row 5 (outside) from step 14 on.
-    const StepRange steps = steps_inside(LineSteps({-4, -2}, {16, 8}), {100, 5});
+    const StepRange steps = steps_inside(LineSteps({-4, -2}, {16, 8}), {100, 5}, LineEnd::included);
     EXPECT_EQ(steps.first, 4);
     EXPECT_EQ(steps.last, 13);
-    const StepRange falling = steps_inside(LineSteps({-4, 6}, {16, -4}), {100, 5});
+    const StepRange falling =
+        steps_inside(LineSteps({-4, 6}, {16, -4}), {100, 5}, LineEnd::included);
     EXPECT_EQ(falling.first, 4);
     EXPECT_EQ(falling.last, 13);
 }

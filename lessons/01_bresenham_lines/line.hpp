@@ -72,17 +72,20 @@ struct StepRange {
     std::int64_t first, last;
 };
 
-/// The steps whose pixels lie in a picture of `size` pixels (Eq. 1.8).
-inline StepRange steps_inside(const LineSteps& line, ivec2 size) {
+/// The steps whose pixels lie in a picture of `size` pixels (Eq. 1.8), without that of the line's
+/// second end if it is excluded.
+inline StepRange steps_inside(const LineSteps& line, ivec2 size, LineEnd end) {
     const std::int64_t major_size = line.steep ? size.y : size.x;
     const std::int64_t minor_size = line.steep ? size.x : size.y;
     const bool down = line.minor_direction > 0;
     const std::int64_t rows_to_enter =
         down ? -line.minor_start : line.minor_start - (minor_size - 1);
     const std::int64_t rows_to_leave = rows_to_enter + minor_size;
-    return {std::max(-line.major_start, line.first_step_with(rows_to_enter)),
-            std::min({line.major_length, major_size - 1 - line.major_start,
-                      line.first_step_with(rows_to_leave) - 1})};
+    const bool shorter = end == LineEnd::excluded;  // the walk may have started at that end
+    return {std::max({std::int64_t{shorter && line.swapped ? 1 : 0}, -line.major_start,
+                      line.first_step_with(rows_to_enter)}),
+            std::min({line.major_length - (shorter && !line.swapped ? 1 : 0),
+                      major_size - 1 - line.major_start, line.first_step_with(rows_to_leave) - 1})};
 }
 
 /// Visits each pixel of the line from a to b that lies in a picture of `size` pixels.
@@ -101,12 +104,7 @@ inline StepRange steps_inside(const LineSteps& line, ivec2 size) {
 template <std::invocable<ivec2> Plot>
 void draw_line(ivec2 a, ivec2 b, ivec2 size, LineEnd end, Plot&& plot) {
     const LineSteps line(a, b);
-    StepRange steps = steps_inside(line, size);
-    if (end == LineEnd::excluded) {
-        // The walk may have started at b.
-        steps.first = std::max<std::int64_t>(steps.first, line.swapped ? 1 : 0);
-        steps.last = std::min(steps.last, line.major_length - (line.swapped ? 0 : 1));
-    }
+    const StepRange steps = steps_inside(line, size, end);
     if (steps.first > steps.last) return;
 
     const std::int64_t rows = line.rows_after(steps.first);

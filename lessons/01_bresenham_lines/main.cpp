@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 01: the model as a wireframe.
-#include "01_bresenham_lines/line.hpp"
+#include "01_bresenham_lines/line_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 #include "common/parallel_view.hpp"
@@ -10,7 +10,18 @@ using namespace rasterbook;
 
 namespace {
 
-struct Options : LessonOptions {};
+struct Options : LessonOptions {
+    LineMethod line = LineMethod::bresenham;
+
+    void declare(Knobs& knobs) {
+        knobs.choice("--line", line,
+                     {{"bresenham", LineMethod::bresenham},
+                      {"dda-float", LineMethod::dda_float},
+                      {"dda-fixed", LineMethod::dda_fixed},
+                      {"wu", LineMethod::wu}},
+                     "How lines are drawn; Wu's are smooth");
+    }
+};
 
 /// What a line adds to its pixels: near lines are bright, far ones dim. Linear colour.
 vec3 line_color(float depth) {
@@ -31,11 +42,11 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
                 const vec3 to = positions_screen[corner.position];
                 const vec3 light = line_color(0.5f * (from.z + to.z));
                 counters.add(Counter::lines);
-                draw_line(pixel_of(from), pixel_of(to), options.size, LineEnd::excluded,
-                          [&](ivec2 pixel) {
-                              counters.add(Counter::line_pixels);
-                              color[pixel] += light;
-                          });
+                draw_line_as(options.line, pixel_of(from), pixel_of(to), options.size,
+                             LineEnd::excluded, [&](ivec2 pixel, float coverage) {
+                                 counters.add(Counter::line_pixels);
+                                 color[pixel] += coverage * light;
+                             });
                 from = to;
             }
         }

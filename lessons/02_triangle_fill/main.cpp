@@ -2,7 +2,7 @@
 /// @file
 /// Lesson 02: the model as filled triangles, each painted over those before it.
 #include "02_triangle_fill/flat_color.hpp"
-#include "02_triangle_fill/triangle.hpp"
+#include "02_triangle_fill/triangle_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 #include "common/parallel_view.hpp"
@@ -15,17 +15,20 @@ enum class Paint { flat, weights };
 
 struct Options : LessonOptions {
     Paint paint = Paint::flat;
+    FillVariant fill;
 
     void declare(Knobs& knobs) {
         knobs.choice("--paint", paint, {{"flat", Paint::flat}, {"weights", Paint::weights}},
                      "One colour for each triangle, or its three weights as red, green and blue");
+        fill.declare(knobs);
     }
 };
 
 template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
-    const ParallelView view(scene, options.size);
-    Image<vec3> color = backdrop(options.size);
+    const ivec2 size = options.size * options.fill.samples_per_side;
+    const ParallelView view(scene, size);
+    Image<vec3> color = backdrop(size);
 
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
@@ -40,13 +43,14 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
                 continue;
             }
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
-            fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 weights) {
-                counters.add(Counter::fragments_shaded);
-                color[pixel] = options.paint == Paint::flat ? face_color : weights;
-            });
+            fill_triangle_as(options.fill, on_screen, {a, b, c}, size,
+                             [&](ivec2 pixel, vec3 weights) {
+                                 counters.add(Counter::fragments_shaded);
+                                 color[pixel] = options.paint == Paint::flat ? face_color : weights;
+                             });
         }
     }
-    return color;
+    return averaged(color, options.fill.samples_per_side);
 }
 
 }  // namespace

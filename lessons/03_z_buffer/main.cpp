@@ -4,6 +4,7 @@
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
+#include "03_z_buffer/depth_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 #include "common/parallel_view.hpp"
@@ -17,12 +18,14 @@ enum class Paint { flat, weights };
 struct Options : LessonOptions {
     Paint paint = Paint::flat;
     bool show_depth = false;
+    DepthVariant depth;
 
     void declare(Knobs& knobs) {
         knobs.choice("--paint", paint, {{"flat", Paint::flat}, {"weights", Paint::weights}},
                      "One colour for each triangle, or its three weights as red, green and blue");
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
+        depth.declare(knobs);
     }
 };
 
@@ -48,7 +51,8 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
             const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
             fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 weights) {
                 counters.add(Counter::fragments_tested);
-                if (!depth.test_and_write(pixel, triangle_depth.at(weights))) return;
+                const float z = options.depth.kept(triangle_depth.at(weights));
+                if (!depth.test_and_write(pixel, z)) return;
                 counters.add(Counter::fragments_shaded);
                 color[pixel] = options.paint == Paint::flat ? face_color : weights;
             });

@@ -57,9 +57,10 @@ struct StepRange {
     std::int64_t first, last;
 };
 
-/// The steps whose pixels lie in a picture of `size` pixels (Eq. 1.8).
-inline StepRange steps_inside(const LineSteps& line, ivec2 size) {
-    // TODO: Eq. 1.8.
+/// The steps whose pixels lie in a picture of `size` pixels (Eq. 1.8), without that of the line's
+/// second end if it is excluded.
+inline StepRange steps_inside(const LineSteps& line, ivec2 size, LineEnd end) {
+    // TODO: Eq. 1.8; then leave out the first or the last step if it is the pixel b and excluded.
     return {0, -1};
 }
 
@@ -78,8 +79,8 @@ inline StepRange steps_inside(const LineSteps& line, ivec2 size) {
 /// @see Bresenham, "Algorithm for computer control of a digital plotter", 1965
 template <std::invocable<ivec2> Plot>
 void draw_line(ivec2 a, ivec2 b, ivec2 size, LineEnd end, Plot&& plot) {
-    // TODO: the steps inside, without the pixel b if it is excluded; the row and the error at the
-    // first of them (Eq. 1.3, 1.4); then one step after the other (Eq. 1.5).
+    // TODO: the steps inside; the row and the error at the first of them (Eq. 1.3, 1.4); then one
+    // step after the other (Eq. 1.5).
 }
 
 }  // namespace rasterbook

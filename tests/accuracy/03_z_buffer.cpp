@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Depth: what it is kept as. How many surfaces, one a ten-thousandth behind the other, are
+/// confused, and what a fragment costs.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "03_z_buffer/depth_buffer.hpp"
+#include "03_z_buffer/depth_variants.hpp"
+#include "accuracy/accuracy.hpp"
+#include "common/image.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+// Each format: how a depth is stored, which of two is nearer, and what an empty pixel holds.
+struct Float32 {
+    using Stored = float;
+    static constexpr bool reversed = false;
+    static Stored store(float depth) { return depth; }
+};
+struct ReversedFloat32 : Float32 {
+    static constexpr bool reversed = true;
+};
+struct Unorm16 {
+    using Stored = std::uint16_t;
+    static constexpr bool reversed = false;
+    static Stored store(float depth) { return static_cast<Stored>(unorm<16>(depth)); }
+};
+struct Unorm24 {
+    using Stored = std::uint32_t;
+    static constexpr bool reversed = false;
+    static Stored store(float depth) { return unorm<24>(depth); }
+};
+
+template <typename Format>
+bool is_nearer(typename Format::Stored a, typename Format::Stored b) {
+    return Format::reversed ? a > b : a < b;
+}
+
+/// The depth A + B / Z as a projection computes it in float: (A Z + B) / Z.
+///
+/// @param is_reversed  1 at the nearest distance and 0 at the farthest, else 0 and 1.
+struct Projection {
+    float a, b;
+
+    Projection(double nearest, double farthest, bool is_reversed)
+        : a(static_cast<float>((is_reversed ? -nearest : farthest) / (farthest - nearest))),
+          b(static_cast<float>((is_reversed ? 1 : -1) * nearest * farthest /
+                               (farthest - nearest))) {}
+    float depth(float distance) const { return (a * distance + b) / distance; }
+};
+
+/// Pairs of distances Z and 1.0001 Z, as many in each octave, from 0.1 to `farthest_over_nearest`
+/// times that. The share that are stored alike, and the share stored in the wrong order.
+template <typename Format>
+std::pair<double, double> ties_and_inversions(double farthest_over_nearest) {
+    constexpr double nearest = 0.1;
+    constexpr int pairs = 1'000'000;
+    const Projection projection(nearest, nearest * farthest_over_nearest, Format::reversed);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> share(0, 1);
+    int ties = 0, inversions = 0;
+    for (int i = 0; i < pairs; ++i) {
+        const double distance = nearest * std::pow(farthest_over_nearest / 1.0001, share(random));
+        const auto front = Format::store(projection.depth(static_cast<float>(distance)));
+        const auto back = Format::store(projection.depth(static_cast<float>(1.0001 * distance)));
+        ties += front == back;
+        inversions += is_nearer<Format>(back, front);
+    }
+    return {100.0 * ties / pairs, 100.0 * inversions / pairs};
+}
+
+constexpr ivec2 picture_size(256);
+constexpr int layers = 16;
+
+/// Tilted planes over the whole picture: their depths in the upper left corner and their slopes.
+std::vector<vec3> random_planes() {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> depth(0.3f, 0.7f), slope(-0.001f, 0.001f);
+    std::vector<vec3> planes;
+    for (int i = 0; i < layers; ++i)
+        planes.emplace_back(depth(random), slope(random), slope(random));
+    return planes;
+}
+
+template <typename Format>
+void add_format(const char* name) {
+    Errors errors;
+    for (int power = 1; power <= 7; ++power) {
+        const auto [ties, inversions] = ties_and_inversions<Format>(std::pow(10.0, power));
+        errors["% ties at 1e" + std::to_string(power)] = ties;
+        double& most = errors["% inversions at most"];
+        most = std::max(most, inversions);
+    }
+    errors["bytes"] = sizeof(typename Format::Stored);
+
+    static const std::vector<vec3> planes = random_planes();
+    static Image<typename Format::Stored> nearest(picture_size);
+    static Image<std::uint32_t> color(picture_size);
+    add_variant("formats", name, double{layers} * picture_size.x * picture_size.y, errors, [] {
+        const auto cleared = Format::store(Format::reversed ? 0.0f : 1.0f);
+        std::fill(nearest.pixels().begin(), nearest.pixels().end(), cleared);
+        std::uint32_t paint = 0;
+        for (const vec3 plane : planes) {
+            ++paint;
+            const vec3 depths = Format::reversed ? vec3(1, 0, 0) - plane : plane;
+            for (int y = 0; y < picture_size.y; ++y)
+                for (int x = 0; x < picture_size.x; ++x) {
+                    const auto stored = Format::store(depths.x + depths.y * static_cast<float>(x) +
+                                                      depths.z * static_cast<float>(y));
+                    if (!is_nearer<Format>(stored, nearest[{x, y}])) continue;
+                    nearest[{x, y}] = stored;
+                    color[{x, y}] = paint;
+                }
+        }
+    });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    add_format<Float32>("float");
+    add_format<ReversedFloat32>("float, reversed");
+    add_format<Unorm16>("16 bits");
+    add_format<Unorm24>("24 bits");
+    return measure_variants(argc, argv);
+}

@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Puts what a benchmark measured into its page: a table and a plot for each comparison.
+
+report.py MEASURED.json PAGE.md, where the page has, for each comparison, the lines
+
+    <!-- measured: COMPARISON | TIME'S UNIT | ERROR; *ERROR; ... -->
+    <!-- end -->
+
+What stands between them is replaced. The errors are names of user counters; the one with the star
+is plotted.
+"""
+
+import json
+import math
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+
+# Times closer than this are taken as equal: another run may order them the other way round.
+TIME_TOLERANCE = 0.05
+
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 720, 400, 84, 24, 20, 62  # of a plot, px
+STYLE = """<style>
+text { fill: #64748b }
+@media (prefers-color-scheme: dark) { text { fill: #a9b4c4 } }
+</style>"""
+
+
+def read_variants(measured, comparison):
+    """The variants of a comparison in the order in which they were declared."""
+    runs = {}
+    for run in measured["benchmarks"]:
+        if run["run_type"] == "iteration" and run["name"].startswith(comparison + "/"):
+            runs.setdefault(run["family_index"], []).append(run)
+    variants = []
+    for _, repetitions in sorted(runs.items()):
+        times = [run["ns"] for run in repetitions]
+        low, _, high = statistics.quantiles(times, n=4)
+        variants.append({
+            "name": repetitions[0]["name"].split("/")[1],
+            "time": statistics.median(times),
+            "quartiles": (low, high),
+            "repetitions": len(times),
+            "errors": repetitions[0],
+        })
+    return variants
+
+
+def mark_front(variants, error):
+    """Marks the Pareto front: no other variant is more accurate and as fast, or as accurate and faster."""
+    for v in variants:
+        v["error"] = v["errors"][error]
+    for v in variants:
+        v["front"] = not any(
+            u["error"] < v["error"] and u["time"] <= v["time"] * (1 + TIME_TOLERANCE)
+            or u["error"] == v["error"] and u["time"] < v["time"] * (1 - TIME_TOLERANCE)
+            for u in variants)
+
+
+def number(value):
+    """Three significant digits, with commas between thousands."""
+    if value == round(value) and abs(value) < 1000:
+        return f"{value:.0f}"
+    digits = 2 - math.floor(math.log10(abs(value)))
+    rounded = round(value, digits)
+    return f"{rounded:,.0f}" if digits <= 0 else f"{rounded:,.{digits}f}"
+
+
+def table(variants, unit, errors):
+    head = ["variant", unit, "quartiles", *errors, ""]
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 2) + "---|"]
+    for v in variants:
+        low, high = v["quartiles"]
+        cells = [v["name"], number(v["time"]), f"{number(low)} – {number(high)}",
+                 *(number(v["errors"][e]) for e in errors), "front" if v["front"] else ""]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def time_ticks(low, high):
+    """Round numbers from low to high, as many as there is room for."""
+    for steps in ((1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), range(10, 100, 5)):
+        ticks = [m * 10.0**e for e in range(-3, 6) for m in steps if low <= m * 10.0**e <= high]
+        if len(ticks) >= 4:
+            break
+    return ticks
+
+
+class Axis:
+    """A logarithmic axis on the page, in pixels."""
+
+    def __init__(self, low, high, from_px, to_px):
+        self.low, self.high, self.from_px, self.to_px = low, high, from_px, to_px
+
+    def at(self, value):
+        share = math.log(value / self.low) / math.log(self.high / self.low)
+        return self.from_px + share * (self.to_px - self.from_px)
+
+
+def place_labels(points):
+    """For each (name, x, y) a place beside its point where nothing else is: (x, y, alignment)."""
+    taken = [(x - 8, y - 8, x + 8, y + 8) for _, x, y in points]
+    places = []
+    for name, x, y in points:
+        width, height = 7.8 * len(name), 16
+        choices = []
+        for rise in (0, -18, 18, -36, 36, -54, 54):
+            choices += [(x + 12, y + rise, "left"), (x - 12, y + rise, "right")]
+            if rise:
+                choices.append((x, y + rise, "center"))
+        for px, py, alignment in choices:
+            left = px - {"left": 0, "right": width, "center": width / 2}[alignment]
+            box = (left, py - height / 2, left + width, py + height / 2)
+            free = all(box[2] <= t[0] or t[2] <= box[0] or box[3] <= t[1] or t[3] <= box[1] for t in taken)
+            if free and box[0] > LEFT and box[2] < WIDTH - RIGHT and TOP < box[1] and box[3] < HEIGHT - BOTTOM:
+                break
+        taken.append(box)
+        places.append((px, py, alignment))
+    return places
+
+
+def plot(variants, unit, error, file):
+    """Error over time as SVG; an error of zero lies on the lowest line, which is marked 0."""
+    times = [v["time"] for v in variants]
+    positive = [v["error"] for v in variants if v["error"] > 0]
+    spread = max(times) / min(times)
+    x = Axis(min(times) / spread**0.12 / 1.3, max(times) * spread**0.12 * 1.5, LEFT, WIDTH - RIGHT)
+    lowest_decade = math.floor(math.log10(min(positive) / 1.3))
+    has_zero = len(positive) < len(variants)
+    zero = 10.0**(lowest_decade - 1)
+    y = Axis(zero / 2 if has_zero else 10.0**lowest_decade,
+             10.0**math.ceil(math.log10(max(positive) * 1.3)), HEIGHT - BOTTOM, TOP)
+
+    decades = range(lowest_decade, round(math.log10(y.high)) + 1)
+    every = 1 + len(decades) // 9
+    y_ticks = [f'"{10.0**d:,.{max(-d, 0)}f}" {10.0**d:g}' for d in decades if (d - lowest_decade) % every == 0]
+    if has_zero:
+        y_ticks.append(f'"0" {zero:g}')
+    for v in variants:
+        v["shown"] = max(v["error"], zero)
+    places = place_labels([(v["name"], x.at(v["time"]), y.at(v["shown"])) for v in variants])
+    front = sorted((v for v in variants if v["front"]), key=lambda v: v["time"])
+
+    script = [
+        f"set terminal svg size {WIDTH},{HEIGHT} dynamic font 'sans-serif,14'",
+        f"set output '{file}'",
+        f"set lmargin at screen {LEFT / WIDTH}", f"set rmargin at screen {1 - RIGHT / WIDTH}",
+        f"set tmargin at screen {1 - TOP / HEIGHT}", f"set bmargin at screen {BOTTOM / HEIGHT}",
+        "set logscale xy", "unset key", "set tics scale 0", "set border 3 linecolor rgb '#94a3b8'",
+        f"set xrange [{x.low}:{x.high}]", f"set yrange [{y.low}:{y.high}]",
+        "set grid linetype 1 linewidth 0.5 linecolor rgb '#5594a3b8'",
+        "set xtics nomirror (" + ", ".join(f'"{t:g}" {t}' for t in time_ticks(x.low, x.high)) + ")",
+        "set ytics nomirror (" + ", ".join(y_ticks) + ")",
+        f"set xlabel '{unit}'", f"set ylabel '{error}' offset 1",
+    ]
+    for v, (px, py, alignment) in zip(variants, places):
+        script.append(f"set label \"{v['name']}\" at screen {px / WIDTH}, screen {1 - py / HEIGHT} {alignment}"
+                      " font 'sans-serif,14'")
+    data = lambda vs: "\n".join(f"{v['time']} {v['shown']}" for v in vs) + "\ne"
+    others = [v for v in variants if not v["front"]]
+    script.append(
+        "plot '-' with lines linewidth 2 dashtype 2 linecolor rgb '#0d9488', "
+        "'-' with points pointtype 7 pointsize 0.9 linecolor rgb '#0d9488'"
+        + (", '-' with points pointtype 6 pointsize 0.9 linewidth 2 linecolor rgb '#7c8ca3'" if others else ""))
+    script += [data(front), data(front)] + ([data(others)] if others else [])
+    subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True)
+
+    svg = file.read_text()
+    head_end = svg.index(">", svg.index("<svg")) + 1
+    svg = svg[:head_end] + STYLE + svg[head_end:]
+    file.write_text("\n".join(line.rstrip() for line in svg.splitlines()) + "\n")
+
+
+def machine(measured):
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":", 1)[1].strip()
+    return f"{measured['context']['mhz_per_cpu']} MHz"
+
+
+def main():
+    measured = json.loads(pathlib.Path(sys.argv[1]).read_text())
+    page = pathlib.Path(sys.argv[2])
+
+    def section(match):
+        comparison, unit, errors = (part.strip() for part in match[1].split("|"))
+        plotted, = re.findall(r"\*([^;]*)", errors)
+        errors = [e.strip() for e in errors.replace("*", "").split(";")]
+        variants = read_variants(measured, comparison)
+        mark_front(variants, plotted)
+        picture = page.with_name(f"{page.stem}-{comparison}.svg")
+        plot(variants, unit, plotted, picture)
+        return "\n".join([
+            match[0].split("\n")[0], "",
+            f"![{plotted} over {unit}: {', '.join(v['name'] for v in variants)}]({picture.name})", "",
+            table(variants, unit, errors), "",
+            f"Medians and quartiles of {variants[0]['repetitions']} repetitions, the variants by turns in random order, "
+            f"on one thread ({machine(measured)}, {measured['context']['compiler']}). "
+            "*Front*: no other is more accurate and as fast, or as accurate and faster "
+            f"(by {TIME_TOLERANCE:.0%}).", "", "<!-- end -->"])
+
+    text = page.read_text()
+    changed, count = re.subn(r"<!-- measured: (.*?) -->\n.*?<!-- end -->", section, text, flags=re.DOTALL)
+    if count == 0:
+        sys.exit(f"error: {page} has no line '<!-- measured: ... -->'")
+    page.write_text(changed)
+    print(f"wrote {page} and {count} plot{'s' if count > 1 else ''}")
+
+
+main()
