@@ -104,6 +104,7 @@ TEST(Drift, EveryLessonHasAllItsParts) {
         const fs::path lesson = root / "lessons" / name;
         for (const fs::path& part :
              {lesson / "README.md", lesson / "main.cpp", root / "docs/derivations" / (name + ".md"),
+              root / "docs/accuracy" / (name + ".md"), root / "tests/accuracy" / (name + ".cpp"),
               root / "tests" / (name + "_test.cpp"), root / "tests/golden" / (name + ".png")})
             EXPECT_TRUE(fs::exists(part)) << part;
         EXPECT_TRUE(fs::is_directory(lesson / "starter") && !fs::is_empty(lesson / "starter"))
@@ -114,8 +115,8 @@ TEST(Drift, EveryLessonHasAllItsParts) {
         const std::string readme = read_text(lesson / "README.md"),
                           front = read_text(root / "README.md");
         EXPECT_EQ(readme.rfind("# Lesson " + name.substr(0, 2) + ": ", 0), 0u) << name;
-        for (const char* part :
-             {"\n> ", "\n## What goes wrong", "\n## Write it yourself", "\n## Your turn"})
+        for (const char* part : {"\n> ", "\n## What goes wrong", "\n## What accuracy costs",
+                                 "\n## Write it yourself", "\n## Your turn"})
             EXPECT_NE(readme.find(part), std::string::npos) << name << ": " << part;
         EXPECT_NE(front.find("lessons/" + name + "/README.md"), std::string::npos) << name;
     }

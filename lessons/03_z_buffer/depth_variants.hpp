@@ -11,7 +11,7 @@
 
 namespace rasterbook {
 
-enum class DepthFormat { float32, reversed_float32, unorm16, unorm24 };
+enum class DepthFormat { float32, reversed, reversed_ndc, unorm16, unorm24 };
 
 /// A depth from 0 to 1 as one of 2^bits evenly spaced whole numbers, the nearest one.
 template <int bits>
@@ -20,17 +20,23 @@ std::uint32_t unorm(float depth) {
     return static_cast<std::uint32_t>(std::lrint(depth * static_cast<float>((1 << bits) - 1)));
 }
 
+/// A depth from -1 to 1 as one from 0 to 1.
+constexpr float zero_to_one(float depth_ndc) { return (depth_ndc + 1.0f) / 2.0f; }
+
 struct DepthVariant {
     DepthFormat format = DepthFormat::float32;
     float range = 1.0f;  ///< >= 1: the model fills the farthest 1/range of the depths.
 
     void declare(Knobs& knobs) {
-        knobs.choice("--format", format,
-                     {{"float", DepthFormat::float32},
-                      {"reversed", DepthFormat::reversed_float32},
-                      {"unorm16", DepthFormat::unorm16},
-                      {"unorm24", DepthFormat::unorm24}},
-                     "What a depth is kept as; reversed is a float that is 0 at the far end");
+        knobs.choice(
+            "--format", format,
+            {{"float", DepthFormat::float32},
+             {"reversed", DepthFormat::reversed},
+             {"reversed-ndc", DepthFormat::reversed_ndc},
+             {"unorm16", DepthFormat::unorm16},
+             {"unorm24", DepthFormat::unorm24}},
+            "What a depth is kept as; reversed floats are 0 at the far end, and reversed-ndc comes "
+            "to it from -1 to 1");
         knobs.choice("--range", range,
                      {{"1", 1.0f}, {"100", 100.0f}, {"10000", 10'000.0f}, {"1000000", 1e6f}},
                      "Squeeze the model into the farthest part of the depths, one N-th of them, as "
@@ -46,8 +52,10 @@ struct DepthVariant {
         switch (format) {
             case DepthFormat::float32:
                 return 1.0f - from_far;
-            case DepthFormat::reversed_float32:
+            case DepthFormat::reversed:
                 return -from_far;
+            case DepthFormat::reversed_ndc:
+                return -zero_to_one(2.0f * from_far - 1.0f);
             // The greatest number of the format becomes 1, as in an empty pixel.
             case DepthFormat::unorm16:
                 return static_cast<float>(unorm<16>(1.0f - from_far) + 1) * 0x1p-16f;

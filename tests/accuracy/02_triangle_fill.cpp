@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
@@ -154,9 +155,9 @@ int main(int argc, char** argv) {
 
     const auto far_fans = [](const FillVariant& variant) {
         Errors errors;
-        for (const int radius : {60, 4000, 40'000, 400'000, 4'000'000})
-            errors["rim at " + std::to_string(radius) + " px"] =
-                fan_errors(variant, static_cast<float>(radius));
+        for (const char* radius : {"60", "4e3", "4e4", "4e5", "4e6"})
+            errors[std::string("wrong of a million, rim at ") + radius + " px"] =
+                fan_errors(variant, std::strtof(radius, nullptr));
         return errors;
     };
     add_variant("edges", "course", covered, far_fans({}), [=] {

@@ -19,41 +19,47 @@ using namespace rasterbook::test;
 
 namespace {
 
-// Each format: how a depth is stored, which of two is nearer, and what an empty pixel holds.
+// Each format: the depths that a projection computes for it, and how they are stored.
 struct Float32 {
     using Stored = float;
-    static constexpr bool reversed = false;
+    static constexpr float at_nearest = 0, at_farthest = 1;
     static Stored store(float depth) { return depth; }
 };
-struct ReversedFloat32 : Float32 {
-    static constexpr bool reversed = true;
+struct Reversed {
+    using Stored = float;
+    static constexpr float at_nearest = 1, at_farthest = 0;
+    static Stored store(float depth) { return depth; }
 };
-struct Unorm16 {
+struct ReversedNdc {
+    using Stored = float;
+    static constexpr float at_nearest = 1, at_farthest = -1;
+    static Stored store(float depth) { return zero_to_one(depth); }
+};
+struct Unorm16 : Float32 {
     using Stored = std::uint16_t;
-    static constexpr bool reversed = false;
     static Stored store(float depth) { return static_cast<Stored>(unorm<16>(depth)); }
 };
-struct Unorm24 {
+struct Unorm24 : Float32 {
     using Stored = std::uint32_t;
-    static constexpr bool reversed = false;
     static Stored store(float depth) { return unorm<24>(depth); }
 };
 
 template <typename Format>
 bool is_nearer(typename Format::Stored a, typename Format::Stored b) {
-    return Format::reversed ? a > b : a < b;
+    return Format::at_nearest > Format::at_farthest ? a > b : a < b;
 }
 
 /// The depth A + B / Z as a projection computes it in float: (A Z + B) / Z.
-///
-/// @param is_reversed  1 at the nearest distance and 0 at the farthest, else 0 and 1.
 struct Projection {
     float a, b;
 
-    Projection(double nearest, double farthest, bool is_reversed)
-        : a(static_cast<float>((is_reversed ? -nearest : farthest) / (farthest - nearest))),
-          b(static_cast<float>((is_reversed ? 1 : -1) * nearest * farthest /
-                               (farthest - nearest))) {}
+    /// @param at_nearest,at_farthest  The depths there.
+    Projection(double nearest, double farthest, double at_nearest, double at_farthest) {
+        const double b_exact =
+            (at_nearest - at_farthest) * nearest * farthest / (farthest - nearest);
+        a = static_cast<float>(at_farthest - b_exact / farthest);
+        b = static_cast<float>(b_exact);
+    }
     float depth(float distance) const { return (a * distance + b) / distance; }
 };
 
@@ -63,14 +69,17 @@ template <typename Format>
 std::pair<double, double> ties_and_inversions(double farthest_over_nearest) {
     constexpr double nearest = 0.1;
     constexpr int pairs = 1'000'000;
-    const Projection projection(nearest, nearest * farthest_over_nearest, Format::reversed);
+    const Projection projection(nearest, nearest * farthest_over_nearest, Format::at_nearest,
+                                Format::at_farthest);
+    const auto stored = [&](double distance) {
+        return Format::store(projection.depth(static_cast<float>(distance)));
+    };
     std::mt19937 random(1);
     std::uniform_real_distribution<double> share(0, 1);
     int ties = 0, inversions = 0;
     for (int i = 0; i < pairs; ++i) {
         const double distance = nearest * std::pow(farthest_over_nearest / 1.0001, share(random));
-        const auto front = Format::store(projection.depth(static_cast<float>(distance)));
-        const auto back = Format::store(projection.depth(static_cast<float>(1.0001 * distance)));
+        const auto front = stored(distance), back = stored(1.0001 * distance);
         ties += front == back;
         inversions += is_nearer<Format>(back, front);
     }
@@ -105,12 +114,13 @@ void add_format(const char* name) {
     static Image<typename Format::Stored> nearest(picture_size);
     static Image<std::uint32_t> color(picture_size);
     add_variant("formats", name, double{layers} * picture_size.x * picture_size.y, errors, [] {
-        const auto cleared = Format::store(Format::reversed ? 0.0f : 1.0f);
+        const auto cleared = Format::store(Format::at_farthest);
         std::fill(nearest.pixels().begin(), nearest.pixels().end(), cleared);
         std::uint32_t paint = 0;
         for (const vec3 plane : planes) {
             ++paint;
-            const vec3 depths = Format::reversed ? vec3(1, 0, 0) - plane : plane;
+            const vec3 depths =
+                vec3(Format::at_nearest, 0, 0) + (Format::at_farthest - Format::at_nearest) * plane;
             for (int y = 0; y < picture_size.y; ++y)
                 for (int x = 0; x < picture_size.x; ++x) {
                     const auto stored = Format::store(depths.x + depths.y * static_cast<float>(x) +
@@ -127,7 +137,8 @@ void add_format(const char* name) {
 
 int main(int argc, char** argv) {
     add_format<Float32>("float");
-    add_format<ReversedFloat32>("float, reversed");
+    add_format<Reversed>("float, reversed");
+    add_format<ReversedNdc>("float, reversed, −1 … 1");
     add_format<Unorm16>("16 bits");
     add_format<Unorm24>("24 bits");
     return measure_variants(argc, argv);

@@ -20,9 +20,9 @@ import subprocess
 import sys
 
 # Times closer than this are taken as equal: another run may order them the other way round.
-TIME_TOLERANCE = 0.05
+TIME_TOLERANCE = 0.1
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 720, 400, 84, 24, 20, 62  # of a plot, px
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 720, 400, 110, 24, 20, 62  # of a plot, px
 STYLE = """<style>
 text { fill: #64748b }
 @media (prefers-color-scheme: dark) { text { fill: #a9b4c4 } }
@@ -82,7 +82,7 @@ def table(variants, unit, errors):
 
 def time_ticks(low, high):
     """Round numbers from low to high, as many as there is room for."""
-    for steps in ((1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), range(10, 100, 5)):
+    for steps in ((1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8)):
         ticks = [m * 10.0**e for e in range(-3, 6) for m in steps if low <= m * 10.0**e <= high]
         if len(ticks) >= 4:
             break
@@ -100,16 +100,20 @@ class Axis:
         return self.from_px + share * (self.to_px - self.from_px)
 
 
-def place_labels(points):
-    """For each (name, x, y) a place beside its point where nothing else is: (x, y, alignment)."""
+def place_labels(points, line):
+    """For each (name, x, y) a place beside its point where no point, line or label is: (x, y, alignment)."""
     taken = [(x - 8, y - 8, x + 8, y + 8) for _, x, y in points]
+    for (ax, ay), (bx, by) in zip(line, line[1:]):
+        for i in range(1, 40):
+            x, y = ax + (bx - ax) * i / 40, ay + (by - ay) * i / 40
+            taken.append((x - 1, y - 1, x + 1, y + 1))
     places = []
     for name, x, y in points:
         width, height = 7.8 * len(name), 16
         choices = []
-        for rise in (0, -18, 18, -36, 36, -54, 54):
+        for rise in (0, -12, 12, -18, 18, -36, 36, -54, 54):
             choices += [(x + 12, y + rise, "left"), (x - 12, y + rise, "right")]
-            if rise:
+            if abs(rise) > 16:
                 choices.append((x, y + rise, "center"))
         for px, py, alignment in choices:
             left = px - {"left": 0, "right": width, "center": width / 2}[alignment]
@@ -141,8 +145,9 @@ def plot(variants, unit, error, file):
         y_ticks.append(f'"0" {zero:g}')
     for v in variants:
         v["shown"] = max(v["error"], zero)
-    places = place_labels([(v["name"], x.at(v["time"]), y.at(v["shown"])) for v in variants])
+        v["px"] = x.at(v["time"]), y.at(v["shown"])
     front = sorted((v for v in variants if v["front"]), key=lambda v: v["time"])
+    places = place_labels([(v["name"], *v["px"]) for v in variants], [v["px"] for v in front])
 
     script = [
         f"set terminal svg size {WIDTH},{HEIGHT} dynamic font 'sans-serif,14'",
@@ -154,7 +159,8 @@ def plot(variants, unit, error, file):
         "set grid linetype 1 linewidth 0.5 linecolor rgb '#5594a3b8'",
         "set xtics nomirror (" + ", ".join(f'"{t:g}" {t}' for t in time_ticks(x.low, x.high)) + ")",
         "set ytics nomirror (" + ", ".join(y_ticks) + ")",
-        f"set xlabel '{unit}'", f"set ylabel '{error}' offset 1",
+        f"set xlabel '{unit}'",
+        f"set label '{error}' at screen 0.025, screen {(1 - TOP / HEIGHT + BOTTOM / HEIGHT) / 2} rotate center",
     ]
     for v, (px, py, alignment) in zip(variants, places):
         script.append(f"set label \"{v['name']}\" at screen {px / WIDTH}, screen {1 - py / HEIGHT} {alignment}"

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// The variants that docs/accuracy measures: each keeps what its comment says.
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "01_bresenham_lines/line_variants.hpp"
+#include "02_triangle_fill/triangle_variants.hpp"
+#include "03_z_buffer/depth_variants.hpp"
+#include "common/image_io.hpp"
+#include "support/exact_area.hpp"
+#include "support/lesson_process.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr LineMethod all_methods[] = {LineMethod::bresenham, LineMethod::dda_float,
+                                      LineMethod::dda_fixed, LineMethod::wu};
+
+Image<float> drawn_line(LineMethod method, ivec2 a, ivec2 b, ivec2 size,
+                        LineEnd end = LineEnd::included) {
+    Image<float> coverage(size, 0.0f);
+    draw_line_as(method, a, b, size, end,
+                 [&](ivec2 pixel, float share) { coverage[pixel] += share; });
+    return coverage;
+}
+
+/// How often each pixel is visited, row by row.
+std::vector<int> hits_of(const FillVariant& variant, const std::array<dvec2, 3>& corners,
+                         ivec2 size) {
+    Image<int> hits(size, 0);
+    fill_bounding_box_as(variant, corners, size, [&](ivec2 pixel, vec3) { ++hits[pixel]; });
+    return {hits.pixels().begin(), hits.pixels().end()};
+}
+
+std::array<dvec2, 3> random_corners(std::mt19937& random, double low, double high) {
+    std::uniform_real_distribution<double> any(low, high);
+    std::array<dvec2, 3> corners;
+    for (dvec2& corner : corners) corner = {any(random), any(random)};
+    return corners;
+}
+
+}  // namespace
+
+TEST(Variants, EveryStepOfALineHasACoverageOfOne) {
+    constexpr ivec2 size(64);
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> inside(1, 62);
+    for (int i = 0; i < 500; ++i) {
+        const ivec2 a(inside(random), inside(random)), b(inside(random), inside(random));
+        const bool steep = std::abs(b.x - a.x) < std::abs(b.y - a.y);
+        for (const LineMethod method : all_methods) {
+            const Image<float> line = drawn_line(method, a, b, size);
+            for (int major = 0; major < 64; ++major) {
+                float sum = 0;
+                for (int minor = 0; minor < 64; ++minor)
+                    sum += line[steep ? ivec2(minor, major) : ivec2(major, minor)];
+                const auto [low, high] = steep ? std::minmax(a.y, b.y) : std::minmax(a.x, b.x);
+                EXPECT_FLOAT_EQ(sum, major >= low && major <= high ? 1.0f : 0.0f);
+            }
+            const Image<float> open = drawn_line(method, a, b, size, LineEnd::excluded);
+            EXPECT_EQ(open[b], 0.0f) << "the excluded end";
+        }
+    }
+}
+
+TEST(Variants, LinesStayInsideThePicture) {
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> anywhere(-100'000, 100'000);
+    for (int i = 0; i < 2000; ++i)
+        for (const LineMethod method : all_methods)
+            draw_line_as(method, {anywhere(random), anywhere(random)},
+                         {anywhere(random), anywhere(random)}, {40, 30}, LineEnd::included,
+                         [](ivec2 pixel, float) {
+                             ASSERT_TRUE(pixel.x >= 0 && pixel.x < 40);
+                             ASSERT_TRUE(pixel.y >= 0 && pixel.y < 30);
+                         });
+}
+
+TEST(Variants, FixedPointDriftsByAtMostHalfAStepOfItsFraction) {
+    const LineSteps line({3, 5}, {30'003, 20'004});
+    FixedRow<16> row(line, 0);
+    for (int step = 0; step <= 30'000; ++step) {
+        const double ideal = 5 + 19'999.0 * step / 30'000;
+        ASSERT_NEAR(static_cast<double>(row.row) / 65536, ideal, 0x1p-17 * step + 1e-9);
+        row.step();
+    }
+}
+
+TEST(Variants, WholeBoundingBoxesVisitWhatFillTriangleVisits) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 300; ++i) {
+        const std::array<dvec2, 3> t = random_corners(random, -20, 60);
+        std::vector<int> expected(40 * 40);
+        const ScreenTriangle on_screen = snap_triangle(t[0], t[1], t[2]);
+        const std::array<dvec2, 3> as_float = {vec2(t[0]), vec2(t[1]), vec2(t[2])};
+        fill_triangle_as({}, on_screen, as_float, ivec2(40), [&](ivec2 pixel, vec3) {
+            ++expected[static_cast<std::size_t>(pixel.y * 40 + pixel.x)];
+        });
+        EXPECT_EQ(hits_of({}, as_float, ivec2(40)), expected);
+        EXPECT_EQ(hits_of({.edges = EdgeNumber::int32}, as_float, ivec2(40)), expected)
+            << "smaller than 128 pixels";
+        std::array<dvec2, 3> snapped;
+        for (std::size_t k = 0; k < 3; ++k) snapped[k] = glm::round(as_float[k] * 256.0) / 256.0;
+        for (const EdgeNumber number : {EdgeNumber::float32, EdgeNumber::float64})
+            EXPECT_EQ(hits_of({.edges = number}, snapped, ivec2(40)), expected)
+                << "corners that need no rounding";
+    }
+}
+
+TEST(Variants, WeightsOfABoundingBoxAddUpToOne) {
+    for (const EdgeNumber number :
+         {EdgeNumber::int64, EdgeNumber::int32, EdgeNumber::float32, EdgeNumber::float64}) {
+        vec3 first(0);
+        int visited = 0;
+        fill_bounding_box_as({.edges = number}, {dvec2(1, 1), dvec2(1, 9), dvec2(9, 1)}, ivec2(20),
+                             [&](ivec2 pixel, vec3 weights) {
+                                 EXPECT_NEAR(weights.x + weights.y + weights.z, 1, 1e-6f);
+                                 if (pixel == ivec2(2, 2)) first = weights;
+                                 ++visited;
+                             });
+        EXPECT_EQ(visited, 28) << "half of the square; the diagonal is a right side, not its own";
+        EXPECT_NEAR(first.x, 1 - 2 * 1.5f / 8, 1e-6f);
+        EXPECT_NEAR(first.y, 1.5f / 8, 1e-6f);
+    }
+}
+
+TEST(Variants, FewerBitsSnapToCoarserPlaces) {
+    // From (0.6, 0.6), snapped to whole pixels: the square from 1 to 4 without its lower half.
+    const std::array<dvec2, 3> t = {dvec2(0.6, 0.6), dvec2(0.6, 4.4), dvec2(4.4, 0.6)};
+    const std::vector<int> coarse = hits_of({.subpixel_bits = 0}, t, ivec2(8));
+    const std::vector<int> whole = hits_of({}, {dvec2(1, 1), dvec2(1, 4), dvec2(4, 1)}, ivec2(8));
+    EXPECT_EQ(coarse, whole);
+    EXPECT_NE(hits_of({.subpixel_bits = 2}, t, ivec2(8)), whole);
+}
+
+TEST(Variants, CornersOutOfRangeVisitNothing) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const EdgeNumber number :
+         {EdgeNumber::int64, EdgeNumber::int32, EdgeNumber::float32, EdgeNumber::float64})
+        for (const double bad : {nan, 1e300, -0x1p22}) {
+            const std::vector<int> hits =
+                hits_of({.edges = number}, {dvec2(0, 0), dvec2(0, 9), dvec2(bad, 0)}, ivec2(8));
+            for (const int count : hits) EXPECT_EQ(count, 0) << bad;
+        }
+}
+
+TEST(Variants, AveragingKeepsTheMeanOfEachSquare) {
+    Image<vec3> picture({4, 2}, vec3(0));
+    picture[{0, 0}] = vec3(1, 0, 0);
+    picture[{3, 1}] = vec3(0, 2, 4);
+    const Image<vec3> half = averaged(picture, 2);
+    ASSERT_EQ(half.size(), ivec2(2, 1));
+    EXPECT_EQ((half[{0, 0}]), vec3(0.25f, 0, 0));
+    EXPECT_EQ((half[{1, 0}]), vec3(0, 0.5f, 1));
+}
+
+TEST(Variants, WhatIsKeptOfDepthsStaysInOrder) {
+    for (const DepthFormat format :
+         {DepthFormat::float32, DepthFormat::reversed, DepthFormat::reversed_ndc,
+          DepthFormat::unorm16, DepthFormat::unorm24})
+        for (const float range : {1.0f, 100.0f, 1e6f}) {
+            const DepthVariant variant{format, range};
+            std::map<float, int> kept;
+            float before = variant.kept(0.0f);
+            for (int i = 0; i <= 1000; ++i) {
+                const float now = variant.kept(static_cast<float>(i) / 1000);
+                ASSERT_LE(before, now);
+                ASSERT_LE(now, 1.0f) << "not nearer than an empty pixel";
+                before = now;
+                ++kept[now];
+            }
+            const bool fine = format == DepthFormat::reversed || range == 1.0f ||
+                              (range == 100.0f && format != DepthFormat::unorm16);
+            EXPECT_EQ(kept.size() == 1001, fine) << static_cast<int>(format) << ", " << range;
+        }
+}
+
+TEST(Variants, DepthsAreRoundedToTheNearestOfTheirBits) {
+    EXPECT_EQ(unorm<16>(0.0f), 0u);
+    EXPECT_EQ(unorm<16>(1.0f), 65535u);
+    EXPECT_EQ(unorm<16>(1.4f / 65535), 1u);
+    EXPECT_EQ(unorm<24>(1.0f), 16777215u);
+    EXPECT_EQ(unorm<24>(0.5f), 8388608u);
+}
+
+TEST(Variants, AreasInPixelsAddUpToThePolygon) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 100; ++i) {
+        const auto t = random_corners(random, 0, 12);
+        const dvec2 u = t[1] - t[0], v = t[2] - t[0];
+        double sum = 0;
+        for (int y = 0; y < 12; ++y)
+            for (int x = 0; x < 12; ++x) sum += area_in_pixel({t[0], t[1], t[2]}, {x, y});
+        EXPECT_NEAR(sum, 0.5 * std::abs(u.x * v.y - u.y * v.x), 1e-12 * 144);
+    }
+    EXPECT_EQ(area_in_pixel({dvec2(0, 0), dvec2(2, 0), dvec2(0, 2)}, {0, 0}), 1.0);
+    EXPECT_EQ(area_in_pixel({dvec2(0, 0), dvec2(1, 0), dvec2(0, 1)}, {0, 0}), 0.5);
+    EXPECT_EQ(area_in_pixel({dvec2(0, 0), dvec2(1, 0), dvec2(0, 1)}, {1, 0}), 0.0);
+}
+
+TEST(Variants, EveryKnobDrawsAndShowsADifference) {
+    const std::map<std::string, std::vector<std::vector<std::string>>> knobs = {
+        {"01_bresenham_lines",
+         {{"--line", "dda-float"}, {"--line", "dda-fixed"}, {"--line", "wu"}}},
+        {"02_triangle_fill",
+         {{"--edges", "int32", "--model", "triangle.obj"},
+          {"--edges", "float"},
+          {"--edges", "double"},
+          {"--subpixel-bits", "0"},
+          {"--subpixel-bits", "2"},
+          {"--subpixel-bits", "4"},
+          {"--subpixel-bits", "12"},
+          {"--subpixel-bits", "16"},
+          {"--samples", "4"},
+          {"--samples", "16"},
+          {"--samples", "64"}}},
+        {"03_z_buffer",
+         {{"--format", "unorm16", "--range", "100"},
+          {"--format", "unorm24", "--range", "10000"},
+          {"--format", "float", "--range", "1000000"},
+          {"--format", "reversed-ndc", "--range", "1000000"}}}};
+    const std::filesystem::path folder = fresh_folder("knobs");
+    const auto draw = [&](const std::string& lesson, std::vector<std::string> arguments) {
+        const std::string out = (folder / "picture.bmp").string();
+        arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
+        const ProcessResult run = run_program(lesson, arguments);
+        EXPECT_EQ(run.exit_status, 0) << run.err;
+        EXPECT_EQ(run.err, "");
+        return read_image(out);
+    };
+    for (const auto& [lesson, variants] : knobs)
+        for (const std::vector<std::string>& knob : variants) {
+            const std::vector<std::string> rest(knob.begin() + 2, knob.end());
+            const bool is_depth = knob[0] == "--format";
+            const Image<u8vec4> usual = draw(lesson, is_depth ? std::vector<std::string>{} : rest);
+            const Image<u8vec4> other = draw(lesson, knob);
+            std::size_t differing = 0;
+            for (std::size_t i = 0; i < usual.pixels().size(); ++i)
+                differing += usual.pixels()[i] != other.pixels()[i];
+            EXPECT_GT(differing, 0u) << lesson << ' ' << knob[0] << ' ' << knob[1];
+        }
+}
