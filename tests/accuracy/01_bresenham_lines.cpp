@@ -123,9 +123,9 @@ int main(int argc, char** argv) {
     for (const auto& [name, method] :
          {Variant{"Bresenham", LineMethod::bresenham}, Variant{"DDA, float", LineMethod::dda_float},
           Variant{"DDA, 16.16", LineMethod::dda_fixed}, Variant{"Wu", LineMethod::wu}}) {
-        const auto draw = [method = method] {
+        const auto draw = [how = method] {
             for (const Line& line : lines)
-                draw_line_as(method, line.a, line.b, ivec2(side), LineEnd::included,
+                draw_line_as(how, line.a, line.b, ivec2(side), LineEnd::included,
                              [&](ivec2 pixel, float coverage) {
                                  picture[pixel] = static_cast<std::uint8_t>(255 * coverage);
                              });
