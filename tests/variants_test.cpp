@@ -89,7 +89,7 @@ TEST(Variants, FixedPointDriftsByAtMostHalfAStepOfItsFraction) {
     for (int rise = 19'990; rise < 20'000; ++rise) {
         FixedRow<16> row(LineSteps({3, 5}, {30'003, 5 + rise}), 0);
         for (int step = 0; step <= 30'000; ++step) {
-            const double ideal = 5 + double{rise} * step / 30'000;
+            const double ideal = 5 + 1.0 * rise * step / 30'000;
             ASSERT_NEAR(static_cast<double>(row.row) / 65536, ideal, 0x1p-17 * step + 1e-9);
             row.step();
         }
