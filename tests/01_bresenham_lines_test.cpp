@@ -11,9 +11,10 @@
 #include "common/image.hpp"
 #include "support/ascii_picture.hpp"
 #include "support/golden.hpp"
+#include "support/look_up.hpp"
 
 using namespace rasterbook;
-using rasterbook::test::Pixels, rasterbook::test::same_pixels;
+using rasterbook::test::look_up, rasterbook::test::Pixels, rasterbook::test::same_pixels;
 
 namespace {
 
@@ -61,11 +62,16 @@ std::string name(ivec2 a, ivec2 b) {
     return text.str();
 }
 
+/// The line's ends, and the pixels visited beside the ideal ones as a picture.
+std::string compared(ivec2 a, ivec2 b, ivec2 size) {
+    return name(a, b) + "; " +
+           test::ascii_difference(set_of(walk(a, b, size)), set_of(ideal(a, b, size)));
+}
+
 void expect_ideal(ivec2 a, ivec2 b, ivec2 size) {
-    const auto pixels = walk(a, b, size), expected = ideal(a, b, size);
-    EXPECT_EQ(pixels, expected) << name(a, b) << "; "
-                                << test::ascii_difference(set_of(pixels), set_of(expected));
-    EXPECT_EQ(walk(b, a, size), expected) << name(b, a);  // Eq. 1.6
+    const auto expected = ideal(a, b, size);
+    EXPECT_EQ(walk(a, b, size), expected) << compared(a, b, size);
+    EXPECT_EQ(walk(b, a, size), expected) << compared(b, a, size);  // Eq. 1.6
 }
 
 }  // namespace
@@ -141,13 +147,14 @@ TEST(Lines, Eq1_9_BmpRowsAreFilledToAMultipleOfFour) {
 }
 
 TEST(Lines, ExhaustiveAllLinesOfASmallGridAreIdeal) {
+    look_up("Eq. 1.2 for which row it is, Eq. 1.5 for how to get there");
     constexpr int side = 33;
     int lines = 0;
     for (int i = 0; i < side * side; ++i)
         for (int j = 0; j < side * side; ++j, ++lines) {
             const ivec2 a(i % side, i / side), b(j % side, j / side);
             const auto pixels = walk(a, b, {side, side});
-            ASSERT_EQ(pixels, ideal(a, b, {side, side})) << name(a, b);
+            ASSERT_EQ(pixels, ideal(a, b, {side, side})) << compared(a, b, {side, side});
             ASSERT_EQ(pixels.size(), static_cast<std::size_t>(
                                          std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) + 1));
         }
@@ -155,16 +162,18 @@ TEST(Lines, ExhaustiveAllLinesOfASmallGridAreIdeal) {
 }
 
 TEST(Lines, ExhaustiveAllLinesAroundASmallPictureAreTheWholeLinesPixels) {
+    look_up("Eq. 1.8 for which steps are inside, Eq. 1.7 for where rows begin");
     // Ends on a 13 x 13 grid, the picture its middle 5 x 4 pixels: every way in and out.
     constexpr int side = 13;
     for (int i = 0; i < side * side; ++i)
         for (int j = 0; j < side * side; ++j) {
             const ivec2 a(i % side - 4, i / side - 4), b(j % side - 4, j / side - 4);
-            ASSERT_EQ(walk(a, b, {5, 4}), ideal(a, b, {5, 4})) << name(a, b);
+            ASSERT_EQ(walk(a, b, {5, 4}), ideal(a, b, {5, 4})) << compared(a, b, {5, 4});
         }
 }
 
 TEST(Lines, PixelsAreConnectedAndWithinHalfAPixel) {
+    look_up("Eq. 1.5");
     std::mt19937 random(2);
     std::uniform_int_distribution<int> coordinate(0, 999);
     for (int i = 0; i < 2'000; ++i) {
@@ -187,17 +196,20 @@ TEST(Lines, PixelsAreConnectedAndWithinHalfAPixel) {
 }
 
 TEST(Lines, HardCase_ZeroLengthIsOnePixel) {
+    look_up("Eq. 1.8: a line of no length is step 0 alone");
     EXPECT_EQ(walk({3, 2}, {3, 2}, {8, 8}), (std::vector<ivec2>{{3, 2}}));
     EXPECT_TRUE(walk({-1, 2}, {-1, 2}, {8, 8}).empty());
 }
 
 TEST(Lines, HardCase_AllOctants) {
+    look_up("Eq. 1.6 and the table of the three changes before it");
     for (const ivec2 b :
          {ivec2(9, 4), {4, 9}, {-4, 9}, {-9, 4}, {-9, -4}, {-4, -9}, {4, -9}, {9, -4}})
         expect_ideal({10, 10}, ivec2(10, 10) + b, {21, 21});
 }
 
 TEST(Lines, HardCase_SlopeExactlyOne) {
+    look_up("Eq. 1.5, with both lengths equal");
     for (const ivec2 b : {ivec2(7, 7), {-7, 7}, {7, -7}, {-7, -7}}) {
         const auto pixels = walk({8, 8}, ivec2(8, 8) + b, {16, 16});
         ASSERT_EQ(pixels.size(), 8u);
@@ -206,11 +218,13 @@ TEST(Lines, HardCase_SlopeExactlyOne) {
 }
 
 TEST(Lines, HardCase_HorizontalAndVertical) {
+    look_up("the table of the three changes before Eq. 1.6");
     for (const ivec2 b : {ivec2(7, 0), {-7, 0}, {0, 7}, {0, -7}})
         expect_ideal({8, 8}, ivec2(8, 8) + b, {16, 16});
 }
 
 TEST(Lines, HardCase_EndsFarOutsideMatchTheWholeLine) {
+    look_up("Eq. 1.7, 1.8, and how large the numbers get");
     for (const auto& [a, b] :
          std::vector<std::pair<ivec2, ivec2>>{{{262, 23}, {91618510, -54756195}},
                                               {{263, 214}, {80120779, 11846827}},
@@ -228,6 +242,7 @@ TEST(Lines, HardCase_EndsFarOutsideMatchTheWholeLine) {
 }
 
 TEST(Lines, HardCase_RandomEndsOfAnySizeMatchTheWholeLine) {
+    look_up("Eq. 1.7, 1.8, and how large the numbers get");
     std::mt19937 random(3);
     std::uniform_int_distribution<int> bits(1, 31);
     const auto coordinate = [&] { return static_cast<int>(random()) >> bits(random); };
@@ -236,12 +251,14 @@ TEST(Lines, HardCase_RandomEndsOfAnySizeMatchTheWholeLine) {
 }
 
 TEST(Lines, HardCase_EmptyPictureVisitsNothing) {
+    look_up("Eq. 1.8: no step is inside");
     EXPECT_TRUE(walk({-5, -5}, {5, 5}, {0, 0}).empty());
     EXPECT_TRUE(walk({-5, -5}, {5, 5}, {0, 4}).empty());
     EXPECT_TRUE(walk({-5, -5}, {5, 5}, {4, 0}).empty());
 }
 
 TEST(Lines, ExcludedEndLeavesOutThatPixelAndNoOther) {
+    look_up("Chains of lines");
     for (const ivec2 b :
          {ivec2(9, 4), {4, 9}, {-4, 9}, {-9, 4}, {-9, -4}, {-4, -9}, {4, -9}, {9, -4}, {0, 0}}) {
         const ivec2 a(10, 10), end = a + b;
@@ -253,6 +270,7 @@ TEST(Lines, ExcludedEndLeavesOutThatPixelAndNoOther) {
 }
 
 TEST(Lines, HardCase_ExcludedEndOutsideThePictureTakesNoPixelAway) {
+    look_up("Chains of lines");
     EXPECT_EQ(walk({0, 0}, {9, 3}, {5, 5}, LineEnd::excluded), walk({0, 0}, {9, 3}, {5, 5}));
     EXPECT_EQ(walk({9, 3}, {0, 0}, {5, 5}, LineEnd::excluded).size(),
               walk({9, 3}, {0, 0}, {5, 5}).size() - 1);
@@ -260,6 +278,7 @@ TEST(Lines, HardCase_ExcludedEndOutsideThePictureTakesNoPixelAway) {
 }
 
 TEST(Lines, HardCase_PolylineDrawnAdditivelyCountsEachJointOnce) {
+    look_up("Chains of lines");
     // A closed zigzag without crossings: every pixel of it is counted exactly once.
     const std::vector<ivec2> corners = {{2, 2},   {20, 5},  {38, 2}, {35, 20},
                                         {38, 38}, {20, 35}, {2, 38}, {5, 20}};

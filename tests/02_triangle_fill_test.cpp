@@ -16,11 +16,13 @@
 #include "support/ascii_picture.hpp"
 #include "support/exact.hpp"
 #include "support/golden.hpp"
+#include "support/look_up.hpp"
 #include "support/triangulations.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::exact_center, rasterbook::test::exact_twice_area,
-    rasterbook::test::exactly_snapped, rasterbook::test::Pixels, rasterbook::test::same_pixels;
+    rasterbook::test::exactly_snapped, rasterbook::test::Pixels, rasterbook::test::same_pixels,
+    rasterbook::test::look_up;
 
 namespace {
 
@@ -63,18 +65,17 @@ Pixels exactly_covered_pixels(std::array<ivec2, 3> corners, ivec2 size) {
     return pixels;
 }
 
-/// How often each pixel is visited by the triangles, as long as it is 1: else the count of others.
-struct Hits {
-    int gaps = 0, doubles = 0;
-};
-
-Hits count_hits(const std::vector<std::array<vec2, 3>>& triangles, ivec2 size) {
+Image<int> hits_of(const std::vector<std::array<vec2, 3>>& triangles, ivec2 size) {
     Image<int> hits(size);
     for (const auto& [a, b, c] : triangles)
         fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 p, vec3) { ++hits[p]; });
-    Hits result;
-    for (const int count : hits.pixels()) result.gaps += count == 0, result.doubles += count > 1;
-    return result;
+    return hits;
+}
+
+/// For EXPECT_TRUE: triangles without gap or overlap visit each pixel of the picture once.
+testing::AssertionResult visit_each_pixel_once(const std::vector<std::array<vec2, 3>>& triangles,
+                                               ivec2 size) {
+    return test::each_pixel_once(hits_of(triangles, size));
 }
 
 // The worked example of the text.
@@ -237,12 +238,14 @@ TEST(TriangleFill, Eq2_10_FanHasThePolygonsArea) {
 }
 
 TEST(TriangleFill, FacingIsSeenFromTheFront) {
+    look_up("Front and back");
     EXPECT_TRUE(is_front_facing(snap_triangle(a, b, c)));
     EXPECT_FALSE(is_front_facing(snap_triangle(a, c, b)));
     EXPECT_FALSE(is_front_facing(snap_triangle(a, a, b)));
 }
 
 TEST(TriangleFill, ExhaustiveAllTrianglesOfAQuarterPixelLatticeAreExact) {
+    look_up("Eq. 2.7 for centres on a side, Eq. 2.6 for the columns");
     constexpr int side = 9, points = side * side;
     const auto point = [](int i) {
         return vec2(static_cast<float>(i % side), static_cast<float>(i / side)) * 0.25f;
@@ -268,6 +271,7 @@ TEST(TriangleFill, ExhaustiveAllTrianglesOfAQuarterPixelLatticeAreExact) {
 }
 
 TEST(TriangleFill, RandomTrianglesOfAllSizesAreExact) {
+    look_up("Eq. 2.6 and 2.9");
     std::mt19937 random(4);
     std::uniform_real_distribution<float> exponent(0, 22), sign(-1, 1);
     for (int i = 0; i < 20'000; ++i) {
@@ -285,15 +289,16 @@ TEST(TriangleFill, RandomTrianglesOfAllSizesAreExact) {
 }
 
 TEST(TriangleFill, RandomTriangulationsCoverEachPixelOnce) {
+    look_up("Eq. 2.7");
     constexpr ivec2 size(64, 48);
     for (unsigned seed = 0; seed < 10'000; ++seed) {
-        const Hits hits = count_hits(test::random_triangulation(size, seed), size);
-        ASSERT_EQ(hits.gaps, 0) << "seed " << seed;
-        ASSERT_EQ(hits.doubles, 0) << "seed " << seed;
+        ASSERT_TRUE(visit_each_pixel_once(test::random_triangulation(size, seed), size))
+            << "seed " << seed;
     }
 }
 
 TEST(TriangleFill, HardCase_FansAroundPixelCentresCoverEachPixelOnce) {
+    look_up("Eq. 2.7: centres on a side belong to one of two neighbours");
     constexpr ivec2 size(256, 192);
     std::mt19937 random(5);
     std::uniform_int_distribution<int> x(0, size.x - 1), y(0, size.y - 1), spread(-600, 600);
@@ -304,13 +309,13 @@ TEST(TriangleFill, HardCase_FansAroundPixelCentresCoverEachPixelOnce) {
             for (int k = -600; k < 600; k += 75)
                 rim.push_back(vec2(0.5f) + 600.0f * vec2(-step.y, step.x) +
                               static_cast<float>(k) * step);
-        const Hits hits = count_hits(test::fan(vec2(x(random), y(random)) + 0.5f, rim), size);
-        ASSERT_EQ(hits.gaps + hits.doubles, 0) << "fan " << i;
+        const vec2 center = vec2(x(random), y(random)) + 0.5f;
+        ASSERT_TRUE(visit_each_pixel_once(test::fan(center, rim), size)) << "fan " << i;
     }
 }
 
 /// The same hits with edge functions in float and the top-left rule, to see that a case is hard.
-Hits count_hits_in_float(const std::vector<std::array<vec2, 3>>& triangles, ivec2 size) {
+Image<int> hits_in_float(const std::vector<std::array<vec2, 3>>& triangles, ivec2 size) {
     Image<int> hits(size);
     for (const auto& corners : triangles)
         for (int y = 0; y < size.y; ++y)
@@ -324,9 +329,7 @@ Hits count_hits_in_float(const std::vector<std::array<vec2, 3>>& triangles, ivec
                 }
                 hits[{x, y}] += inside;
             }
-    Hits result;
-    for (const int count : hits.pixels()) result.gaps += count == 0, result.doubles += count > 1;
-    return result;
+    return hits;
 }
 
 std::vector<vec2> round_rim(float radius, int corners) {
@@ -339,26 +342,30 @@ std::vector<vec2> round_rim(float radius, int corners) {
 }
 
 TEST(TriangleFill, HardCase_FansWithFarCornersCoverEachPixelOnce) {
+    look_up("Eq. 2.8 and 2.9: whole numbers do not round");
     constexpr ivec2 size(1280, 960);
     for (const float radius : {4e3f, 4e4f, 4e5f, 4e6f}) {
-        const Hits hits = count_hits(test::fan({600.37f, 500.81f}, round_rim(radius, 300)), size);
-        EXPECT_EQ(hits.gaps, 0) << "radius " << radius;
-        EXPECT_EQ(hits.doubles, 0) << "radius " << radius;
+        const auto triangles = test::fan({600.37f, 500.81f}, round_rim(radius, 300));
+        EXPECT_TRUE(visit_each_pixel_once(triangles, size)) << "radius " << radius;
     }
 }
 
 TEST(TriangleFill, FansWithFarCornersAreHardForFloat) {
+    look_up("Eq. 2.8");
     constexpr ivec2 size(1280, 960);
     for (const float radius : {4e3f, 4e6f}) {
-        const Hits hits =
-            count_hits_in_float(test::fan({600.37f, 500.81f}, round_rim(radius, 36)), size);
-        EXPECT_GT(hits.gaps + hits.doubles, 0) << "radius " << radius;
-        std::cout << "edge functions in float, rim at " << radius << " pixels: " << hits.gaps
-                  << " gaps, " << hits.doubles << " double hits\n";
+        const Image<int> hits =
+            hits_in_float(test::fan({600.37f, 500.81f}, round_rim(radius, 36)), size);
+        int gaps = 0, doubles = 0;
+        for (const int count : hits.pixels()) gaps += count == 0, doubles += count > 1;
+        EXPECT_GT(gaps + doubles, 0) << "radius " << radius;
+        std::cout << "edge functions in float, rim at " << radius << " pixels: " << gaps
+                  << " gaps, " << doubles << " double hits\n";
     }
 }
 
 TEST(TriangleFill, HardCase_OrientationOfNearlyCollinearPointsIsExact) {
+    look_up("Eq. 2.2, and 2.8 for what snapping does to it");
     // Kettner's grid, on the lattice where edge functions live: p one unit from another, q and r
     // far.
     int wrong = 0;
@@ -380,6 +387,7 @@ TEST(TriangleFill, HardCase_OrientationOfNearlyCollinearPointsIsExact) {
 }
 
 TEST(TriangleFill, HardCase_ZeroAreaCoversNothing) {
+    look_up("Eq. 2.8, and what snapping does to thin triangles");
     EXPECT_TRUE(covered({2.5f, 2.5f}, {2.5f, 2.5f}, {2.5f, 2.5f}, {8, 8}).empty());
     EXPECT_TRUE(covered({0.5f, 0.5f}, {7.5f, 7.5f}, {3.5f, 3.5f}, {8, 8}).empty())
         << "collinear, through centres";
@@ -390,6 +398,7 @@ TEST(TriangleFill, HardCase_ZeroAreaCoversNothing) {
 }
 
 TEST(TriangleFill, HardCase_SliversThinnerThanASubpixelAreExact) {
+    look_up("Eq. 2.8, and what snapping does to thin triangles");
     constexpr ivec2 size(40, 30);
     std::mt19937 random(7);
     std::uniform_real_distribution<float> x(0, size.x), y(0, size.y), along(-1, 2),
@@ -407,6 +416,7 @@ TEST(TriangleFill, HardCase_SliversThinnerThanASubpixelAreExact) {
 }
 
 TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameWeights) {
+    look_up("Front and back, and Eq. 2.4 for the weights");
     const std::array<vec2, 3> p = {{{3.3f, 1.7f}, {1.2f, 13.9f}, {14.6f, 9.1f}}};
     const Pixels expected = covered(p[0], p[1], p[2], {16, 16});
     EXPECT_GT(expected.size(), 40u);
@@ -430,6 +440,7 @@ TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameWei
 }
 
 TEST(TriangleFill, HardCase_NotANumberInfiniteAndHugeCornersCoverNothing) {
+    look_up("Eq. 2.9: what is refused");
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
                     infinity = std::numeric_limits<float>::infinity();
     for (const float bad :
@@ -446,6 +457,7 @@ TEST(TriangleFill, HardCase_NotANumberInfiniteAndHugeCornersCoverNothing) {
 }
 
 TEST(TriangleFill, HardCase_TriangleFromAMillionPixelsAwayCoversTheWholePicture) {
+    look_up("Eq. 2.9");
     constexpr ivec2 size(64, 48);
     constexpr std::size_t all = 64 * 48;
     for (const float far : {1e6f, 4.19e6f}) {
@@ -459,6 +471,7 @@ TEST(TriangleFill, HardCase_TriangleFromAMillionPixelsAwayCoversTheWholePicture)
 }
 
 TEST(TriangleFill, HardCase_EmptyPictureVisitsNothing) {
+    look_up("All steps in their order, step 2");
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {0, 0}).empty());
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {5, 0}).empty());
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {0, 5}).empty());

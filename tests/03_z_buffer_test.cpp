@@ -15,10 +15,11 @@
 #include "common/math/numerics.hpp"
 #include "support/exact.hpp"
 #include "support/golden.hpp"
+#include "support/look_up.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::exact_center, rasterbook::test::exact_twice_area,
-    rasterbook::test::exactly_snapped;
+    rasterbook::test::exactly_snapped, rasterbook::test::look_up;
 
 namespace {
 
@@ -113,6 +114,7 @@ TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestCornerIsTheSameDepth) {
 }
 
 TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
+    look_up("Eq. 3.3, and how large its error is");
     int compared = 0;
     for (const auto& [p, id] : random_patches(2, 2'000, {40, 30})) {
         const auto depths = depths_of(p, {0, 0}, {40, 30});
@@ -130,6 +132,7 @@ TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
 }
 
 TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {
+    look_up("Eq. 3.3: all differences are 0");
     int covered = 0;
     for (const float z : {0.0f, 0.1f, 0.7f, 0.333333f, 1.0f})
         for (const auto& [p, id] : random_patches(3, 100, {40, 30})) {
@@ -145,6 +148,7 @@ TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {
 }
 
 TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
+    look_up("Eq. 3.1: less, not less or equal");
     DepthBuffer depth({1, 1});
     EXPECT_TRUE(depth.test_and_write(origin, 0.5f));
     EXPECT_FALSE(depth.test_and_write(origin, 0.5f));
@@ -156,6 +160,7 @@ TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
 }
 
 TEST(ZBuffer, HardCase_ClearValueZeroOneAndMinusZero) {
+    look_up("Eq. 3.1: the buffer starts at 1");
     DepthBuffer depth({1, 1});
     EXPECT_EQ(depth.depths()[origin], 1.0f);
     EXPECT_FALSE(depth.test_and_write(origin, 1.0f)) << "the far plane itself is not drawn";
@@ -167,12 +172,14 @@ TEST(ZBuffer, HardCase_ClearValueZeroOneAndMinusZero) {
 }
 
 TEST(ZBuffer, HardCase_NotANumberIsNeverNearer) {
+    look_up("Eq. 3.1; every comparison with NaN is false");
     DepthBuffer depth({1, 1});
     EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()));
     EXPECT_EQ(depth.depths()[origin], 1.0f);
 }
 
 TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
+    look_up("Eq. 3.1");
     std::vector<Patch> patches = random_patches(4, 12, {60, 40});
     const Image<int> first = visible(patches, {60, 40});
     EXPECT_GT(std::set<int>(first.pixels().begin(), first.pixels().end()).size(), 5u);
@@ -184,6 +191,7 @@ TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
 }
 
 TEST(ZBuffer, HardCase_RotatedCornersGiveTheSameBits) {
+    look_up("Eq. 3.3, and mind the bracket");
     std::set<float> different;
     for (const auto& [p, id] : random_patches(6, 3'000, {40, 30})) {
         const auto depths = depths_of(p, {0, 0}, {40, 30});
@@ -222,6 +230,7 @@ long double error_of_plane_from_origin(const std::array<vec3, 3>& p, const Image
 }
 
 TEST(ZBuffer, HardCase_SteepSmallTrianglesFarFromTheOrigin) {
+    look_up("Eq. 3.3, in place of slopes from the origin");
     constexpr ivec2 corner(2990, 2990);
     constexpr std::int64_t least_twice_area = 100 * 256 * 256;  // thinner ones are harder still
     std::mt19937 random(7);
@@ -249,6 +258,7 @@ TEST(ZBuffer, HardCase_SteepSmallTrianglesFarFromTheOrigin) {
 }
 
 TEST(ZBuffer, HardCase_InterpenetratingTrianglesMeetOnTheExactLine) {
+    look_up("Eq. 3.1 and 3.3");
     constexpr ivec2 size(60, 40);
     std::mt19937 random(8);
     std::uniform_real_distribution<float> z(0, 1);

@@ -164,6 +164,22 @@ TEST(Drift, EveryNumberedEquationIsCitedInCodeAndInATest) {
                 std::replace(number.begin(), number.end(), '_', '.');
                 in_tests.insert(number);
             }
+    for (const std::string& name : lessons()) {
+        const std::string test = read_text(root / "tests" / (name + "_test.cpp"));
+        const auto count = [&](const std::string& piece) {
+            int times = 0;
+            for (auto at = test.find(piece); at != test.npos; at = test.find(piece, at + 1))
+                ++times;
+            return times;
+        };
+        EXPECT_GT(count("\nTEST("), 5);
+        EXPECT_EQ(count("\nTEST("), count(", Eq" + std::to_string(std::stoi(name)) + "_") +
+                                        count(", PictureOf") + count("    look_up("))
+            << name << ": each test names an equation or says where to read";
+        for (const std::string& place : all_between(test, "look_up(", ";"))
+            for (const std::string& number : cited_equations(place))
+                EXPECT_TRUE(numbered.contains(number)) << name << ": " << place;
+    }
     EXPECT_EQ(in_code, numbered);
     EXPECT_EQ(in_tests, numbered);
     EXPECT_GT(numbered.size(), 15u);

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "common/image.hpp"
 #include "support/printers.hpp"
 
 namespace rasterbook::test {
@@ -44,6 +46,31 @@ inline testing::AssertionResult same_pixels(const Pixels& actual, const Pixels& 
     if (actual == expected) return testing::AssertionSuccess();
     return testing::AssertionFailure()
            << "other pixels than expected; " << ascii_difference(actual, expected);
+}
+
+/// For EXPECT_TRUE: all counts are 1; says how many are not, with a picture around the first.
+inline testing::AssertionResult each_pixel_once(const Image<int>& hits) {
+    int gaps = 0, doubles = 0;
+    ivec2 first(-1);
+    for (int y = 0; y < hits.size().y; ++y)
+        for (int x = 0; x < hits.size().x; ++x) {
+            const int count = hits[{x, y}];
+            gaps += count == 0, doubles += count > 1;
+            if (count != 1 && first.x < 0) first = {x, y};
+        }
+    if (first.x < 0) return testing::AssertionSuccess();
+    const ivec2 low = glm::max(first - ivec2(20, 4), ivec2(0));
+    const ivec2 high = glm::min(first + ivec2(20, 8), hits.size() - 1);
+    std::ostringstream text;
+    text << gaps << " pixels are never visited, " << doubles
+         << " more than once; around the first, (" << first.x << ", " << first.y
+         << "): # once, ? never, ! more than once\n";
+    for (int y = low.y; y <= high.y; ++y) {
+        for (int x = low.x; x <= high.x; ++x)
+            text << (hits[{x, y}] == 1 ? '#' : hits[{x, y}] == 0 ? '?' : '!');
+        text << '\n';
+    }
+    return testing::AssertionFailure() << text.str();
 }
 
 }  // namespace rasterbook::test
