@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "common/image_io.hpp"
+#include "support/image_doctor.hpp"
 #include "support/lesson_process.hpp"
 #include "support/picture_difference.hpp"
 
@@ -68,7 +69,9 @@ testing::AssertionResult equals_golden(const std::string& lesson, const std::str
     return testing::AssertionFailure()
            << difference.differing << " pixels differ (" << difference.allowed
            << " may), the most by " << difference.greatest << " of 255 (" << levels_that_may_differ
-           << " may)\nexpected | actual | difference: " << comparison.string()
+           << " may)\nThe picture: "
+           << diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()))
+           << "\nexpected | actual | difference: " << comparison.string()
            << "\nIf the new picture is right: ./tests/run --update-golden";
 }
 
