@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "support/golden.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
 #include "common/image_io.hpp"
+#include "support/image_doctor.hpp"
 #include "support/lesson_process.hpp"
+#include "support/picture_difference.hpp"
 
 namespace rasterbook::test {
 
 namespace {
-
-// The pictures are made with + - * / and square roots, which are the same everywhere; only the
-// power in the sRGB code may differ between C libraries, in its last bit, and then by one level
-// here and there.
-constexpr int levels_that_may_differ = 1;
-constexpr double share_of_pixels_that_may_differ = 0.005;
-
-int greatest_difference(u8vec4 a, u8vec4 b) {
-    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
-}
 
 /// Three pictures of one size in a row: expected | actual | difference, the last one four times as
 /// strong.
@@ -66,16 +57,8 @@ testing::AssertionResult equals_golden(const std::string& lesson, const std::str
         return may_replace ? replace_golden()
                            : testing::AssertionFailure()
                                  << "the sizes differ; see " << actual_file.string();
-    std::size_t differing = 0;
-    int greatest = 0;
-    for (std::size_t i = 0; i < expected.pixels().size(); ++i) {
-        const int difference = greatest_difference(expected.pixels()[i], actual.pixels()[i]);
-        greatest = std::max(greatest, difference);
-        differing += difference > 0;
-    }
-    const auto allowed = static_cast<std::size_t>(share_of_pixels_that_may_differ *
-                                                  static_cast<double>(expected.pixels().size()));
-    if (differing <= allowed && greatest <= levels_that_may_differ) {
+    const PictureDifference difference = picture_difference(actual, expected);
+    if (difference.is_tolerable()) {
         std::filesystem::remove(actual_file);
         return testing::AssertionSuccess();
     }
@@ -84,9 +67,11 @@ testing::AssertionResult equals_golden(const std::string& lesson, const std::str
         std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_comparison.png");
     write_image(comparison, side_by_side(expected, actual));
     return testing::AssertionFailure()
-           << differing << " pixels differ (" << allowed << " may), the most by " << greatest
-           << " of 255 (" << levels_that_may_differ
-           << " may)\nexpected | actual | difference: " << comparison.string()
+           << difference.differing << " pixels differ (" << difference.allowed
+           << " may), the most by " << difference.greatest << " of 255 (" << levels_that_may_differ
+           << " may)\nThe picture: "
+           << diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()))
+           << "\nexpected | actual | difference: " << comparison.string()
            << "\nIf the new picture is right: ./tests/run --update-golden";
 }
 

@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: MIT
+// Pictures made wrong on purpose, by mistakes in the renderer or in what becomes of its picture.
+#include "support/image_doctor.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "02_triangle_fill/flat_color.hpp"
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "common/backdrop.hpp"
+#include "common/image_io.hpp"
+#include "common/math/color.hpp"
+#include "common/obj.hpp"
+#include "common/parallel_view.hpp"
+#include "support/lesson_process.hpp"
+#include "support/picture_difference.hpp"
+
+using namespace rasterbook;
+using rasterbook::test::diagnose, rasterbook::test::fresh_folder, rasterbook::test::ProcessResult,
+    rasterbook::test::run_program;
+
+namespace {
+
+const std::string lesson_02 = "02_triangle_fill", lesson_03 = "03_z_buffer",
+                  program = "tests/diagnose";
+
+constexpr ivec2 size{320, 180};
+
+/// What a lesson is asked to draw.
+struct Shot {
+    std::string lesson;
+    std::vector<std::string> options;
+    std::string model = "teapot.obj";
+
+    bool has(const std::string& option) const {
+        return std::find(options.begin(), options.end(), option) != options.end();
+    }
+};
+
+const Shot filled{lesson_02, {}}, filled_weights{lesson_02, {"--paint", "weights"}},
+    nearest{lesson_03, {}}, nearest_weights{lesson_03, {"--paint", "weights"}},
+    depths{lesson_03, {"--depth"}}, crate{lesson_03, {"--model", "crate.obj"}, "crate.obj"},
+    one_triangle{lesson_02, {"--model", "triangle.obj", "--paint", "weights"}, "triangle.obj"};
+const std::vector<Shot> all_shots{filled, filled_weights, nearest,     nearest_weights,
+                                  depths, crate,          one_triangle};
+
+Scene scene_of(const Shot& shot) {
+    return load_obj(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / shot.model);
+}
+
+/// The places of the lessons' pipeline in which a mistake can be made; right as they stand.
+struct Pipeline {
+    std::function<vec3(vec3)> place = [](vec3 corner) { return corner; };
+    std::function<bool(const ScreenTriangle&)> is_drawn = is_front_facing;
+    std::function<bool(int)> is_skipped = [](int) { return false; };
+    std::function<bool(float, float)> is_nearer = std::less<float>();
+    float cleared = 1;
+    std::function<vec3(vec3)> weights_for = [](vec3 weights) { return weights; };
+    std::function<vec3(vec3)> shade = [](vec3 color) { return color; };
+    std::function<float(float)> encode = [](float linear) { return srgb_from_linear(linear); };
+};
+
+/// The pictures of lessons 02 and 03.
+Image<u8vec4> render(const Shot& shot, const Pipeline& pipeline = {}) {
+    const Scene scene = scene_of(shot);
+    const ParallelView view(scene, size);
+    Image<vec3> color = backdrop(size);
+    Image<float> buffer(size, pipeline.cleared);
+    int number = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
+        for (const Triangle& triangle : mesh.triangles) {
+            const vec3 a = pipeline.place(positions_screen[triangle.corners[0].position]);
+            const vec3 b = pipeline.place(positions_screen[triangle.corners[1].position]);
+            const vec3 c = pipeline.place(positions_screen[triangle.corners[2].position]);
+            const ScreenTriangle on_screen = snap_triangle(a, b, c);
+            if (pipeline.is_skipped(number++) || !pipeline.is_drawn(on_screen)) continue;
+            const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
+            const TriangleDepth depth(vec3(a.z, b.z, c.z));
+            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 true_weights) {
+                const vec3 weights = pipeline.weights_for(true_weights);
+                if (shot.lesson == lesson_03 &&
+                    !pipeline.is_nearer(depth.at(weights), buffer[pixel]))
+                    return;
+                buffer[pixel] = depth.at(weights);
+                color[pixel] = pipeline.shade(shot.has("weights") ? weights : face_color);
+            });
+        }
+    }
+    if (shot.has("--depth")) {
+        DepthBuffer shown(size);
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) shown.test_and_write({x, y}, buffer[{x, y}]);
+        color = depth_picture(shown);
+    }
+    Image<u8vec4> picture(size);
+    for (std::size_t i = 0; i < picture.pixels().size(); ++i)
+        for (int channel = 0; channel < 4; ++channel) {
+            const float linear = channel < 3 ? color.pixels()[i][channel] : 1.0f;
+            picture.pixels()[i][channel] = static_cast<std::uint8_t>(
+                255 * std::clamp(pipeline.encode(std::clamp(linear, 0.0f, 1.0f)), 0.0f, 1.0f) +
+                0.5f);
+        }
+    return picture;
+}
+
+/// What the diagnosis says before the colon, "LOOK" or "LOOK or LOOK".
+std::string look(const Shot& shot, const Image<u8vec4>& actual, const Image<u8vec4>& expected) {
+    std::istringstream lines(
+        diagnose(actual, expected, test::picture_facts(shot.lesson, shot.options, actual.size())));
+    std::string looks;
+    for (std::string line; std::getline(lines, line);)
+        looks += (looks.empty() ? "" : " ") + line.substr(0, line.find(": "));
+    return looks;
+}
+
+std::string look(const Shot& shot, const Image<u8vec4>& actual) {
+    return look(shot, actual, render(shot));
+}
+
+std::string look(const Shot& shot, const Pipeline& pipeline) {
+    return look(shot, render(shot, pipeline));
+}
+
+/// A pipeline with corners in wrong places.
+Pipeline placed(std::function<vec3(vec3)> place) {
+    Pipeline pipeline;
+    pipeline.place = std::move(place);
+    return pipeline;
+}
+
+bool is_back_facing(const ScreenTriangle& triangle) { return triangle.twice_area < 0; }
+
+/// A lesson's picture as its program draws it.
+Image<u8vec4> drawn(const Shot& shot) {
+    const auto file = fresh_folder("doctor") / "a.png";
+    std::vector<std::string> arguments = {"--size", "320x180", "--out", file.string()};
+    arguments.insert(arguments.end(), shot.options.begin(), shot.options.end());
+    EXPECT_EQ(run_program(shot.lesson, arguments).exit_status, 0);
+    return read_image(file);
+}
+
+/// A picture whose pixel p is source(p) of another.
+template <typename Source>
+Image<u8vec4> rearranged(const Image<u8vec4>& picture, Source source) {
+    Image<u8vec4> result(picture.size());
+    for (int y = 0; y < result.size().y; ++y)
+        for (int x = 0; x < result.size().x; ++x) result[{x, y}] = picture[source(ivec2(x, y))];
+    return result;
+}
+
+const char* const nothing_usual = "none of the usual mistakes explains it";
+
+}  // namespace
+
+TEST(ImageDoctor, RightPicturesAreNotAccused) {
+    for (const Shot& shot : all_shots) {
+        EXPECT_EQ(look(shot, render(shot)), "") << testing::PrintToString(shot.options);
+        EXPECT_EQ(render(shot), drawn(shot)) << "this test's pipeline is not the lesson's";
+    }
+    for (const auto& golden : std::filesystem::directory_iterator(RASTERBOOK_GOLDEN)) {
+        const Image<u8vec4> picture = read_image(golden.path());
+        const std::string lesson = golden.path().filename().string();
+        EXPECT_EQ(look({lesson, {}}, picture, picture), "") << lesson;
+    }
+}
+
+TEST(ImageDoctor, NoiseOfALevelIsNotAccused) {
+    std::mt19937 random(7);
+    for (const Shot& shot : {filled, nearest_weights, depths}) {
+        Image<u8vec4> noisy = render(shot);
+        for (u8vec4& color : noisy.pixels())
+            if (random() % 250 == 0)
+                color.g = static_cast<std::uint8_t>(color.g < 255 ? color.g + 1 : 254);
+        EXPECT_NE(noisy, render(shot));
+        EXPECT_EQ(look(shot, noisy), "");
+    }
+}
+
+TEST(ImageDoctor, FlippedFiles) {
+    const ivec2 last = size - ivec2(1);
+    for (const Shot& shot : {Shot{"01_bresenham_lines", {}}, filled, nearest, nearest_weights}) {
+        const Image<u8vec4> right = drawn(shot);
+        const auto flipped = [&](auto source) {
+            return look(shot, rearranged(right, source), right);
+        };
+        EXPECT_EQ(flipped([&](ivec2 p) { return ivec2(last.x - p.x, p.y); }),
+                  "flipped left to right");
+        EXPECT_EQ(flipped([&](ivec2 p) { return ivec2(p.x, last.y - p.y); }),
+                  "flipped top to bottom, the background too");
+        EXPECT_EQ(flipped([&](ivec2 p) { return last - p; }),
+                  "turned by 180 degrees, the background too");
+    }
+}
+
+TEST(ImageDoctor, MirroredViews) {
+    const auto mirrored_x = [](vec3 p) { return vec3(static_cast<float>(size.x) - p.x, p.y, p.z); };
+    const auto mirrored_y = [](vec3 p) { return vec3(p.x, static_cast<float>(size.y) - p.y, p.z); };
+    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights}) {
+        Pipeline pipeline = placed(mirrored_x);
+        EXPECT_EQ(look(shot, pipeline),
+                  "the model is flipped left to right, and its backs are seen");
+        pipeline.is_drawn = is_back_facing;
+        EXPECT_EQ(look(shot, pipeline), "flipped left to right");
+        pipeline = placed(mirrored_y);
+        EXPECT_EQ(look(shot, pipeline),
+                  "the model is flipped top to bottom, and its backs are seen");
+        pipeline.is_drawn = is_back_facing;
+        EXPECT_EQ(look(shot, pipeline), "the model is flipped top to bottom");
+        EXPECT_EQ(look(shot, placed([&](vec3 p) { return mirrored_x(mirrored_y(p)); })),
+                  "the model is flipped left to right and top to bottom");
+    }
+}
+
+TEST(ImageDoctor, ExchangedChannels) {
+    for (const Shot& shot : {Shot{"01_bresenham_lines", {}}, filled, nearest, filled_weights}) {
+        const Image<u8vec4> right = drawn(shot);
+        Image<u8vec4> blue_first = right, round = right;
+        for (u8vec4& color : blue_first.pixels()) std::swap(color.r, color.b);
+        for (u8vec4& color : round.pixels()) color = {color.g, color.b, color.r, color.a};
+        EXPECT_EQ(look(shot, blue_first, right), "red and blue exchanged");
+        EXPECT_EQ(look(shot, round, right), "red holds green, green holds blue, blue holds red");
+    }
+}
+
+TEST(ImageDoctor, WrongWeights) {
+    Pipeline exchanged, round;
+    exchanged.weights_for = [](vec3 weights) { return vec3(weights.y, weights.x, weights.z); };
+    round.weights_for = [](vec3 weights) { return vec3(weights.z, weights.x, weights.y); };
+    for (const Shot& shot : {filled_weights, nearest_weights}) {
+        EXPECT_EQ(look(shot, exchanged),
+                  "the weights belong to the wrong corners, those of a and b exchanged");
+        EXPECT_EQ(look(shot, round),
+                  "the weights belong to the wrong corners, a has c's, b has a's, c has b's");
+    }
+    EXPECT_EQ(look(one_triangle, round),
+              "the weights belong to the wrong corners, a has c's, b has a's, c has b's");
+    // Where no weight is painted, depth alone shows them.
+    for (const Shot& shot : {nearest, depths})
+        EXPECT_EQ(look(shot, exchanged), "depths belong to the wrong corners");
+}
+
+TEST(ImageDoctor, Gamma) {
+    Pipeline twice, none;
+    twice.encode = [](float linear) { return srgb_from_linear(srgb_from_linear(linear)); };
+    none.encode = [](float linear) { return linear; };
+    for (const Shot& shot : all_shots) {
+        EXPECT_EQ(look(shot, twice), "too bright and pale, sRGB encoded twice");
+        EXPECT_EQ(look(shot, none), "too dark, not sRGB encoded");
+    }
+}
+
+TEST(ImageDoctor, ShiftedByPixels) {
+    for (const Shot& shot : all_shots) {
+        EXPECT_EQ(look(shot, placed([](vec3 p) { return p + vec3(1, 0, 0); })),
+                  "shifted by 1 pixel to the right");
+        EXPECT_EQ(look(shot, placed([](vec3 p) { return p + vec3(-1, 2, 0); })),
+                  "shifted by 1 pixel to the left and 2 pixels down");
+    }
+}
+
+TEST(ImageDoctor, ShiftedByHalfAPixel) {
+    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights, depths}) {
+        EXPECT_EQ(look(shot, placed([](vec3 p) { return p + vec3(0.5f, 0.5f, 0); })),
+                  "shifted by half a pixel to the right and half a pixel down");
+        EXPECT_EQ(look(shot, placed([](vec3 p) { return p - vec3(0.5f, 0.5f, 0); })),
+                  "shifted by half a pixel to the left and half a pixel up");
+        EXPECT_EQ(look(shot, placed([](vec3 p) { return p + vec3(0.5f, 0, 0); })),
+                  "shifted by half a pixel to the right");
+        EXPECT_NE(
+            look(shot, placed([](vec3 p) { return p + vec3(0.25f, 0, 0); })).find(nothing_usual),
+            std::string::npos);
+    }
+}
+
+TEST(ImageDoctor, WrongSurfaceInFront) {
+    Pipeline farthest, last, cleared_for_less;
+    farthest.is_nearer = std::greater<float>();
+    cleared_for_less = farthest;
+    farthest.cleared = 0;
+    last.is_nearer = [](float, float) { return true; };
+    const Pipeline reversed = placed([](vec3 p) { return vec3(p.x, p.y, 1 - p.z); });
+    for (const Shot& shot : {nearest, nearest_weights, depths}) {
+        EXPECT_EQ(look(shot, farthest), "the farthest surface is seen in place of the nearest");
+        EXPECT_EQ(look(shot, last), "each triangle covers those before it");
+        EXPECT_EQ(look(shot, cleared_for_less), "nothing of the model is seen");
+        EXPECT_EQ(look(shot, reversed),
+                  shot.has("--depth") ? "near is dark and far is bright"
+                                      : "the farthest surface is seen in place of the nearest");
+    }
+}
+
+TEST(ImageDoctor, LightAndDarkOfDepthsExchanged) {
+    Image<u8vec4> picture = render(depths);
+    for (u8vec4& color : picture.pixels())
+        if (color.r > 0) color = u8vec4(u8vec3(ivec3(280 - color.r)), 255);  // 25 to 255
+    EXPECT_EQ(look(depths, picture), "near is dark and far is bright");
+}
+
+TEST(ImageDoctor, WrongFacing) {
+    Pipeline inside_out, both;
+    inside_out.is_drawn = is_back_facing;
+    both.is_drawn = [](const ScreenTriangle&) { return true; };
+    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights, depths})
+        EXPECT_EQ(look(shot, inside_out), "inside out, backs are seen in place of fronts");
+    for (const Shot& shot : {filled, filled_weights})
+        EXPECT_EQ(look(shot, both), "backs are drawn as well as fronts");
+    for (const Shot& shot : {nearest, crate})
+        EXPECT_EQ(look(shot, both), "") << "fronts are before the backs of a closed model";
+    EXPECT_EQ(look(one_triangle, inside_out), "nothing of the model is seen");
+}
+
+TEST(ImageDoctor, HardCase_AFewStrayPixelsAreNotTheModel) {
+    Pipeline empty;
+    empty.is_skipped = [](int) { return true; };
+    std::mt19937 random(7);
+    for (const Shot& shot : {filled, nearest}) {
+        Image<u8vec4> strays = render(shot, empty);
+        for (int i = 0; i < 50; ++i)
+            strays[{random() % 320, random() % 180}] = render(shot)[{120, 100}];
+        EXPECT_EQ(look(shot, strays), "nothing of the model is seen");
+    }
+}
+
+TEST(ImageDoctor, EverySecondTriangleMissing) {
+    Pipeline odd, even;
+    odd.is_skipped = [](int i) { return i % 2 == 0; };
+    even.is_skipped = [](int i) { return i % 2 == 1; };
+    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights, depths, crate}) {
+        EXPECT_EQ(look(shot, odd), "every second triangle is missing (the 1st, 3rd ...)");
+        EXPECT_EQ(look(shot, even), "every second triangle is missing (the 2nd, 4th ...)");
+    }
+}
+
+TEST(ImageDoctor, OtherMistakesAreNotExplained) {
+    std::vector<Pipeline> others(6);
+    others[0].shade = [](vec3) { return vec3(0.5f); };
+    others[1].shade = [](vec3 color) { return 0.5f * color; };
+    others[2].shade = [](vec3 color) { return 0.7f - 0.7f * color; };
+    others[3].place = [](vec3 p) { return vec3(160 + 0.9f * (p.x - 160), p.y, p.z); };
+    others[4].is_skipped = [](int i) { return i % 3 == 0; };
+    others[5].encode = [](float linear) { return 0.5f * srgb_from_linear(linear); };
+    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights})
+        for (std::size_t i = 0; i < others.size(); ++i)
+            EXPECT_NE(look(shot, others[i]).find(nothing_usual), std::string::npos)
+                << i << ' ' << shot.lesson << testing::PrintToString(shot.options);
+    for (const Shot& shot : all_shots) {
+        Image<u8vec4> painted_over = render(shot);
+        for (int y = 60; y < 100; ++y)
+            for (int x = 100; x < 180; ++x) painted_over[{x, y}] = {200, 0, 90, 255};
+        EXPECT_EQ(
+            look(shot, painted_over),
+            "differs in 3200 pixels, the most by " +
+                std::to_string(test::picture_difference(painted_over, render(shot)).greatest) +
+                " of 255, most of them between (104, 62) and (175, 97); " + nothing_usual);
+    }
+    EXPECT_NE(look(nearest, render(crate)).find(nothing_usual), std::string::npos);
+    EXPECT_NE(look(crate, render(nearest)).find(nothing_usual), std::string::npos);
+}
+
+TEST(ImageDoctor, HardCase_SmallestPictures) {
+    for (const ivec2 small : {ivec2(1, 1), ivec2(1, 9), ivec2(9, 1), ivec2(3, 3)}) {
+        const Image<u8vec4> expected(small, {10, 20, 30, 255}), actual(small, {90, 20, 0, 255});
+        for (const Shot& shot : all_shots)
+            EXPECT_NE(look(shot, actual, expected), "") << small.x << ' ' << small.y;
+    }
+}
+
+TEST(ImageDoctor, TheCommandSaysWhatItSees) {
+    const auto folder = fresh_folder("doctor");
+    const std::string right = (folder / "right.png").string(),
+                      wrong = (folder / "wrong.png").string();
+    const auto write = [](const std::string& file, const Image<u8vec4>& picture) {
+        Image<u8vec3> pixels(picture.size());
+        std::copy(picture.pixels().begin(), picture.pixels().end(), pixels.pixels().begin());
+        write_image(file, pixels);
+    };
+    write(right, render(depths));
+    Pipeline missing;
+    missing.is_skipped = [](int i) { return i % 2 == 1; };
+    write(wrong, render(depths, missing));
+
+    ProcessResult result = run_program(program, {right, lesson_03, "--depth"});
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    EXPECT_EQ(result.out, right + " is right\n");
+    result = run_program(program, {wrong, lesson_03, "--depth"});
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_EQ(result.out.rfind(wrong + ": every second triangle is missing", 0), 0u) << result.out;
+    EXPECT_EQ(result.err, "");
+    result = run_program(program, {right, lesson_03});
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_NE(result.out.find("It is the lesson's picture with --depth\n"), std::string::npos)
+        << result.out;
+}
+
+TEST(ImageDoctor, HardCase_BadInputAndUsageOfTheCommand) {
+    const auto folder = fresh_folder("doctor");
+    const std::string text = (folder / "text.png").string(), picture = (folder / "a.png").string();
+    std::ofstream(text) << "no picture";
+    write_image(picture, Image<u8vec3>({8, 8}));
+    const auto expect_error = [](const std::vector<std::string>& arguments, int exit_status,
+                                 const std::string& words) {
+        const ProcessResult result = run_program(program, arguments);
+        EXPECT_EQ(result.exit_status, exit_status);
+        EXPECT_EQ(result.err.rfind("error: ", 0), 0u) << result.err;
+        EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_EQ(result.out, "");
+    };
+    expect_error({"no_such.png", lesson_03}, 1, "no_such.png");
+    expect_error({text, lesson_03}, 1, text);
+    expect_error({picture, "99_no_such"}, 2, "'99_no_such'");
+    expect_error({picture}, 2, "lesson");
+    expect_error({}, 2, "lesson");
+    expect_error({picture, lesson_03, "--no-such-option"}, 2, "--no-such-option");
+    expect_error({picture, lesson_03, "--model", "no_such.obj"}, 1, "no_such.obj");
+}

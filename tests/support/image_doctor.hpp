@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Says what a wrong picture looks like, and what usually makes it look so.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/image.hpp"
+#include "common/mesh.hpp"
+#include "support/visibility.hpp"
+
+namespace rasterbook::test {
+
+/// What is known of a picture besides its pixels.
+struct PictureFacts {
+    /// In the order in which they are drawn; empty when only the pixels are to be judged.
+    std::vector<ScreenPatch> patches;
+    bool has_depth_buffer = false;  ///< The nearest patch is seen; without one, the last.
+    bool shows_weights = false;     ///< Red, green and blue are the weights of the corners.
+    bool shows_depth = false;       ///< Near is bright, far is dark, nothing is black.
+};
+
+/// The facts of a lesson's picture.
+///
+/// @param lesson     NN_name. From lesson 04 on another camera draws, and there are no patches yet.
+/// @param arguments  Of its program.
+/// @throws InputError  When the model cannot be read.
+PictureFacts picture_facts(const std::string& lesson, const std::vector<std::string>& arguments,
+                           ivec2 size);
+
+/// The scene's triangles as the camera of lessons 01 to 03 sees them.
+std::vector<ScreenPatch> parallel_patches(const Scene& scene, ivec2 size);
+
+/// One line for each mistake that explains the picture, at most two: what it looks like, a colon,
+/// the usual cause.
+///
+/// @param actual,expected  Of one size.
+/// @return  Empty when the pictures count as the same (picture_difference.hpp). When no usual
+///          mistake explains the picture, a line that says so and where it differs.
+std::string diagnose(const Image<u8vec4>& actual, const Image<u8vec4>& expected,
+                     const PictureFacts& facts);
+
+}  // namespace rasterbook::test

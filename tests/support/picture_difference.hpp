@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// When two pictures count as the same.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <cstdlib>
+
+#include "common/image.hpp"
+
+namespace rasterbook::test {
+
+// The pictures are made with + - * / and square roots, which are the same everywhere; only the
+// power in the sRGB code may differ between C libraries, in its last bit, and then by one level
+// here and there.
+constexpr int levels_that_may_differ = 1;
+constexpr double share_of_pixels_that_may_differ = 0.005;
+
+/// Of red, green and blue, 0 to 255; opacity does not count.
+inline int greatest_difference(u8vec4 a, u8vec4 b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+/// Whether two pixels differ by no more than a rounding.
+inline bool looks_the_same(u8vec4 a, u8vec4 b) {
+    return greatest_difference(a, b) <= levels_that_may_differ;
+}
+
+struct PictureDifference {
+    std::size_t differing = 0;  ///< Pixels that are not equal.
+    std::size_t allowed = 0;    ///< As many may differ, by levels_that_may_differ.
+    int greatest = 0;           ///< Of all pixels, 0 to 255.
+
+    bool is_tolerable() const { return differing <= allowed && greatest <= levels_that_may_differ; }
+};
+
+/// @param actual,expected  Of one size.
+inline PictureDifference picture_difference(const Image<u8vec4>& actual,
+                                            const Image<u8vec4>& expected) {
+    assert(actual.size() == expected.size() && "only pictures of one size can be compared");
+    PictureDifference found;
+    for (std::size_t i = 0; i < expected.pixels().size(); ++i) {
+        const int difference = greatest_difference(expected.pixels()[i], actual.pixels()[i]);
+        found.greatest = std::max(found.greatest, difference);
+        found.differing += difference > 0;
+    }
+    found.allowed = static_cast<std::size_t>(share_of_pixels_that_may_differ *
+                                             static_cast<double>(expected.pixels().size()));
+    return found;
+}
+
+}  // namespace rasterbook::test
