@@ -46,6 +46,15 @@ T difference_of_products(T a, T b, T c, T d) {
     return std::fma(a, b, -cd) + error_of_cd;
 }
 
+/// a x b, each component within 1.5 ulp, also for nearly parallel vectors.
+///
+/// @param a,b  As for difference_of_products.
+template <std::floating_point T>
+glm::vec<3, T> cross_product(glm::vec<3, T> a, glm::vec<3, T> b) {
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
 /// How many floats one has to step over from a to b: 0 when equal (-0 equals 0), 1 for neighbours.
 ///
 /// @return  The greatest value there is when a or b is NaN.

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What of a triangle lies in front of the camera and inside the picture. Introduced in lesson 04;
+/// derivation: docs/derivations/04_mvp.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+
+#include "common/math/types.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// A corner of what is left of a triangle.
+struct ClippedCorner {
+    vec4 position_clip;
+    vec3 weights;  ///< Of the whole triangle's corners: this corner is their weighted sum.
+};
+
+using ClippedTriangle = std::array<ClippedCorner, 3>;
+
+constexpr int frustum_planes = 6;
+
+/// How far inside one of the six planes a point is, times its distance from it: negative outside
+/// (Eq. 4.10).
+///
+/// @param plane  0 to 5: left, right, bottom, top, near, far.
+constexpr float inside_by(int plane, vec4 position_clip) {
+    const float coordinate = position_clip[plane / 2];
+    return position_clip.w + (plane % 2 == 0 ? coordinate : -coordinate);
+}
+
+/// Where the way from a to b crosses the plane of which they are inside by `a_by` and `b_by`, one
+/// of them negative (Eq. 4.11).
+///
+/// The way from b to a crosses it in the same point, bit for bit: triangles that share a side still
+/// share it when both are cut.
+inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedCorner& b,
+                              float b_by) {
+    const float whole = a_by - b_by;
+    return {(a_by * b.position_clip - b_by * a.position_clip) / whole,
+            (a_by * b.weights - b_by * a.weights) / whole};
+}
+
+/// The part of a triangle inside the frustum, as triangles that keep its winding.
+///
+/// @param corners  Clip space. A corner with a coordinate that is not a number counts as outside.
+/// @param visit    Called as visit(const ClippedTriangle&): once, with the triangle itself, when it
+///                 is all inside; not at all when it is all outside of one plane; up to 7 times
+///                 when it is cut.
+/// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
+template <std::invocable<const ClippedTriangle&> Visit>
+void clip_triangle(const std::array<vec4, 3>& corners, Visit&& visit) {
+    unsigned outside_any = 0, outside_all = ~0u;
+    for (const vec4 corner : corners) {
+        unsigned outside = 0;
+        for (int plane = 0; plane < frustum_planes; ++plane)
+            outside |= static_cast<unsigned>(!(inside_by(plane, corner) >= 0)) << plane;
+        outside_any |= outside;
+        outside_all &= outside;
+    }
+    if (outside_all != 0) return;
+    const ClippedTriangle whole = {{{corners[0], {1, 0, 0}},
+                                    {corners[1], {0, 1, 0}},
+                                    {corners[2], {0, 0, 1}}}};
+    if (outside_any == 0) return visit(whole);
+
+    // Each plane cuts off one corner at most, and adds one.
+    std::array<ClippedCorner, 3 + frustum_planes> polygon, rest;
+    std::copy(whole.begin(), whole.end(), polygon.begin());
+    std::size_t count = 3;
+    for (int plane = 0; plane < frustum_planes; ++plane) {
+        if ((outside_any >> plane & 1) == 0) continue;
+        std::size_t rest_count = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const ClippedCorner& from = polygon[i];
+            const ClippedCorner& to = polygon[i + 1 < count ? i + 1 : 0];
+            const float from_by = inside_by(plane, from.position_clip);
+            const float to_by = inside_by(plane, to.position_clip);
+            if (from_by >= 0) rest[rest_count++] = from;
+            if ((from_by >= 0) != (to_by >= 0))
+                rest[rest_count++] = crossing(from, from_by, to, to_by);
+        }
+        std::swap(polygon, rest);
+        count = rest_count;
+    }
+    for (std::size_t i = 2; i < count; ++i) visit({polygon[0], polygon[i - 1], polygon[i]});
+}
+
+/// Whether nothing inside the box can be seen: all of its corners are outside of one plane.
+///
+/// False for some boxes of which nothing is seen either, beside an edge of the frustum.
+inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world) {
+    unsigned outside_all = ~0u;
+    for (int i = 0; i < 8; ++i) {
+        const vec3 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
+                          i & 4 ? bounds.max.z : bounds.min.z);
+        const vec4 corner_clip = clip_from_world * vec4(corner, 1);
+        unsigned outside = 0;
+        for (int plane = 0; plane < frustum_planes; ++plane)
+            outside |= static_cast<unsigned>(inside_by(plane, corner_clip) < 0) << plane;
+        outside_all &= outside;
+    }
+    return outside_all != 0;
+}
+
+/// A point on the screen in pixels, and its depth: 0 to 1 (Eq. 4.9).
+///
+/// @param position_clip  Inside the frustum, w > 0.
+inline vec3 screen_from_clip(vec4 position_clip, ivec2 size) {
+    const vec3 position_ndc = vec3(position_clip) / position_clip.w;
+    return {(position_ndc.x + 1) * 0.5f * static_cast<float>(size.x),
+            (1 - position_ndc.y) * 0.5f * static_cast<float>(size.y), (position_ndc.z + 1) * 0.5f};
+}
+
+}  // namespace rasterbook
