@@ -22,7 +22,7 @@ import sys
 # Times closer than this are taken as equal: another run may order them the other way round.
 TIME_TOLERANCE = 0.1
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 720, 400, 110, 24, 20, 62  # of a plot, px
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 600, 360, 104, 24, 20, 62  # of a plot, px
 STYLE = """<style>
 text { fill: #64748b }
 @media (prefers-color-scheme: dark) { text { fill: #a9b4c4 } }
@@ -74,7 +74,7 @@ def table(variants, unit, errors):
     lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 2) + "---|"]
     for v in variants:
         low, high = v["quartiles"]
-        cells = [v["name"], number(v["time"]), f"{number(low)} – {number(high)}",
+        cells = [v["name"], number(v["time"]), f"{number(low)}–{number(high)}",
                  *(number(v["errors"][e]) for e in errors), "front" if v["front"] else ""]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
