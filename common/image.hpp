@@ -57,4 +57,17 @@ class Image {
     std::vector<Pixel> pixels_;
 };
 
+/// The mean of each square of `per_side` * `per_side` pixels.
+///
+/// @param picture  Linear colour; its sides are multiples of per_side.
+inline Image<vec3> averaged(Image<vec3> picture, int per_side) {
+    if (per_side == 1) return picture;
+    Image<vec3> means(picture.size() / per_side, vec3(0.0f));
+    const float share = 1.0f / static_cast<float>(per_side * per_side);
+    for (int y = 0; y < picture.size().y; ++y)
+        for (int x = 0; x < picture.size().x; ++x)
+            means[ivec2(x, y) / per_side] += share * picture[{x, y}];
+    return means;
+}
+
 }  // namespace rasterbook

@@ -55,11 +55,11 @@ double elapsed_ms(std::chrono::steady_clock::time_point start) {
         .count();
 }
 
-void print_stats(const LessonProgram& program, const Counters& counters, double load_ms,
+void print_stats(const LessonProgram& program, ivec2 size, const Counters& counters, double load_ms,
                  double render_ms, double write_ms) {
     std::ostringstream json;
-    json << "{\"lesson\": \"" << program.name << "\", \"width\": " << program.options.size.x
-         << ", \"height\": " << program.options.size.y;
+    json << "{\"lesson\": \"" << program.name << "\", \"width\": " << size.x
+         << ", \"height\": " << size.y;
     for (std::size_t i = 0; i < counter_names.size(); ++i)
         json << ", \"" << counter_names[i] << "\": " << counters.values[i];
     json << ", \"load_ms\": " << load_ms << ", \"render_ms\": " << render_ms
@@ -68,18 +68,21 @@ void print_stats(const LessonProgram& program, const Counters& counters, double 
 }
 
 void make_picture(const LessonProgram& program) {
-    const LessonOptions& options = program.options;
+    LessonOptions& options = program.options;
     const auto load_start = std::chrono::steady_clock::now();
     const Scene scene = load_obj(find_model(options.model));
     const double load_ms = elapsed_ms(load_start);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
 
     Counters counters;
+    options.size *= options.samples_per_side;
     const auto render_start = std::chrono::steady_clock::now();
-    const Image<vec3> picture = program.render(scene, options.stats ? &counters : nullptr);
+    Image<vec3> rendered = program.render(scene, options.stats ? &counters : nullptr);
+    const bool is_empty = is_backdrop(rendered);
+    const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
     const double render_ms = elapsed_ms(render_start);
 
-    if (is_backdrop(picture))
+    if (is_empty)
         std::cerr << "warning: " << options.model.string()
                   << ": nothing of it is to be seen; perhaps its faces are named clockwise or have "
                      "no area\n";
@@ -89,7 +92,7 @@ void make_picture(const LessonProgram& program) {
     const double write_ms = elapsed_ms(write_start);
 
     if (options.stats)
-        print_stats(program, counters, load_ms, render_ms, write_ms);
+        print_stats(program, picture.size(), counters, load_ms, render_ms, write_ms);
     else
         std::cout << "wrote " << options.out.string() << '\n';
 }
@@ -135,6 +138,8 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
         ->type_name("WIDTHxHEIGHT");
     line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
     Knobs knobs(line);
+    knobs.choice("--samples", options.samples_per_side, {{"1", 1}, {"4", 2}, {"16", 4}, {"64", 8}},
+                 "Samples a pixel, averaged: smoother, and that many times the time and memory");
     program.declare_knobs(knobs);
 
     try {

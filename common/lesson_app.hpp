@@ -25,7 +25,8 @@ namespace rasterbook {
 struct LessonOptions {
     std::filesystem::path model = "teapot.obj";
     std::filesystem::path out;  ///< By default NAME.png in the current folder.
-    ivec2 size{1280, 720};      ///< Pixels, each side 1 to 16384.
+    ivec2 size{1280, 720};      ///< Pixels to render, each side 1 to 16384 for one sample a pixel.
+    int samples_per_side = 1;   ///< The picture is rendered this many times as wide and as high.
     bool stats = false;
 };
 

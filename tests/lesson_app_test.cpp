@@ -11,6 +11,7 @@
 
 #include "common/counters.hpp"
 #include "common/image_io.hpp"
+#include "common/math/color.hpp"
 #include "support/lesson_process.hpp"
 
 using namespace rasterbook;
@@ -59,6 +60,28 @@ TEST(LessonApp, StatsAreJsonAndCountWhatWasDone) {
     EXPECT_GT(stats.at("fragments_shaded"), 300);
     EXPECT_EQ(stats.at("lines"), 0) << "this lesson draws no lines";
     for (const char* time : {"load_ms", "render_ms", "write_ms"}) EXPECT_GE(stats.at(time), 0);
+}
+
+TEST(LessonApp, SamplesAreAveragedIntoAPictureOfTheSizeAskedFor) {
+    const auto folder = fresh_folder("samples");
+    const auto draw = [&](const std::string& size, const std::string& samples) {
+        const auto file = folder / (samples + ".png");
+        const ProcessResult result = run_program(
+            lesson, {"--size", size, "--samples", samples, "--stats", "--out", file.string()});
+        EXPECT_EQ(result.exit_status, 0) << result.err;
+        EXPECT_EQ(nlohmann::json::parse(result.out).at("width"), read_image(file).size().x);
+        return read_image(file);
+    };
+    const Image<u8vec4> smooth = draw("64x36", "16"), large = draw("256x144", "1");
+    ASSERT_EQ(smooth.size(), ivec2(64, 36));
+    constexpr double rounding = 2;  // levels: half a bright one is more where the mean is dark
+    for (int y = 0; y < 36; ++y)
+        for (int x = 0; x < 64; ++x) {
+            double sum = 0;
+            for (int i = 0; i < 16; ++i)
+                sum += linear_from_srgb(large[{4 * x + i % 4, 4 * y + i / 4}].g / 255.0);
+            ASSERT_NEAR((smooth[{x, y}].g), 255 * srgb_from_linear(sum / 16), rounding);
+        }
 }
 
 TEST(LessonApp, CountingDoesNotChangeThePicture) {

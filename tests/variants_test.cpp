@@ -105,7 +105,7 @@ TEST(Variants, WholeBoundingBoxesVisitWhatFillTriangleVisits) {
         std::vector<int> expected(40 * 40);
         const ScreenTriangle on_screen = snap_triangle(t[0], t[1], t[2]);
         const std::array<dvec2, 3> as_float = {vec2(t[0]), vec2(t[1]), vec2(t[2])};
-        fill_triangle_as({}, on_screen, as_float, ivec2(40), [&](ivec2 pixel, vec3) {
+        fill({}, on_screen, as_float, ivec2(40), [&](ivec2 pixel, vec3) {
             ++expected[static_cast<std::size_t>(pixel.y * 40 + pixel.x)];
         });
         EXPECT_EQ(hits_of({}, as_float, ivec2(40)), expected);

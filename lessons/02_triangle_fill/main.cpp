@@ -26,9 +26,8 @@ struct Options : LessonOptions {
 
 template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
-    const ivec2 size = options.size * options.fill.samples_per_side;
-    const ParallelView view(scene, size);
-    Image<vec3> color = backdrop(size);
+    const ParallelView view(scene, options.size);
+    Image<vec3> color = backdrop(options.size);
 
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
@@ -43,14 +42,13 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
                 continue;
             }
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
-            fill_triangle_as(options.fill, on_screen, {a, b, c}, size,
-                             [&](ivec2 pixel, vec3 weights) {
-                                 counters.add(Counter::fragments_shaded);
-                                 color[pixel] = options.paint == Paint::flat ? face_color : weights;
-                             });
+            fill(options.fill, on_screen, {a, b, c}, options.size, [&](ivec2 pixel, vec3 weights) {
+                counters.add(Counter::fragments_shaded);
+                color[pixel] = options.paint == Paint::flat ? face_color : weights;
+            });
         }
     }
-    return averaged(color, options.fill.samples_per_side);
+    return color;
 }
 
 }  // namespace

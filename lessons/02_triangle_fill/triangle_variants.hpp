@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other ways to fill the triangle of lesson 02, to be seen with `--edges`, `--subpixel-bits` and
-/// `--samples`, and measured in docs/accuracy/02_triangle_fill.md.
+/// Other ways to fill the triangle of lesson 02, to be seen with `--edges` and
+/// `--subpixel-bits`, and measured in docs/accuracy/02_triangle_fill.md.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include <type_traits>
 
 #include "02_triangle_fill/triangle.hpp"
-#include "common/image.hpp"
 #include "common/lesson_app.hpp"
 
 namespace rasterbook {
@@ -23,7 +22,6 @@ enum class EdgeNumber { int64, int32, float32, float64 };
 struct FillVariant {
     EdgeNumber edges = EdgeNumber::int64;
     int subpixel_bits = rasterbook::subpixel_bits;  ///< 0 to 16, for whole numbers.
-    int samples_per_side = 1;  ///< The picture is drawn this many times as wide and high.
 
     void declare(Knobs& knobs) {
         knobs.choice("--edges", edges,
@@ -35,8 +33,6 @@ struct FillVariant {
         knobs.choice("--subpixel-bits", subpixel_bits,
                      {{"0", 0}, {"2", 2}, {"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
                      "Corners are snapped to pixels divided by 2 so many times");
-        knobs.choice("--samples", samples_per_side, {{"1", 1}, {"4", 2}, {"16", 4}, {"64", 8}},
-                     "Samples a pixel, averaged; their number is also what it costs in memory");
     }
 };
 
@@ -139,25 +135,12 @@ void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>
 /// @param on_screen  The triangle as snap_triangle gives it, for fill_triangle.
 /// @param corners    The same in pixels, not snapped.
 template <std::invocable<ivec2, vec3> Emit>
-void fill_triangle_as(const FillVariant& variant, const ScreenTriangle& on_screen,
-                      const std::array<dvec2, 3>& corners, ivec2 size, Emit&& emit) {
+void fill(const FillVariant& variant, const ScreenTriangle& on_screen,
+          const std::array<dvec2, 3>& corners, ivec2 size, Emit&& emit) {
     if (variant.edges == EdgeNumber::int64 && variant.subpixel_bits == subpixel_bits)
         fill_triangle(on_screen, size, emit);
     else
         fill_bounding_box_as(variant, corners, size, emit);
-}
-
-/// The mean of each square of `per_side` * `per_side` pixels.
-///
-/// @param picture  Linear colour; its sides are multiples of per_side.
-inline Image<vec3> averaged(const Image<vec3>& picture, int per_side) {
-    if (per_side == 1) return picture;
-    Image<vec3> means(picture.size() / per_side, vec3(0.0f));
-    const float share = 1.0f / static_cast<float>(per_side * per_side);
-    for (int y = 0; y < picture.size().y; ++y)
-        for (int x = 0; x < picture.size().x; ++x)
-            means[ivec2(x, y) / per_side] += share * picture[{x, y}];
-    return means;
 }
 
 }  // namespace rasterbook

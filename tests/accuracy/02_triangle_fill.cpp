@@ -92,8 +92,8 @@ double fan_errors(const FillVariant& variant, float radius) {
         }
         Image<int> hits(size, 0);
         for (const auto& [a, b, c] : fan(center, rim))
-            fill_triangle_as(variant, snap_triangle(a, b, c), {a, b, c}, size,
-                             [&](ivec2 pixel, vec3) { ++hits[pixel]; });
+            fill(variant, snap_triangle(a, b, c), {a, b, c}, size,
+                 [&](ivec2 pixel, vec3) { ++hits[pixel]; });
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 if (glm::distance(center, vec2(x, y) + 0.5f) > 0.9f * radius) continue;

@@ -108,7 +108,6 @@ void add_format(const char* name) {
         double& most = errors["% inversions at most"];
         most = std::max(most, inversions);
     }
-    errors["bytes"] = sizeof(typename Format::Stored);
 
     static const std::vector<vec3> planes = random_planes();
     static Image<typename Format::Stored> nearest(picture_size);

@@ -4,11 +4,11 @@
 
 report.py MEASURED.json PAGE.md, where the page has, for each comparison, the lines
 
-    <!-- measured: COMPARISON | TIME'S UNIT | ERROR; *ERROR; ... -->
+    <!-- measured: COMPARISON | TIME'S UNIT | ERROR; *ERROR = HEADING; ... -->
     <!-- end -->
 
-What stands between them is replaced. The errors are names of user counters; the one with the star
-is plotted.
+What stands between them is replaced. The errors are names of user counters, with another heading
+for the table if need be; the one with the star is plotted.
 """
 
 import json
@@ -22,7 +22,7 @@ import sys
 # Times closer than this are taken as equal: another run may order them the other way round.
 TIME_TOLERANCE = 0.1
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 720, 400, 110, 24, 20, 62  # of a plot, px
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 600, 360, 104, 24, 20, 62  # of a plot, px
 STYLE = """<style>
 text { fill: #64748b }
 @media (prefers-color-scheme: dark) { text { fill: #a9b4c4 } }
@@ -70,11 +70,12 @@ def number(value):
 
 
 def table(variants, unit, errors):
-    head = ["variant", unit, "quartiles", *errors, ""]
+    """`errors` are the counters' headings."""
+    head = ["variant", unit, "quartiles", *errors.values(), ""]
     lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 2) + "---|"]
     for v in variants:
         low, high = v["quartiles"]
-        cells = [v["name"], number(v["time"]), f"{number(low)} – {number(high)}",
+        cells = [v["name"], number(v["time"]), f"{number(low)}–{number(high)}",
                  *(number(v["errors"][e]) for e in errors), "front" if v["front"] else ""]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
@@ -112,9 +113,10 @@ def place_labels(points, line):
         width, height = 7.8 * len(name), 16
         choices = []
         for rise in (0, -12, 12, -18, 18, -36, 36, -54, 54):
-            choices += [(x + 12, y + rise, "left"), (x - 12, y + rise, "right")]
+            choices.append((x + 12, y + rise, "left"))
             if abs(rise) > 16:
                 choices.append((x, y + rise, "center"))
+            choices.append((x - 12, y + rise, "right"))
         for px, py, alignment in choices:
             left = px - {"left": 0, "right": width, "center": width / 2}[alignment]
             box = (left, py - height / 2, left + width, py + height / 2)
@@ -136,7 +138,7 @@ def plot(variants, unit, error, file):
     has_zero = len(positive) < len(variants)
     zero = 10.0**(lowest_decade - 1)
     y = Axis(zero / 2 if has_zero else 10.0**lowest_decade,
-             10.0**math.ceil(math.log10(max(positive) * 1.3)), HEIGHT - BOTTOM, TOP)
+             10.0**math.ceil(math.log10(max(positive) * 1.1)), HEIGHT - BOTTOM, TOP)
 
     decades = range(lowest_decade, round(math.log10(y.high)) + 1)
     every = 1 + len(decades) // 9
@@ -193,8 +195,9 @@ def main():
 
     def section(match):
         comparison, unit, errors = (part.strip() for part in match[1].split("|"))
-        plotted, = re.findall(r"\*([^;]*)", errors)
-        errors = [e.strip() for e in errors.replace("*", "").split(";")]
+        plotted, = re.findall(r"\*([^;=]*[^;= ])", errors)
+        columns = [error.strip().partition(" = ") for error in errors.replace("*", "").split(";")]
+        errors = {counter: heading or counter for counter, _, heading in columns}
         variants = read_variants(measured, comparison)
         mark_front(variants, plotted)
         picture = page.with_name(f"{page.stem}-{comparison}.svg")

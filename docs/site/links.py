@@ -1,0 +1,25 @@
+"""Where things are on the site, for the texts and for the comments in the code."""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+LESSONS = sorted(folder.name for folder in (ROOT / "lessons").glob("[0-9][0-9]_*"))
+EQUATION = re.compile(r"\bEq\. \d+\.\d+(?:(?:, | and )\d+\.\d+)*")
+
+
+def link_equations(citation: str) -> str:
+    """Makes links of "Eq. 1.3", or of each number in "Eq. 1.3 and 1.4"."""
+    return re.sub(
+        r"(?:Eq\. )?(\d+)\.(\d+)",
+        lambda found: f"[{found[0]}](derivation_{int(found[1]):02}.html#eq_{found[1]}_{found[2]})",
+        citation,
+    )
+
+
+def source_page(path: Path) -> str:
+    """Doxygen's name for the page with a file's code: that of lessons/02_x/main.cpp is
+    02__x_2main_8cpp_source.html, since other lessons have a main.cpp too."""
+    name = str(path.relative_to(ROOT / "lessons")) if path.name == "main.cpp" else path.name
+    escapes = {"_": "__", "/": "_2", ".": "_8"}
+    return "".join(escapes.get(c, c) for c in name) + "_source.html"

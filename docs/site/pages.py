@@ -1,0 +1,291 @@
+"""Makes Doxygen's pages of the course's texts: pages.py BUILD_FOLDER KATEX_FOLDER.
+
+The texts are written for GitHub. Here their formulas, links, pictures and quoted equations become
+what Doxygen 1.9.4 understands, each lesson gets a page of what it changes, and the pages of
+a lesson get links to each other. It writes BUILD_FOLDER/site_pages, and BUILD_FOLDER/site what
+Doxygen does not bring itself.
+"""
+
+import html
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+from links import EQUATION, LESSONS, ROOT, link_equations, source_page
+
+
+class Page(NamedTuple):
+    """A page of the site; `kind` is what a lesson's navigation calls it."""
+
+    name: str
+    kind: str
+    text: Path | None
+
+
+def lesson_pages(lesson: str) -> list[Page]:
+    """What belongs to a lesson, in the order of reading."""
+    number = lesson[:2]
+    pages = [
+        Page(f"lesson_{number}", f"Lesson {number}", ROOT / "lessons" / lesson / "README.md"),
+        Page(f"derivation_{number}", "Derivation", ROOT / "docs/derivations" / f"{lesson}.md"),
+        Page(f"accuracy_{number}", "Accuracy", ROOT / "docs/accuracy" / f"{lesson}.md"),
+        Page(f"changes_{number}", "What changed", None),
+    ]
+    return [page for page in pages if page.text is None or page.text.exists()]
+
+
+COURSE = [lesson_pages(lesson) for lesson in LESSONS]
+OTHERS = [
+    Page("index", "Start", ROOT / "README.md"),
+    Page("conventions", "Conventions", ROOT / "docs/conventions.md"),
+    Page("assets", "Assets", ROOT / "assets/README.md"),
+]
+PAGE_OF = {page.text: page for page in [*sum(COURSE, []), *OTHERS] if page.text}
+EQUATIONS = {
+    number
+    for text in PAGE_OF
+    for number in re.findall(r"\\tag\{([\d.]+)\}", text.read_text(encoding="utf-8"))
+}
+
+# What a text is searched for, in this order: code stays as it is.
+TOKENS = re.compile(
+    r"""^```.*?^```$ | `[^`\n]+`
+      | \$\$(?P<display>.+?)\$\$
+      | \$(?P<inline>[^$\n]+)\$
+      | (?P<comment><!--.*?-->)
+      | <details><summary>(?P<summary>.*?)</summary> | (?P<end></details>)
+      | \[!\[(?P<link_alt>[^\]]*)\]\((?P<link_picture>[^)\s]+)\)\]\((?P<link_target>[^)\s]+)\)
+      | !\[(?P<alt>[^\]]*)\]\((?P<picture>[^)\s]+)\)
+      | \]\((?P<target>[^)\s]+)\)
+      | <[a-z][^<>]*> | (?P<quote>")
+      | (?P<equation>%s)
+      | \((?P<number>\d+\.\d+)\)"""
+    % EQUATION.pattern.replace(" ", "[ ]"),
+    re.DOTALL | re.MULTILINE | re.VERBOSE,
+)
+# Doxygen does not see emphasis around a formula.
+EMPHASIS_WITH_FORMULA = re.compile(
+    r"(?<![*\w])(\*\*?)(?=[^\s*])([^*\n]*\\endhtmlonly[^*\n]*)(?<=\S)\1(?![*\w])"
+)
+
+
+class Site:
+    """The folders that are written, and the texts on their way there."""
+
+    def __init__(self, build: Path) -> None:
+        self.pages, self.site = build / "site_pages", build / "site"
+        self.code: list[Page] = []  # code that texts link to and Doxygen does not read
+        for folder in (self.pages, self.site):
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True)
+
+    def link(self, text: Path, target: str) -> str:
+        """The address on the site of what `target` is in a text."""
+        if re.match(r"https?:|#", target):
+            return target
+        path, _, anchor = target.partition("#")
+        file = (text.parent / path).resolve()
+        if file in PAGE_OF:
+            return f"{PAGE_OF[file].name}.html" + (f"#{anchor}" if anchor else "")
+        if file.suffix not in (".cpp", ".hpp"):
+            shutil.copy(file, self.site / f"{file.name}.txt")
+            return f"{file.name}.txt"
+        shown = file.relative_to(ROOT)
+        if shown.parts[0] in ("common", "lessons") and "starter" not in shown.parts:
+            return source_page(file)
+        page = Page(f"code_{file.stem}", file.name, file)
+        if page not in self.code:
+            self.code.append(page)
+            self.write(page.name, f"# {shown} {{#{page.name}}}\n\n\\includelineno {shown}\n")
+        return f"{page.name}.html"
+
+    def picture(self, text: Path, target: str, alt: str) -> str:
+        """A picture of a text, which is copied to the site."""
+        file = text.parent / target
+        shutil.copy(file, self.site)
+        return f'<img src="{file.name}" alt="{html.escape(alt)}"/>'
+
+    def write(self, name: str, text: str) -> None:
+        (self.pages / f"{name}.md").write_text(text, encoding="utf-8")
+
+    def convert(self, page: Page) -> str:
+        """A text as Doxygen wants it, without its title."""
+        text = page.text.read_text(encoding="utf-8")
+
+        def convert_token(found: re.Match[str]) -> str:
+            if formula := found["display"]:
+                tag = re.search(r"\\tag\{(\d+)\.(\d+)\}", formula)
+                anchor = tag and f'<a class="anchor" id="eq_{tag[1]}_{tag[2]}"></a>'
+                return (html_only(anchor) if anchor else "") + f"\\f[{formula}\\f]"
+            if formula := found["inline"]:
+                return f"\\htmlonly\\({html.escape(formula)}\\)\\endhtmlonly"
+            if found["comment"]:
+                return ""
+            if found["summary"]:
+                return html_only(f"<details><summary>{found['summary']}</summary>")
+            if found["end"]:
+                return html_only("</details>")
+            if found["link_picture"]:
+                picture = self.picture(page.text, found["link_picture"], found["link_alt"])
+                return f'<a href="{self.link(page.text, found["link_target"])}">{picture}</a>'
+            if found["picture"]:
+                return self.picture(page.text, found["picture"], found["alt"])
+            if target := found["target"]:
+                return f"]({self.link(page.text, target)})"
+            if found["quote"]:
+                # Between plain ones Doxygen would leave formulas as they are.
+                return "\u201c" if found.string[found.start() - 1] in " \n(|" else "\u201d"
+            if found["equation"]:
+                return link_equations(found["equation"])
+            if found["number"] in EQUATIONS:
+                return f"({link_equations(found['number'])})"
+            return found[0]
+
+        text = TOKENS.sub(convert_token, text).partition("\n")[2]
+        text = EMPHASIS_WITH_FORMULA.sub(
+            lambda found: "<{0}>{1}</{0}>".format("b" if found[1] == "**" else "em", found[2]), text
+        )
+        if page.name == "index":  # its headings are not to stand between the lessons in the tree
+            text = re.sub(r"^## (.*)$", r"<h2>\1</h2>", text, flags=re.MULTILINE)
+        return text
+
+
+def title(page: Page) -> str:
+    """The first line of a text, without its "# "."""
+    return page.text.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
+
+
+def html_only(code: str) -> str:
+    return f"\n\\htmlonly[block]\n{code}\n\\endhtmlonly\n"
+
+
+def steps(lesson: int, current: Page) -> str:
+    """The line that leads through a lesson's pages and on to the next lesson."""
+    links = [
+        f'<a href="{page.name}.html"{" aria-current=page" * (page == current)}>{page.kind}</a>'
+        for page in COURSE[lesson]
+    ]
+    for following, *_ in COURSE[lesson + 1 : lesson + 2]:
+        links.append(f'<a class="on" href="{following.name}.html">{following.kind}</a>')
+    return html_only(f'<nav class="steps" aria-label="This lesson">{" ".join(links)}</nav>')
+
+
+def neighbours(lesson: int, current: Page) -> str:
+    """Links to the pages before and after, through the whole course."""
+    start, conventions, _ = OTHERS
+    order = [start, *sum(COURSE, []), conventions]
+    at = order.index(current)
+    before, after = order[at - 1], order[at + 1]
+    names = {before: before.kind, after: after.kind}
+    if current == COURSE[lesson][0] and lesson > 0:
+        names[before] = f"{COURSE[lesson - 1][0].kind}: {before.kind.lower()}"
+    if current == COURSE[lesson][-1] and after != conventions:
+        names[after] = title(after)
+    return html_only(
+        '<nav class="neighbours" aria-label="Before and after">'
+        f'<a class="before" href="{before.name}.html">{names[before]}</a>'
+        f'<a class="next" href="{after.name}.html">{names[after]}</a></nav>'
+    )
+
+
+def changes(lesson: int) -> str:
+    """What ./lessons/run --diff prints, as a page's text."""
+    name = LESSONS[lesson]
+    command = f"./lessons/run --diff {name[:2]}"
+    output = subprocess.run(
+        [ROOT / "lessons/run", "--diff", name],
+        check=True,
+        capture_output=True,
+        encoding="utf-8",
+        env={**os.environ, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_SYSTEM": os.devnull},
+    ).stdout
+    diff, _, files = output.partition("\nmain.cpp: ") if lesson else ("", "", output)
+    count, _, files = files.partition("\n")
+    new = [
+        f"- [`{Path(path).name}`]({source_page(ROOT / path)}), {length} lines"
+        for path, length in re.findall(r"^new: (\S+), (\d+) lines$", files, re.MULTILINE)
+    ]
+    if lesson:
+        before, after = (
+            f"[{folder}/main.cpp]({source_page(ROOT / 'lessons' / folder / 'main.cpp')})"
+            for folder in LESSONS[lesson - 1 : lesson + 1]
+        )
+        count = re.sub(r"(\d+) insertions?\(\+\)", r"**\1 lines added**", count)
+        count = re.sub(r"(\d+) deletions?\(-\)", r"**\1 removed**", count)
+        summary = f"From {before} to {after}: {count}."
+    else:
+        summary = count
+    text = [
+        summary + (" New files:" if lesson and new else ""),
+        *new,
+        *([html_only(marked(diff))] if diff else []),
+        f"In a terminal: `{command}`",
+    ]
+    return "\n\n".join(text) + "\n"
+
+
+def marked(diff: str) -> str:
+    """A diff as HTML, each line with its kind."""
+    kinds = {"+": "added", "-": "removed", "@": "place"}
+    lines = [
+        f'<span class="{kinds.get(line[:1], "same")}">{html.escape(line) or " "}</span>'
+        for line in diff[diff.index("@@") :].splitlines()
+    ]
+    return f'<pre class="diff">{"".join(lines)}</pre>'
+
+
+def layout(code: list[Page]) -> str:
+    """The navigation tree, for Doxygen."""
+
+    def tab(page: Page, name: str, inside: str = "") -> str:
+        kind = "usergroup" if inside else "user"
+        name = html.escape(name)
+        return f'<tab type="{kind}" url="{page.name}.html" title="{name}">{inside}</tab>\n'
+
+    tabs = ['<tab type="mainpage" title="Start"/>\n']
+    for lesson, *parts in COURSE:
+        tabs.append(tab(lesson, title(lesson), "".join(tab(part, part.kind) for part in parts)))
+    tabs += [tab(page, page.kind) for page in OTHERS[1:]]
+    tabs.append(
+        '<tab type="usergroup" url="files.html" title="The code">'
+        '<tab type="filelist" title="Files"/><tab type="classlist" title="Classes"/>\n'
+        + "".join(tab(page, page.kind) for page in sorted(code))
+        + "</tab>\n"
+    )
+    return f'<doxygenlayout><navindex>\n{"".join(tabs)}</navindex></doxygenlayout>\n'
+
+
+def copy_katex(katex: Path, site: Path) -> None:
+    """KaTeX with the fonts of the one format that every browser of today reads."""
+    (site / "katex/fonts").mkdir(parents=True)
+    shutil.copy(katex / "katex.min.js", site / "katex/katex.js")
+    shutil.copy(katex / "contrib/auto-render.js", site / "katex")
+    style = (katex / "katex.min.css").read_text(encoding="utf-8")
+    style = re.sub(r",url\([^)]*\) format\(['\"](?:woff|truetype)['\"]\)", "", style)
+    (site / "katex/katex.css").write_text(style, encoding="utf-8")
+    for font in (katex / "fonts").glob("*.woff2"):
+        shutil.copy(font, site / "katex/fonts")
+
+
+def main() -> None:
+    build, katex = map(Path, sys.argv[1:])
+    site = Site(build)
+    copy_katex(katex, site.site)
+    for page in OTHERS:
+        label = "mainpage" if page.name == "index" else page.name
+        site.write(page.name, f"# {title(page)} {{#{label}}}\n{site.convert(page)}")
+    for lesson, pages in enumerate(COURSE):
+        for page in pages:
+            name = title(page) if page.text else f"What lesson {LESSONS[lesson][:2]} changes"
+            text = site.convert(page) if page.text else changes(lesson)
+            text = f"{steps(lesson, page)}\n{text}{neighbours(lesson, page)}"
+            site.write(page.name, f"# {name} {{#{page.name}}}\n{text}")
+    (site.pages / "layout.xml").write_text(layout(site.code), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

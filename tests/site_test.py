@@ -1,0 +1,175 @@
+"""Opens the built site in headless Chromium: site_test.py SITE_FOLDER.
+
+Every page of text and some of the code are looked at, at desk and phone width, light and dark;
+the links of all pages are followed. Exits with 77 where something is missing, or with 1
+if RASTERBOOK_SITE_REQUIRED is set.
+"""
+
+import json
+import os
+import re
+import shutil
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+ROOT = Path(__file__).resolve().parents[1]
+TEXTS = r"index|conventions|assets|(lesson|derivation|accuracy|changes)_\d\d|code_.+"
+CODE = r"files|annotated|(triangle|image|lesson__app)_8hpp(_source)?|classrasterbook_1_1Image"
+WIDTHS = {"desk": (1280, 900), "phone": (390, 844)}
+
+# What a page says is wrong with itself.
+INSPECTION = r"""return (async isText => {
+await Promise.allSettled([document.fonts.ready, ...[...document.images].map(i => i.decode())]);
+const problems = [];
+for (const box of [document.scrollingElement, document.getElementById("doc-content")])
+  if (box.scrollWidth > box.clientWidth)
+    problems.push(`is ${box.scrollWidth} pixels wide on a screen of ${box.clientWidth}`);
+if (document.scrollingElement.scrollHeight > document.scrollingElement.clientHeight)
+  problems.push("goes on below the box that scrolls");
+for (const image of document.images)
+  if (!image.complete || image.naturalWidth === 0) problems.push(`does not show ${image.src}`);
+if (isText) {
+  const prose = document.querySelector(".contents").cloneNode(true);
+  for (const other of prose.querySelectorAll("code, pre, .fragment, .katex")) other.remove();
+  const raws = /.{0,20}(\$|\\[a-zA-Z()[\]]|\*|\]\(|`).{0,20}/g;
+  for (const raw of prose.textContent.match(raws) ?? [])
+    problems.push(`shows what should have been set: ${raw}`);
+}
+const [red, green, blue] = getComputedStyle(document.body).backgroundColor.match(/\d+/g);
+return { problems, equations: document.querySelectorAll(".katex .tag").length,
+         formulas: document.querySelectorAll(".katex").length, ground: +red + +green + +blue };
+})(...arguments)"""
+
+
+def skip(reason: str) -> None:
+    print(f"skipped: {reason}")
+    sys.exit(1 if os.environ.get("RASTERBOOK_SITE_REQUIRED") else 77)
+
+
+class Links(HTMLParser):
+    """A page's links, its anchors, and where it says to go next."""
+
+    def __init__(self, page: Path) -> None:
+        super().__init__()
+        self.targets: list[tuple[str, str]] = []
+        self.anchors: set[str] = set()
+        self.next = ""
+        self.feed(page.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        values = {name: value or "" for name, value in attrs}
+        self.targets += [(tag, values[name]) for name in ("href", "src", "data") if name in values]
+        self.anchors |= {values[name] for name in ("id", "name") if name in values}
+        if values.get("class") == "next":
+            self.next = values["href"]
+
+
+def check_links(site: Path) -> list[str]:
+    """Every link of every page, of the tree and of the menu leads somewhere."""
+    problems = []
+    pages = {page.name: Links(page) for page in sorted(site.glob("*.html"))}
+    for name, page in pages.items():
+        for tag, target in page.targets:
+            url = urlsplit(target)
+            file = unquote(url.path) or name
+            if url.scheme:
+                if tag != "a" and url.scheme != "javascript":
+                    problems.append(f"{name}: loads from elsewhere: {target}")
+            elif not (site / file).exists():
+                problems.append(f"{name}: a dead link: {target}")
+            elif url.fragment and file in pages and url.fragment not in pages[file].anchors:
+                problems.append(f"{name}: a link to no anchor: {target}")
+    for script in ("navtreedata.js", "menudata.js"):
+        for target in re.findall(r'"([\w-]+\.html)', (site / script).read_text(encoding="utf-8")):
+            if target not in pages:
+                problems.append(f"{script}: a dead link: {target}")
+    way = ["lesson_01.html"]
+    while (following := pages[way[-1]].next) in pages and following not in way:
+        way.append(following)
+    for name in sorted(pages):
+        if re.match(r"(lesson|derivation|accuracy|changes)_\d\d\.html", name) and name not in way:
+            problems.append(f"{name}: no way leads there from lesson 01 by what comes next")
+    return problems
+
+
+def check_view(browser, page: Path, width: str, scheme: str) -> list[str]:
+    """One page at one width in light or dark."""
+    columns, rows = WIDTHS[width]
+    metrics = {"width": columns, "height": rows, "deviceScaleFactor": 1, "mobile": columns < 768}
+    media = {"features": [{"name": "prefers-color-scheme", "value": scheme}]}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
+    browser.get(page.as_uri())
+    seen = browser.execute_script(INSPECTION, bool(re.fullmatch(TEXTS, page.stem)))
+    problems = seen["problems"]
+    if (seen["ground"] < 200) != (scheme == "dark"):
+        problems.append("has the wrong background")
+    if seen["formulas"] != len(re.findall(r"\\[(\[]", formulas_of(page))):
+        problems.append(f"has set {seen['formulas']} formulas, not all")
+    for text in ROOT.glob(f"docs/derivations/{page.stem.removeprefix('derivation_')}_*.md"):
+        numbered = text.read_text(encoding="utf-8").count("\\tag{")
+        if seen["equations"] != numbered:
+            problems.append(f"has {seen['equations']} numbered equations of {numbered}")
+    return [f"{page.name}, {width}, {scheme}: {problem}" for problem in problems]
+
+
+def formulas_of(page: Path) -> str:
+    """A page's text without its code, where "\\(" would be no formula."""
+    text = page.read_text(encoding="utf-8").partition('<div class="contents">')[2]
+    return re.sub(r'<div class="line">.*?</div>|<(code|pre)\b.*?</\1>', "", text, flags=re.DOTALL)
+
+
+def check_log(browser, after: str) -> list[str]:
+    """What the browser noted since last asked: errors, requests that failed or left the site."""
+    problems = [f"{after}: {entry['message']}" for entry in browser.get_log("browser")]
+    for entry in browser.get_log("performance"):
+        event = json.loads(entry["message"])["message"]
+        if event["method"] == "Network.loadingFailed" and not event["params"].get("canceled"):
+            problems.append(f"{after}: a request failed: {event['params']['errorText']}")
+        elif event["method"] == "Network.requestWillBeSent":
+            url = event["params"]["request"]["url"]
+            if not url.startswith(("file:", "data:")):
+                problems.append(f"{after}: asks another host: {url}")
+    return problems
+
+
+def main() -> None:
+    site = Path(sys.argv[1]).resolve()
+    try:
+        from selenium import webdriver
+        from selenium.webdriver.chrome.service import Service
+    except ImportError:
+        skip("python3-selenium is not installed")
+    chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
+    if not chromium or not driver:
+        skip("chromium and chromium-driver are not installed")
+    if not (site / "index.html").exists():
+        skip("the site is not built; cmake --build --preset release --target docs builds it")
+
+    problems = check_links(site)
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    browser = webdriver.Chrome(options=options, service=Service(driver))
+    files = sorted(site.glob("*.html"))
+    pages = [file for file in files if re.fullmatch(f"{TEXTS}|{CODE}", file.stem)]
+    try:
+        for page in pages:
+            for width in WIDTHS:
+                for scheme in ("light", "dark"):
+                    problems += check_view(browser, page, width, scheme)
+                    problems += check_log(browser, page.name)
+    finally:
+        browser.quit()
+    for problem in dict.fromkeys(problems):
+        print(problem)
+    print(f"{len(pages)} pages at two widths, light and dark; {len(problems)} problems")
+    sys.exit(1 if problems or len(pages) < 20 else 0)
+
+
+if __name__ == "__main__":
+    main()
