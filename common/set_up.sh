@@ -59,12 +59,13 @@ choose_preset() {
 
 # Builds the targets in build/$preset; a build folder of another place, as in a moved clone, starts anew.
 build() {
-    local home fresh=()
+    local home fresh=() note=
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
     [ -z "$home" ] || [ "$home" = "$PWD" ] || fresh=(--fresh)
+    [ "$home" = "$PWD" ] || note=" (the first time takes a minute or two)"
     quietly cmake --preset "$preset" "${fresh[@]}"
     cmake --build --preset "$preset" --target "$@" -- -n | grep -q 'no work to do' && return
-    echo "Building (the first time takes a minute or two)"
+    echo "Building$note"
     quietly cmake --build --preset "$preset" --target "$@"
 }
 

@@ -72,7 +72,7 @@ int examine(const std::string& file, const std::string& lesson,
     const std::string found =
         diagnose(actual, expected.picture, test::picture_facts(lesson, options, actual.size()));
     if (found.empty()) {
-        std::cout << file << " is right\n";
+        std::cout << file << " looks the same as the course's; the tests see more\n";
         return 0;
     }
     std::cout << file << ": " << found << '\n';

@@ -61,13 +61,13 @@ void add_missing_patches(std::vector<Mistake>& mistakes, VisibilityRule right) {
         return
             [=](std::size_t i, ScreenPatch patch) { return is_missing(i) ? ScreenPatch{} : patch; };
     };
-    mistakes.push_back(
-        {right.winner == Winner::nearest
-             ? "nothing of the model is seen: every triangle is skipped, or no depth is nearer "
-               "than "
-               "what the buffer is cleared to, or none is kept; compare lesson 03"
-             : "nothing of the model is seen: every triangle is skipped; compare lesson 02",
-         right, without([](std::size_t) { return true; })});
+    mistakes.push_back({right.winner == Winner::nearest
+                            ? "nothing of the model is seen: nothing is filled, no triangle counts "
+                              "as a front, no depth is nearer than what the buffer is cleared to, "
+                              "or none is kept; compare lesson 03"
+                            : "nothing of the model is seen: nothing is filled, or no triangle "
+                              "counts as a front (the sign of the area, y up?); compare lesson 02",
+                        right, without([](std::size_t) { return true; })});
     mistakes.push_back(
         {"every second triangle is missing (the 2nd, 4th ...): a polygon of n "
          "corners is n - 2 triangles; compare lesson 02",

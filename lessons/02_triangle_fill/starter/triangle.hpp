@@ -38,7 +38,7 @@ constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
     return 0;
 }
 
-/// The triangle with its corners snapped to the nearest 1/256 pixel (Eq. 2.8).
+/// The triangle with its corners snapped to the nearest 1/256 pixel, halves to even (Eq. 2.8).
 ///
 /// @param a,b,c  Screen space, pixels. When a coordinate is not a number or is not below
 ///               coordinate_limit in size, the triangle becomes one of no area, which covers
@@ -60,7 +60,8 @@ struct EdgeWalk {
     std::int64_t step_x, step_y;  ///< Change from a pixel to its right and lower neighbour.
     std::int64_t least;           ///< Inside or owned from this value on: 0 or 1 (Eq. 2.7).
 
-    /// @param winding  1 for a triangle seen counter-clockwise, -1 for one seen clockwise.
+    /// @param winding      1 for a triangle seen counter-clockwise, -1 for one seen clockwise.
+    /// @param first_pixel  Column and row of the pixel at whose centre the walk begins.
     EdgeWalk(ivec2 a, ivec2 b, int winding, ivec2 first_pixel) {
         // TODO: Eq. 2.1 times the winding; Eq. 2.5 in steps of a pixel; Eq. 2.7; Eq. 2.2 at a
         // centre.
