@@ -340,8 +340,8 @@ TEST(TriangleFill, HardCase_FansAroundPixelCentresCoverEachPixelOnce) {
             for (int k = -600; k < 600; k += 75)
                 rim.push_back(vec2(0.5f) + 600.0f * vec2(-step.y, step.x) +
                               static_cast<float>(k) * step);
-        const vec2 center = vec2(x(random), y(random)) + 0.5f;
-        ASSERT_TRUE(visit_each_pixel_once(test::fan(center, rim), size)) << "fan " << i;
+        const vec2 middle = vec2(x(random), y(random)) + 0.5f;
+        ASSERT_TRUE(visit_each_pixel_once(test::fan(middle, rim), size)) << "fan " << i;
     }
 }
 
