@@ -13,8 +13,11 @@ namespace rasterbook {
 enum class Counter {
     lines,
     line_pixels,
+    meshes_in,
+    meshes_culled_by_frustum,
     triangles_in,
     triangles_culled_by_facing,
+    triangles_drawn,   ///< Pieces that clipping leaves.
     fragments_tested,  ///< Compared with the depth buffer.
     fragments_shaded,  ///< Written into the picture.
     count
@@ -22,11 +25,10 @@ enum class Counter {
 
 /// The counters' names in the order of Counter.
 constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)> counter_names = {
-    "lines",
-    "line_pixels",
-    "triangles_in",
-    "triangles_culled_by_facing",
-    "fragments_tested",
+    "lines",           "line_pixels",
+    "meshes_in",       "meshes_culled_by_frustum",
+    "triangles_in",    "triangles_culled_by_facing",
+    "triangles_drawn", "fragments_tested",
     "fragments_shaded"};
 
 /// Counts.

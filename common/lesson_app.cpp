@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "common/lesson_app.hpp"
 
+#include <unistd.h>
+
 #include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -67,7 +70,18 @@ void print_stats(const LessonProgram& program, ivec2 size, const Counters& count
     std::cout << json.str() << std::flush;
 }
 
-void make_picture(const LessonProgram& program) {
+/// "turn_0007.png" for frame 7 of "turn_%04d.png"; other names stay as they are.
+std::filesystem::path name_of_frame(const std::filesystem::path& pattern, int frame) {
+    const std::string name = pattern.string();
+    const auto begin = name.find('%'), end = name.find('d', begin);
+    if (begin == name.npos || end == name.npos) return pattern;
+    std::string number = std::to_string(frame);
+    const std::size_t digits = std::strtoul(name.c_str() + begin + 1, nullptr, 10);
+    if (number.size() < digits) number.insert(0, digits - number.size(), '0');
+    return name.substr(0, begin) + number + name.substr(end + 1);
+}
+
+void make_pictures(const LessonProgram& program) {
     LessonOptions& options = program.options;
     const auto load_start = std::chrono::steady_clock::now();
     const Scene scene = load_obj(find_model(options.model));
@@ -75,32 +89,81 @@ void make_picture(const LessonProgram& program) {
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
 
     Counters counters;
+    double render_ms = 0, write_ms = 0;
+    bool is_empty = true;
+    const ivec2 size = options.size;
     options.size *= options.samples_per_side;
-    const auto render_start = std::chrono::steady_clock::now();
-    Image<vec3> rendered = program.render(scene, options.stats ? &counters : nullptr);
-    const bool is_empty = is_backdrop(rendered);
-    const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
-    const double render_ms = elapsed_ms(render_start);
+    const float first_yaw_degrees = program.orbit ? program.orbit->yaw_degrees : 0;
+    for (int frame = 0; frame < options.frames; ++frame) {
+        if (program.orbit)
+            program.orbit->yaw_degrees = first_yaw_degrees + 360.0f * static_cast<float>(frame) /
+                                                                 static_cast<float>(options.frames);
+        const auto render_start = std::chrono::steady_clock::now();
+        Image<vec3> rendered = program.render(scene, options.stats ? &counters : nullptr);
+        is_empty = is_empty && is_backdrop(rendered);
+        const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
+        render_ms += elapsed_ms(render_start);
+
+        const std::filesystem::path file = name_of_frame(options.out, frame);
+        const auto write_start = std::chrono::steady_clock::now();
+        write_image(file, srgb8_from_linear(picture));
+        write_ms += elapsed_ms(write_start);
+        if (!options.stats && options.frames == 1) std::cout << "wrote " << file.string() << '\n';
+        if (options.frames > 1 && isatty(STDERR_FILENO))
+            std::cerr << "\rframe " << frame + 1 << " of " << options.frames << std::flush;
+    }
+    if (options.frames > 1 && isatty(STDERR_FILENO)) std::cerr << '\n';
 
     if (is_empty)
         std::cerr << "warning: " << options.model.string()
                   << ": nothing of it is to be seen; perhaps its faces are named clockwise or have "
                      "no area\n";
-
-    const auto write_start = std::chrono::steady_clock::now();
-    write_image(options.out, srgb8_from_linear(picture));
-    const double write_ms = elapsed_ms(write_start);
-
     if (options.stats)
-        print_stats(program, picture.size(), counters, load_ms, render_ms, write_ms);
-    else
-        std::cout << "wrote " << options.out.string() << '\n';
+        print_stats(program, size, counters, load_ms, render_ms, write_ms);
+    else if (options.frames > 1)
+        std::cout << "wrote " << options.frames << " pictures, "
+                  << name_of_frame(options.out, 0).string() << " and so on\n";
 }
 
 }  // namespace
 
 void Knobs::flag(const std::string& name, bool& value, const std::string& help) {
     command_line_.add_flag(name, value, help);
+}
+
+namespace {
+
+template <typename Number>
+void add_number(CLI::App& line, const std::string& name, Number& value, Number least, Number most,
+                const std::string& help) {
+    const auto in_words = [](Number number) {
+        std::ostringstream words;
+        words << number;
+        return words.str();
+    };
+    const auto take = [=, &value](const std::string& word) {
+        Number number;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (error != std::errc() || end != word.data() + word.size() ||
+            !(number >= least && number <= most))
+            throw CLI::ValidationError(name, "'" + word + "' is not a number from " +
+                                                 in_words(least) + " to " + in_words(most));
+        value = number;
+    };
+    line.add_option_function<std::string>(name, take, help + " [" + in_words(value) + "]")
+        ->type_name("NUMBER");
+}
+
+}  // namespace
+
+void Knobs::number(const std::string& name, float& value, float least, float most,
+                   const std::string& help) {
+    add_number(command_line_, name, value, least, most, help);
+}
+
+void Knobs::number(const std::string& name, int& value, int least, int most,
+                   const std::string& help) {
+    add_number(command_line_, name, value, least, most, help);
 }
 
 void Knobs::add_choice(const std::string& name, const std::vector<std::string>& words,
@@ -140,11 +203,30 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
     Knobs knobs(line);
     knobs.choice("--samples", options.samples_per_side, {{"1", 1}, {"4", 2}, {"16", 4}, {"64", 8}},
                  "Samples a pixel, averaged: smoother, and that many times the time and memory");
+    if (program.orbit) {
+        Orbit& orbit = *program.orbit;
+        knobs.number("--yaw", orbit.yaw_degrees, -36000, 36000,
+                     "The camera's way around the scene, in degrees");
+        knobs.number("--pitch", orbit.pitch_degrees, -90, 90,
+                     "Its height over the horizon, in degrees");
+        knobs.number("--distance", orbit.distance, 0.01f, 1e6f,
+                     "Its distance from the scene's centre, in radii of the scene");
+        knobs.number("--fov", orbit.fov_degrees, 1, 170,
+                     "What it sees from the lower to the upper border, in degrees");
+        knobs.number("--frames", options.frames, 1, 9999,
+                     "Pictures of one turn around the scene; --out then takes turn_%04d.png");
+    }
     program.declare_knobs(knobs);
 
     try {
         line.parse(argc, argv);
-        make_picture(program);
+        if (options.frames > 1 && line.count("--out") == 0)
+            options.out = program.name + "_%04d.png";
+        if (options.frames > 1 && name_of_frame(options.out, 0) == options.out)
+            throw CLI::ValidationError("--out",
+                                       "the name for several frames needs their number, as "
+                                       "in turn_%04d.png");
+        make_pictures(program);
         if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
         return 0;
     } catch (const CLI::CallForHelp&) {

@@ -28,6 +28,16 @@ struct LessonOptions {
     ivec2 size{1280, 720};      ///< Pixels to render, each side 1 to 16384 for one sample a pixel.
     int samples_per_side = 1;   ///< The picture is rendered this many times as wide and as high.
     bool stats = false;
+    int frames = 1;  ///< Along one turn of the orbit.
+};
+
+/// Where the camera stands and how wide it sees, from lesson 04 on: a lesson whose options have an
+/// `Orbit orbit` is given the knobs for it, and --frames.
+struct Orbit {
+    float yaw_degrees = -28.0f;   ///< Around the scene, counter-clockwise as seen from above.
+    float pitch_degrees = 20.0f;  ///< Above the horizon, -90 to 90.
+    float distance = 1.55f;       ///< From the scene's centre, in radii of the scene, > 0.
+    float fov_degrees = 35.0f;    ///< From the picture's lower to its upper border, 1 to 170.
 };
 
 /// Where a lesson declares its knobs: one line gives the flag, its help, its check and its default.
@@ -37,6 +47,11 @@ class Knobs {
 
     /// `--name`: sets `value` to true.
     void flag(const std::string& name, bool& value, const std::string& help);
+
+    /// `--name NUMBER`: from `least` to `most`; `value` holds the default and takes the number.
+    void number(const std::string& name, float& value, float least, float most,
+                const std::string& help);
+    void number(const std::string& name, int& value, int least, int most, const std::string& help);
 
     /// `--name WORD`: one of the words; `value` holds the default and takes the choice.
     template <typename Value>
@@ -67,6 +82,7 @@ struct LessonProgram {
     std::string name;   ///< NN_name
     std::string title;  ///< One sentence for --help.
     LessonOptions& options;
+    Orbit* orbit;  ///< Of the options, or null.
     std::function<void(Knobs&)> declare_knobs;
     std::function<Image<vec3>(const Scene&, Counters*)> render;  ///< Counts when not null.
 };
@@ -82,7 +98,9 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 template <typename Options, typename Render>
 int run_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
     Options options;
-    return run_lesson_program({std::move(name), std::move(title), options,
+    Orbit* orbit = nullptr;
+    if constexpr (requires { options.orbit; }) orbit = &options.orbit;
+    return run_lesson_program({std::move(name), std::move(title), options, orbit,
                                [&](Knobs& knobs) {
                                    if constexpr (requires { options.declare(knobs); })
                                        options.declare(knobs);

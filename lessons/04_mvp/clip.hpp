@@ -8,6 +8,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <vector>
 
 #include "common/math/types.hpp"
 #include "common/mesh.hpp"
@@ -63,9 +64,8 @@ void clip_triangle(const std::array<vec4, 3>& corners, Visit&& visit) {
         outside_all &= outside;
     }
     if (outside_all != 0) return;
-    const ClippedTriangle whole = {{{corners[0], {1, 0, 0}},
-                                    {corners[1], {0, 1, 0}},
-                                    {corners[2], {0, 0, 1}}}};
+    const ClippedTriangle whole = {
+        {{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
     if (outside_any == 0) return visit(whole);
 
     // Each plane cuts off one corner at most, and adds one.
@@ -88,6 +88,14 @@ void clip_triangle(const std::array<vec4, 3>& corners, Visit&& visit) {
         count = rest_count;
     }
     for (std::size_t i = 2; i < count; ++i) visit({polygon[0], polygon[i - 1], polygon[i]});
+}
+
+/// A triangle's corners in clip space.
+inline std::array<vec4, 3> corners_of(const Triangle& triangle,
+                                      const std::vector<vec4>& positions_clip) {
+    return {positions_clip[triangle.corners[0].position],
+            positions_clip[triangle.corners[1].position],
+            positions_clip[triangle.corners[2].position]};
 }
 
 /// Whether nothing inside the box can be seen: all of its corners are outside of one plane.

@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <concepts>
+#include <limits>
+#include <vector>
 
 #include "common/math/numerics.hpp"
 #include "common/math/types.hpp"
@@ -87,9 +89,7 @@ glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3,
     if (!(glm::dot(right, right) > least_sine * least_sine)) right = cross_product(other_up, back);
     right = normalize_or(right, Vector(1, 0, 0));
     const Vector new_up = cross_product(back, right);
-    const auto row = [&](Vector axis) {
-        return glm::vec<4, T>(axis, -glm::dot(axis, eye));
-    };
+    const auto row = [&](Vector axis) { return glm::vec<4, T>(axis, -glm::dot(axis, eye)); };
     return matrix_from_rows<T>(row(right), row(new_up), row(back), {0, 0, 0, 1});
 }
 
@@ -132,6 +132,14 @@ constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
 template <std::floating_point T>
 glm::mat<3, 3, T> normal_matrix(const glm::mat<3, 3, T>& m) {
     return {cross_product(m[1], m[2]), cross_product(m[2], m[0]), cross_product(m[0], m[1])};
+}
+
+/// Points of one space in the clip space of `m`, as homogeneous coordinates.
+inline std::vector<vec4> transform(const mat4& m, const std::vector<vec3>& points) {
+    std::vector<vec4> transformed;
+    transformed.reserve(points.size());
+    for (const vec3 point : points) transformed.push_back(m * vec4(point, 1));
+    return transformed;
 }
 
 }  // namespace rasterbook

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The camera: where it stands, where it looks, and how wide. Introduced in lesson 04;
+/// derivation: docs/derivations/04_mvp.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "04_mvp/transform.hpp"
+#include "common/lesson_app.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+struct Camera {
+    vec3 position_world;
+    mat4 view_from_world;
+    float fov_y_radians;  ///< From the lower to the upper border, in (0, pi).
+    float near, far;      ///< Distances in front of the camera, 0 < near < far.
+
+    /// @param size  Of the picture, in pixels.
+    mat4 clip_from_world(ivec2 size) const {
+        const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+        return perspective(fov_y_radians, aspect, near, far) * view_from_world;
+    }
+};
+
+/// The way from a sphere's centre to a place on it, of length 1 (Eq. 4.6).
+///
+/// @param yaw_radians    Around the y axis, from +z towards +x.
+/// @param pitch_radians  Up from the horizon.
+inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
+    const float horizontal = std::cos(pitch_radians);
+    return {horizontal * std::sin(yaw_radians), std::sin(pitch_radians),
+            horizontal * std::cos(yaw_radians)};
+}
+
+/// A camera on a sphere around a scene's centre, that looks at the centre.
+///
+/// @param orbit   orbit.distance is in radii of the scene: half of its box's diagonal.
+/// @param bounds  Of the scene, world space. Empty or of no size: as if its radius were 1.
+inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
+    const bool is_empty = !(bounds.min.x <= bounds.max.x);
+    const vec3 center = is_empty ? vec3(0) : bounds.center();
+    const float half_diagonal = is_empty ? 0 : glm::length(bounds.max - center);
+    const float radius = half_diagonal > 0 ? half_diagonal : 1;
+    const float distance = orbit.distance * radius;
+    const vec3 eye = center + distance * direction_from_angles(glm::radians(orbit.yaw_degrees),
+                                                               glm::radians(orbit.pitch_degrees));
+    // The scene lies between distance - radius and distance + radius.
+    const float far = 1.001f * (distance + radius);
+    const float near = std::max(0.999f * (distance - radius), 0.001f * far);
+    return {eye, look_at(eye, center, vec3(0, 1, 0)), glm::radians(orbit.fov_degrees), near, far};
+}
+
+}  // namespace rasterbook
