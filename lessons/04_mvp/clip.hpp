@@ -46,15 +46,26 @@ inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedC
             (a_by * b.weights - b_by * a.weights) / whole};
 }
 
-/// The part of a triangle inside the frustum, as triangles that keep its winding.
+/// What is left of one triangle: a polygon of up to 9 corners, as a fan.
+class ClippedTriangles {
+  public:
+    const ClippedTriangle* begin() const { return triangles_.data(); }
+    const ClippedTriangle* end() const { return triangles_.data() + count_; }
+    void add(const ClippedTriangle& triangle) { triangles_[count_++] = triangle; }
+
+  private:
+    std::array<ClippedTriangle, 1 + frustum_planes> triangles_;
+    std::size_t count_ = 0;
+};
+
+/// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.12).
 ///
 /// @param corners  Clip space. A corner with a coordinate that is not a number counts as outside.
-/// @param visit    Called as visit(const ClippedTriangle&): once, with the triangle itself, when it
-///                 is all inside; not at all when it is all outside of one plane; up to 7 times
-///                 when it is cut.
+/// @return         The triangle itself, when it is all inside; nothing, when it is all outside of
+///                 one plane.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
-template <std::invocable<const ClippedTriangle&> Visit>
-void clip_triangle(const std::array<vec4, 3>& corners, Visit&& visit) {
+inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
+    ClippedTriangles clipped;
     unsigned outside_any = 0, outside_all = ~0u;
     for (const vec4 corner : corners) {
         unsigned outside = 0;
@@ -63,10 +74,13 @@ void clip_triangle(const std::array<vec4, 3>& corners, Visit&& visit) {
         outside_any |= outside;
         outside_all &= outside;
     }
-    if (outside_all != 0) return;
+    if (outside_all != 0) return clipped;
     const ClippedTriangle whole = {
         {{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
-    if (outside_any == 0) return visit(whole);
+    if (outside_any == 0) {
+        clipped.add(whole);
+        return clipped;
+    }
 
     // Each plane cuts off one corner at most, and adds one.
     std::array<ClippedCorner, 3 + frustum_planes> polygon, rest;
@@ -87,7 +101,8 @@ void clip_triangle(const std::array<vec4, 3>& corners, Visit&& visit) {
         std::swap(polygon, rest);
         count = rest_count;
     }
-    for (std::size_t i = 2; i < count; ++i) visit({polygon[0], polygon[i - 1], polygon[i]});
+    for (std::size_t i = 2; i < count; ++i) clipped.add({polygon[0], polygon[i - 1], polygon[i]});
+    return clipped;
 }
 
 /// A triangle's corners in clip space.

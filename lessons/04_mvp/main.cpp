@@ -40,27 +40,26 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
         const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
             counters.add(Counter::triangles_in);
-            clip_triangle(
-                corners_of(triangle, positions_clip), [&](const ClippedTriangle& clipped) {
-                    counters.add(Counter::triangles_drawn);
-                    const vec3 a = screen_from_clip(clipped[0].position_clip, options.size);
-                    const vec3 b = screen_from_clip(clipped[1].position_clip, options.size);
-                    const vec3 c = screen_from_clip(clipped[2].position_clip, options.size);
-                    const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                    if (!is_front_facing(on_screen)) {
-                        counters.add(Counter::triangles_culled_by_facing);
-                        return;
-                    }
-                    const vec3 face_color =
-                        flat_color(mesh, triangle, scene.materials[triangle.material]);
-                    const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                    fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 weights) {
-                        counters.add(Counter::fragments_tested);
-                        if (!depth.test_and_write(pixel, triangle_depth.at(weights))) return;
-                        counters.add(Counter::fragments_shaded);
-                        color[pixel] = face_color;
-                    });
+            for (const ClippedTriangle& clipped :
+                 clip_triangle(corners_of(triangle, positions_clip))) {
+                const vec3 a = screen_from_clip(clipped[0].position_clip, options.size);
+                const vec3 b = screen_from_clip(clipped[1].position_clip, options.size);
+                const vec3 c = screen_from_clip(clipped[2].position_clip, options.size);
+                const ScreenTriangle on_screen = snap_triangle(a, b, c);
+                if (!is_front_facing(on_screen)) {
+                    counters.add(Counter::triangles_culled_by_facing);
+                    continue;
+                }
+                const vec3 face_color =
+                    flat_color(mesh, triangle, scene.materials[triangle.material]);
+                const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
+                fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 weights) {
+                    counters.add(Counter::fragments_tested);
+                    if (!depth.test_and_write(pixel, triangle_depth.at(weights))) return;
+                    counters.add(Counter::fragments_shaded);
+                    color[pixel] = face_color;
                 });
+            }
         }
     }
     return options.show_depth ? depth_picture(depth) : color;
