@@ -46,7 +46,11 @@ inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedC
             (a_by * b.weights - b_by * a.weights) / whole};
 }
 
-/// What is left of one triangle: a polygon of up to 9 corners, as a fan.
+/// The corners that cutting by six planes may leave: 9 of a convex polygon, but rounding may dent
+/// it a little, and then a plane may cut off every second corner and add two for each.
+constexpr std::size_t most_clipped_corners = 28;
+
+/// What is left of one triangle: a polygon, as a fan.
 class ClippedTriangles {
   public:
     const ClippedTriangle* begin() const { return triangles_.data(); }
@@ -54,7 +58,7 @@ class ClippedTriangles {
     void add(const ClippedTriangle& triangle) { triangles_[count_++] = triangle; }
 
   private:
-    std::array<ClippedTriangle, 1 + frustum_planes> triangles_;
+    std::array<ClippedTriangle, most_clipped_corners - 2> triangles_;
     std::size_t count_ = 0;
 };
 
@@ -82,8 +86,7 @@ inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
         return clipped;
     }
 
-    // Each plane cuts off one corner at most, and adds one.
-    std::array<ClippedCorner, 3 + frustum_planes> polygon, rest;
+    std::array<ClippedCorner, most_clipped_corners> polygon, rest;
     std::copy(whole.begin(), whole.end(), polygon.begin());
     std::size_t count = 3;
     for (int plane = 0; plane < frustum_planes; ++plane) {
@@ -98,7 +101,7 @@ inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
             if ((from_by >= 0) != (to_by >= 0))
                 rest[rest_count++] = crossing(from, from_by, to, to_by);
         }
-        std::swap(polygon, rest);
+        std::copy_n(rest.begin(), rest_count, polygon.begin());
         count = rest_count;
     }
     for (std::size_t i = 2; i < count; ++i) clipped.add({polygon[0], polygon[i - 1], polygon[i]});
