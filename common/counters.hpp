@@ -17,7 +17,6 @@ enum class Counter {
     meshes_culled_by_frustum,
     triangles_in,
     triangles_culled_by_facing,
-    triangles_drawn,   ///< Pieces that clipping leaves.
     fragments_tested,  ///< Compared with the depth buffer.
     fragments_shaded,  ///< Written into the picture.
     count
@@ -25,10 +24,13 @@ enum class Counter {
 
 /// The counters' names in the order of Counter.
 constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)> counter_names = {
-    "lines",           "line_pixels",
-    "meshes_in",       "meshes_culled_by_frustum",
-    "triangles_in",    "triangles_culled_by_facing",
-    "triangles_drawn", "fragments_tested",
+    "lines",
+    "line_pixels",
+    "meshes_in",
+    "meshes_culled_by_frustum",
+    "triangles_in",
+    "triangles_culled_by_facing",
+    "fragments_tested",
     "fragments_shaded"};
 
 /// Counts.
