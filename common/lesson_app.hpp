@@ -34,10 +34,10 @@ struct LessonOptions {
 /// Where the camera stands and how wide it sees, from lesson 04 on: a lesson whose options have an
 /// `Orbit orbit` is given the knobs for it, and --frames.
 struct Orbit {
-    float yaw_degrees = -28.0f;   ///< Around the scene, counter-clockwise as seen from above.
-    float pitch_degrees = 20.0f;  ///< Above the horizon, -90 to 90.
-    float distance = 1.55f;       ///< From the scene's centre, in radii of the scene, > 0.
-    float fov_degrees = 35.0f;    ///< From the picture's lower to its upper border, 1 to 170.
+    float yaw_degrees = -30.0f;   ///< Around the scene, counter-clockwise as seen from above.
+    float pitch_degrees = 27.0f;  ///< Above the horizon, -90 to 90.
+    float distance = 1.4f;        ///< From the scene's centre, in radii of the scene, > 0.
+    float fov_degrees = 36.0f;    ///< From the picture's lower to its upper border, 1 to 170.
 };
 
 /// Where a lesson declares its knobs: one line gives the flag, its help, its check and its default.

@@ -52,8 +52,8 @@ norm ../textures/hammered_normal.png
 
 inline const std::string wooden_crate = R"(
 newmtl crate
-Ka 1 1 1
-Kd 1 1 1
+Ka 0.9 0.62 0.38
+Kd 0.9 0.62 0.38
 illum 1
 map_Kd ../textures/wood.png
 )";
@@ -84,8 +84,16 @@ map_Bump -bm )" + text_of(brick_relief) + " ../textures/brick_height.png\n";
 
 inline const std::string smooth_tiles = R"(
 newmtl tiles
-Ka 0.8 0.8 0.8
-Kd 0.8 0.8 0.8
+Ka 0.58 0.55 0.5
+Kd 0.58 0.55 0.5
+Ks 0.2 0.2 0.2
+Ns 60
+illum 2
+map_Kd ../textures/tiles.png
+
+newmtl dark_tiles
+Ka 0.1 0.15 0.22
+Kd 0.1 0.15 0.22
 Ks 0.2 0.2 0.2
 Ns 60
 illum 2
@@ -94,8 +102,18 @@ map_Kd ../textures/tiles.png
 
 inline const std::string bumpy_tiles = R"(
 newmtl tiles
-Ka 0.8 0.8 0.8
-Kd 0.8 0.8 0.8
+Ka 0.58 0.55 0.5
+Kd 0.58 0.55 0.5
+Ks 1 1 1
+Ns 60
+illum 2
+map_Kd ../textures/tiles.png
+map_Ks ../textures/tiles_specular.png
+norm ../textures/tiles_normal.png
+
+newmtl dark_tiles
+Ka 0.1 0.15 0.22
+Kd 0.1 0.15 0.22
 Ks 1 1 1
 Ns 60
 illum 2

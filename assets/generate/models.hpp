@@ -51,6 +51,15 @@ inline Part floor(const std::string& material, double side, double texture_size)
     return part;
 }
 
+/// Every second face of a floor, as on a chessboard, in another material of the same group.
+inline std::vector<Part> chessboard(Part part, const std::string& other_material) {
+    Part other{part.group, other_material, {}}, rest{part.group, part.material, {}};
+    const auto quads = static_cast<std::size_t>(std::lround(std::sqrt(part.faces.size())));
+    for (std::size_t i = 0; i < part.faces.size(); ++i)
+        ((i / quads + i % quads) % 2 == 0 ? rest : other).faces.push_back(part.faces[i]);
+    return {rest, other};
+}
+
 /// One triangle that faces the fixed view of the first lessons.
 inline Part triangle(const std::string& material) {
     const dvec3 right(0.866, 0, 0.5), up(0.211, 0.906, -0.366);
@@ -88,7 +97,8 @@ inline std::vector<Part> scene(std::vector<Part> teapot, const std::string& coat
         parts.push_back(std::move(part));
     }
     parts.push_back(placed(crate(crate_material), 0.8, 0.6, {-3.7, 0, -2.6}));
-    parts.push_back(floor(floor_material, 12, 3));
+    for (Part& part : chessboard(floor(floor_material, 12, 3), "dark_" + floor_material))
+        parts.push_back(std::move(part));
     return parts;
 }
 
