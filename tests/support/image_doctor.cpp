@@ -2,8 +2,13 @@
 #include "support/image_doctor.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <utility>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "common/obj.hpp"
 #include "common/parallel_view.hpp"
@@ -77,18 +82,59 @@ std::vector<ScreenPatch> parallel_patches(const Scene& scene, ivec2 size) {
     return patches;
 }
 
+std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Orbit& orbit, ivec2 size) {
+    const Bounds bounds = scene.bounds();
+    const dvec3 center = 0.5 * (dvec3(bounds.min) + dvec3(bounds.max));
+    const double radius = glm::length(dvec3(bounds.max) - center);
+    const double yaw_radians = glm::radians(double{orbit.yaw_degrees});
+    const double pitch_radians = glm::radians(double{orbit.pitch_degrees});
+    const dvec3 back(std::cos(pitch_radians) * std::sin(yaw_radians), std::sin(pitch_radians),
+                     std::cos(pitch_radians) * std::cos(yaw_radians));
+    const double distance = orbit.distance * radius;
+    const dmat4 clip_from_world = glm::perspectiveRH_NO(glm::radians(double{orbit.fov_degrees}),
+                                                        double{1.0 * size.x} / size.y,
+                                                        0.001 * distance, 2 * (distance + radius)) *
+                                  glm::lookAtRH(center + distance * back, center, dvec3(0, 1, 0));
+    const auto on_screen = [&](vec3 position) {
+        const dvec4 clip = clip_from_world * dvec4(position, 1);
+        if (!(clip.w > 0)) return vec3(std::numeric_limits<float>::quiet_NaN());
+        const dvec3 ndc = dvec3(clip) / clip.w;
+        return vec3(0.5 * (ndc.x + 1) * size.x, 0.5 * (1 - ndc.y) * size.y, 0.5 * (ndc.z + 1));
+    };
+    std::vector<ScreenPatch> patches;
+    for (const Mesh& mesh : scene.meshes)
+        for (const auto& [corners, material] : mesh.triangles)
+            patches.push_back({on_screen(mesh.positions[corners[0].position]),
+                               on_screen(mesh.positions[corners[1].position]),
+                               on_screen(mesh.positions[corners[2].position])});
+    return patches;
+}
+
 PictureFacts picture_facts(const std::string& lesson, const std::vector<std::string>& arguments,
                            ivec2 size) {
     PictureFacts facts;
     facts.has_depth_buffer = lesson >= "03";
     facts.shows_weights = option_value(arguments, "--paint") == "weights";
     facts.shows_depth = std::find(arguments.begin(), arguments.end(), "--depth") != arguments.end();
-    if (lesson < "02" || lesson >= "04") return facts;
+    if (lesson < "02") return facts;
     std::filesystem::path model = option_value(arguments, "--model");
-    if (model.empty()) model = "teapot.obj";
+    if (model.empty()) model = lesson < "04" ? "teapot.obj" : "scene.obj";
     if (!std::filesystem::exists(model))
         model = std::filesystem::path(RASTERBOOK_ASSETS) / "models" / model;
-    facts.patches = parallel_patches(load_obj(model), size);
+    if (lesson < "04") {
+        facts.patches = parallel_patches(load_obj(model), size);
+        return facts;
+    }
+    Orbit orbit;
+    const auto take = [&](const char* option, float& value) {
+        const std::string word = option_value(arguments, option);
+        if (!word.empty()) value = std::strtof(word.c_str(), nullptr);
+    };
+    take("--yaw", orbit.yaw_degrees);
+    take("--pitch", orbit.pitch_degrees);
+    take("--distance", orbit.distance);
+    take("--fov", orbit.fov_degrees);
+    facts.patches = perspective_patches(load_obj(model), orbit, size);
     return facts;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/image.hpp"
+#include "common/lesson_app.hpp"
 #include "common/mesh.hpp"
 #include "support/visibility.hpp"
 
@@ -23,7 +24,7 @@ struct PictureFacts {
 
 /// The facts of a lesson's picture.
 ///
-/// @param lesson     NN_name. From lesson 04 on another camera draws, and there are no patches yet.
+/// @param lesson     NN_name.
 /// @param arguments  Of its program.
 /// @throws InputError  When the model cannot be read.
 PictureFacts picture_facts(const std::string& lesson, const std::vector<std::string>& arguments,
@@ -31,6 +32,10 @@ PictureFacts picture_facts(const std::string& lesson, const std::vector<std::str
 
 /// The scene's triangles as the camera of lessons 01 to 03 sees them.
 std::vector<ScreenPatch> parallel_patches(const Scene& scene, ivec2 size);
+
+/// The same as the camera of lesson 04 sees them, by GLM's matrices. Of a triangle that reaches
+/// behind the camera nothing is seen.
+std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Orbit& orbit, ivec2 size);
 
 /// One line for each mistake that explains the picture, at most two: what it looks like, a colon,
 /// the usual cause.
