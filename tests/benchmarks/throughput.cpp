@@ -16,6 +16,8 @@
 #include "01_bresenham_lines/line.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
 #include "common/obj.hpp"
 #include "common/triangulate.hpp"
 
@@ -109,6 +111,51 @@ void triangles(benchmark::State& state) {
     state.counters["pixels_per_triangle"] = covered / static_cast<double>(input.size());
 }
 
+/// A hilly ground of 200,000 small triangles through the camera: transforming, clipping, facing,
+/// set-up, filling, with depth.
+void triangles_through_the_camera(benchmark::State& state) {
+    constexpr int side = 317;  // 316 * 316 quads
+    constexpr ivec2 size(1920, 1080);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> height(0, 0.02f);
+    std::vector<vec3> positions;
+    std::vector<Triangle> mesh;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            positions.emplace_back(2.0f * static_cast<float>(x) / (side - 1) - 1, height(random),
+                                   2.0f * static_cast<float>(y) / (side - 1) - 1);
+    for (std::uint32_t i = 0; i < side * (side - 1); ++i) {
+        if (i % side == side - 1) continue;
+        const Corner a{i}, b{i + side}, c{i + side + 1}, d{i + 1};
+        mesh.push_back({{a, b, c}, 0});
+        mesh.push_back({{a, c, d}, 0});
+    }
+    const Camera camera = orbit_camera({}, {vec3(-1, 0, -1), vec3(1, 0.02f, 1)});
+    Image<vec3> color(size);
+    DepthBuffer depth(size);
+    for (auto _ : state) {
+        state.PauseTiming();
+        depth = DepthBuffer(size);
+        state.ResumeTiming();
+        const auto positions_clip = transform(camera.clip_from_world(size), positions);
+        for (const Triangle& triangle : mesh)
+            for (const ClippedTriangle& clipped :
+                 clip_triangle(corners_of(triangle, positions_clip))) {
+                const vec3 a = screen_from_clip(clipped[0].position_clip, size);
+                const vec3 b = screen_from_clip(clipped[1].position_clip, size);
+                const vec3 c = screen_from_clip(clipped[2].position_clip, size);
+                const ScreenTriangle on_screen = snap_triangle(a, b, c);
+                if (!is_front_facing(on_screen)) continue;
+                const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
+                fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 weights) {
+                    if (depth.test_and_write(pixel, triangle_depth.at(weights))) color[pixel] = a;
+                });
+            }
+        benchmark::ClobberMemory();
+    }
+    state.counters["triangles"] = per_second(static_cast<double>(mesh.size()));
+}
+
 /// A comb: a polygon of which every second corner is a dent. Argument: the number of its corners.
 void concave_polygon(benchmark::State& state) {
     std::vector<vec3> comb;
@@ -162,6 +209,7 @@ BENCHMARK_TEMPLATE(triangles, true)
     ->Arg(5000)
     ->Arg(10)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(triangles_through_the_camera)->Unit(benchmark::kMillisecond);
 BENCHMARK(concave_polygon)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
 BENCHMARK(obj_file)->Unit(benchmark::kMillisecond);
 BENCHMARK_MAIN();
