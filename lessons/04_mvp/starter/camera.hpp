@@ -19,6 +19,8 @@ struct Camera {
     float fov_y_radians;  ///< From the lower to the upper border, in (0, pi).
     float near, far;      ///< Distances in front of the camera, 0 < near < far.
 
+    /// View first, then perspective (Eq. 4.4).
+    ///
     /// @param size  Of the picture, in pixels.
     mat4 clip_from_world(ivec2 size) const {
         // TODO: Eq. 4.4 and 4.8.

@@ -41,7 +41,7 @@ constexpr float inside_by(int plane, vec4 position_clip) {
 /// share it when both are cut.
 inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedCorner& b,
                               float b_by) {
-    // TODO: Eq. 4.11.
+    // TODO: Eq. 4.11; divide first, and mind what overflows.
     return a;
 }
 
@@ -61,14 +61,18 @@ class ClippedTriangles {
     std::size_t count_ = 0;
 };
 
+/// Coordinates in clip space stay below this: then no difference in Eq. 4.11 overflows.
+constexpr float clip_limit = 0x1p124f;
+
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.12).
 ///
-/// @param corners  Clip space. A corner with a coordinate that is not a number counts as outside.
+/// @param corners  Clip space. When a coordinate is not a number or is not below clip_limit in
+///                 size, nothing is left.
 /// @return         The triangle itself, when it is all inside; nothing, when it is all outside of
 ///                 one plane.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
 inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
-    // TODO: Eq. 4.12.
+    // TODO: refuse what is not usable; Eq. 4.12.
     return {};
 }
 
@@ -80,7 +84,8 @@ inline std::array<vec4, 3> corners_of(const Triangle& triangle,
             positions_clip[triangle.corners[2].position]};
 }
 
-/// Whether nothing inside the box can be seen: all of its corners are outside of one plane.
+/// Whether nothing inside the box can be seen: all of its corners are outside of one plane
+/// (Eq. 4.13).
 ///
 /// False for some boxes of which nothing is seen either, beside an edge of the frustum.
 inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world) {
