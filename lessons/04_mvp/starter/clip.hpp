@@ -62,7 +62,7 @@ class ClippedTriangles {
 };
 
 /// Coordinates in clip space stay below this: then no difference in Eq. 4.11 overflows.
-constexpr float clip_limit = 0x1p124f;
+constexpr float clip_limit = 0x1p125f;
 
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.12).
 ///
