@@ -222,6 +222,7 @@ TEST(Mvp, Eq4_12_WhatIsAllInsideStaysBitForBit) {
 }
 
 TEST(Mvp, Eq4_12_NothingIsLeftOutsideOfOnePlane) {
+    EXPECT_FALSE(clipped(all_inside).empty());
     for (int plane = 0; plane < frustum_planes; ++plane) {
         Corners corners = all_inside;
         for (vec4& corner : corners)

@@ -80,6 +80,18 @@ testing::AssertionResult is_rigid(const mat4& m) {
     return testing::AssertionSuccess();
 }
 
+/// For EXPECT_TRUE: what the camera looks at lies before it, in the middle.
+testing::AssertionResult sees_in_the_middle(const mat4& view, vec3 eye, vec3 center) {
+    const dvec3 seen(dmat4(view) * dvec4(center, 1));
+    const double distance = glm::length(dvec3(eye) - dvec3(center));
+    // The rotation is within 4 eps, and so is the product with the eye in the last column.
+    const double tolerance =
+        8 * double{eps} * (glm::length(dvec3(eye)) + glm::length(dvec3(center)));
+    if (glm::length(seen - dvec3(0, 0, -distance)) <= 2 * tolerance)
+        return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "the center is seen at " << testing::PrintToString(seen);
+}
+
 void expect_point(vec3 actual, vec3 expected, float tolerance) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], tolerance);
 }
@@ -210,8 +222,9 @@ TEST(Mvp, Eq4_6_EqualsTwoTurnsOfTheZAxis) {
     AnySize any(5, 2);
     for (int i = 0; i < cases; ++i) {
         const float yaw = any.number(), pitch = any.number();
+        const dmat4 around_y = glm::rotate(dmat4(1), double{yaw}, dvec3(0, 1, 0));
         const dvec4 turned =
-            rotation_y(double{yaw}) * rotation_x(-double{pitch}) * dvec4(0, 0, 1, 0);
+            glm::rotate(around_y, -double{pitch}, dvec3(1, 0, 0)) * dvec4(0, 0, 1, 0);
         const vec3 direction = direction_from_angles(yaw, pitch);
         for (int axis = 0; axis < 3; ++axis)  // two functions within 1 ulp and a product
             ASSERT_NEAR(direction[axis], turned[axis], 2 * double{eps}) << "seed 5, case " << i;
@@ -379,6 +392,7 @@ TEST(Mvp, HardCase_LookAtWithUpThatIsNoUp) {
         const vec3 eye = any.vector(), center = any.vector(), back = eye - center;
         const mat4 without = look_at(eye, center, vec3(0));
         ASSERT_TRUE(is_rigid(without)) << "seed 11, case " << i;
+        ASSERT_TRUE(sees_in_the_middle(without, eye, center)) << "seed 11, case " << i;
         for (const vec3 up : {back, -back, any.number() * back, vec3(not_a_number),
                               vec3(0, not_a_number, 0), vec3(infinity, 0, 0), vec3(-0.0f)})
             ASSERT_EQ(look_at(eye, center, up), without)
@@ -392,12 +406,14 @@ TEST(Mvp, HardCase_LookAtWithUpThatIsNoUp) {
                           look_at(sign * axis, vec3(0), vec3(0)));
             }
     const mat4 level = look_at(vec3(0, 0, 1), vec3(0), vec3(0));
-    EXPECT_EQ(level, translation(vec3(0, 0, -1))) << "up is y where that is least parallel";
+    EXPECT_EQ(level, glm::translate(mat4(1), vec3(0, 0, -1)))
+        << "up is y where that is least parallel";
 }
 
 TEST(Mvp, HardCase_LookAtFromTheCenterItself) {
     look_up("Eq. 4.5");
-    EXPECT_EQ(look_at(vec3(1, 2, 3), vec3(1, 2, 3), vec3(0, 1, 0)), translation(vec3(-1, -2, -3)));
+    EXPECT_EQ(look_at(vec3(1, 2, 3), vec3(1, 2, 3), vec3(0, 1, 0)),
+              glm::translate(mat4(1), vec3(-1, -2, -3)));
     for (const vec3 up : {vec3(0), vec3(0, 0, 1), vec3(not_a_number), vec3(1e-6f, 0, 1)})
         EXPECT_TRUE(is_rigid(look_at(vec3(1, 2, 3), vec3(1, 2, 3), up)));
 }
@@ -429,6 +445,7 @@ TEST(Mvp, HardCase_LookAtOverTinyAndHugeDistances) {
         const vec3 eye = any.vector(), up = any.vector();
         const mat4 expected = look_at(eye, vec3(0), up);
         ASSERT_TRUE(is_rigid(expected)) << "seed 13, case " << i;
+        ASSERT_TRUE(sees_in_the_middle(expected, eye, vec3(0))) << "seed 13, case " << i;
         for (const float size : {0x1p-100f, 0x1p100f}) {  // powers of two: nothing rounds anew
             mat4 actual = look_at(size * eye, vec3(0), up);
             ASSERT_TRUE(is_rigid(actual)) << "seed 13, case " << i << ", size " << size;
