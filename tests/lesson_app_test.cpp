@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -86,7 +87,7 @@ TEST(LessonApp, SamplesAreAveragedIntoAPictureOfTheSizeAskedFor) {
 
 TEST(LessonApp, CountingDoesNotChangeThePicture) {
     const auto folder = fresh_folder("app");
-    for (const char* name : {"01_bresenham_lines", "02_triangle_fill", "03_z_buffer"}) {
+    for (const char* name : {"01_bresenham_lines", "02_triangle_fill", "03_z_buffer", "04_mvp"}) {
         run_program(name, {"--size", "80x60", "--out", (folder / "plain.png").string()});
         run_program(name,
                     {"--size", "80x60", "--stats", "--out", (folder / "counted.png").string()});
@@ -141,7 +142,7 @@ TEST(LessonApp, HardCase_OutputIntoAMissingFolderIsAnError) {
 
 TEST(LessonApp, HardCase_SmallestPicture) {
     const auto file = fresh_folder("app") / "a.png";
-    for (const char* name : {"01_bresenham_lines", "02_triangle_fill", "03_z_buffer"})
+    for (const char* name : {"01_bresenham_lines", "02_triangle_fill", "03_z_buffer", "04_mvp"})
         for (const char* size : {"1x1", "1x40", "40x1"}) {
             const ProcessResult result =
                 run_program(name, {"--size", size, "--out", file.string()});
@@ -151,15 +152,17 @@ TEST(LessonApp, HardCase_SmallestPicture) {
 
 TEST(LessonApp, HardCase_ModelOfExtremeSizeIsDrawnAllTheSame) {
     const auto folder = fresh_folder("app");
-    for (const char* scale : {"e-38", "", "e37"}) {
-        std::ofstream(folder / "a.obj")
-            << "v -1" << scale << " 0 0\nv 1" << scale << " 0 0\nv 0 1" << scale << " 0\nf 1 2 3\n";
-        const ProcessResult result = run_program(
-            lesson, {"--size", "64x48", "--stats", "--model", (folder / "a.obj").string(), "--out",
-                     (folder / "a.png").string()});
-        ASSERT_EQ(result.exit_status, 0) << result.err;
-        EXPECT_GT(nlohmann::json::parse(result.out).at("fragments_shaded"), 500) << scale;
-    }
+    for (const char* program : {lesson, "04_mvp"})
+        for (const char* scale : {"e-38", "", "e37"}) {
+            std::ofstream(folder / "a.obj") << "v -1" << scale << " 0 0\nv 1" << scale
+                                            << " 0 0\nv 0 1" << scale << " 0\nf 1 2 3\n";
+            const ProcessResult result = run_program(
+                program, {"--size", "64x48", "--stats", "--model", (folder / "a.obj").string(),
+                          "--out", (folder / "a.png").string()});
+            ASSERT_EQ(result.exit_status, 0) << result.err;
+            EXPECT_GT(nlohmann::json::parse(result.out).at("fragments_shaded"), 500)
+                << program << ' ' << scale;
+        }
 }
 
 TEST(LessonApp, HardCase_ModelThatCannotBeSeenIsAWarning) {
@@ -183,4 +186,68 @@ TEST(LessonApp, WarningsOfTheModelAreShown) {
     EXPECT_EQ(result.exit_status, 0);
     EXPECT_EQ(result.err.rfind("warning: " + (folder / "a.obj").string() + ":1: ", 0), 0u)
         << result.err;
+}
+
+TEST(LessonApp, FramesAreNumberedPicturesOfOneTurn) {
+    const auto folder = fresh_folder("app");
+    const ProcessResult result = run_program("04_mvp", {"--size", "64x48", "--frames", "3", "--out",
+                                                        (folder / "turn_%04d.png").string()});
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    EXPECT_EQ(result.out,
+              "wrote 3 pictures, " + (folder / "turn_0000.png").string() + " and so on\n");
+    const auto first = read_image(folder / "turn_0000.png"),
+               second = read_image(folder / "turn_0001.png"),
+               third = read_image(folder / "turn_0002.png");
+    EXPECT_TRUE(first != second && second != third && third != first);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 3);
+}
+
+TEST(LessonApp, FramesAreThePicturesOfTheirYaw) {
+    const auto folder = fresh_folder("app");
+    ASSERT_EQ(run_program("04_mvp", {"--size", "64x48", "--yaw", "-28", "--frames", "4", "--out",
+                                     (folder / "turn_%d.png").string()})
+                  .exit_status,
+              0);
+    for (int frame = 0; frame < 4; ++frame) {
+        const auto alone = folder / "alone.png";
+        run_program("04_mvp", {"--size", "64x48", "--yaw", std::to_string(-28 + 90 * frame),
+                               "--out", alone.string()});
+        EXPECT_EQ(read_image(folder / ("turn_" + std::to_string(frame) + ".png")),
+                  read_image(alone))
+            << frame;
+    }
+}
+
+TEST(LessonApp, HardCase_BadKnobsOfTheCameraAreExitStatus2) {
+    const std::string out = (fresh_folder("app") / "a.png").string();
+    const auto status_2 = [&](const std::string& knob, const std::string& word) {
+        expect_error(run_program("04_mvp", {"--size", "8x8", "--out", out, knob, word}), 2, knob);
+    };
+    for (const char* word : {"200", "0", "171", "nan", "-35", ""}) status_2("--fov", word);
+    for (const char* word : {"x", "91", "-90.5", "inf", "20x"}) status_2("--pitch", word);
+    for (const char* word : {"x", "1e9", "nan"}) status_2("--yaw", word);
+    for (const char* word : {"0", "-1", "1e7", "x"}) status_2("--distance", word);
+    for (const char* word : {"0", "10000", "2.5", "x"}) status_2("--frames", word);
+    expect_error(run_program("04_mvp", {"--frames", "2", "--size", "8x8", "--out", out}), 2,
+                 "--out");
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(LessonApp, HardCase_CameraAtItsLimitsDraws) {
+    const std::string out = (fresh_folder("app") / "a.png").string();
+    for (const std::vector<std::string>& knobs :
+         std::vector<std::vector<std::string>>{{"--pitch", "90"},
+                                               {"--pitch", "-90"},
+                                               {"--fov", "170"},
+                                               {"--fov", "1"},
+                                               {"--distance", "0.01"},
+                                               {"--distance", "1"},
+                                               {"--yaw", "36000"}}) {
+        std::vector<std::string> arguments = {"--size", "64x48", "--stats", "--out", out};
+        arguments.insert(arguments.end(), knobs.begin(), knobs.end());
+        const ProcessResult result = run_program("04_mvp", arguments);
+        ASSERT_EQ(result.exit_status, 0) << result.err;
+        EXPECT_GT(nlohmann::json::parse(result.out).at("fragments_shaded"), 0)
+            << knobs[0] << ' ' << knobs[1];
+    }
 }

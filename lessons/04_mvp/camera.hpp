@@ -19,6 +19,8 @@ struct Camera {
     float fov_y_radians;  ///< From the lower to the upper border, in (0, pi).
     float near, far;      ///< Distances in front of the camera, 0 < near < far.
 
+    /// View first, then perspective (Eq. 4.4).
+    ///
     /// @param size  Of the picture, in pixels.
     mat4 clip_from_world(ivec2 size) const {
         const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
@@ -43,8 +45,9 @@ inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
 inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     const bool is_empty = !(bounds.min.x <= bounds.max.x);
     const vec3 center = is_empty ? vec3(0) : bounds.center();
-    const float half_diagonal = is_empty ? 0 : glm::length(bounds.max - center);
-    const float radius = half_diagonal > 0 ? half_diagonal : 1;
+    // In double, where the squares of lengths neither overflow nor underflow.
+    const double half_diagonal = is_empty ? 0 : glm::length(dvec3(bounds.max) - dvec3(center));
+    const float radius = half_diagonal > 0 ? static_cast<float>(half_diagonal) : 1.0f;
     const float distance = orbit.distance * radius;
     const vec3 eye = center + distance * direction_from_angles(glm::radians(orbit.yaw_degrees),
                                                                glm::radians(orbit.pitch_degrees));

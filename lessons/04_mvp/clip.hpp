@@ -41,9 +41,10 @@ constexpr float inside_by(int plane, vec4 position_clip) {
 /// share it when both are cut.
 inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedCorner& b,
                               float b_by) {
-    const float whole = a_by - b_by;
-    return {(a_by * b.position_clip - b_by * a.position_clip) / whole,
-            (a_by * b.weights - b_by * a.weights) / whole};
+    // Divide first: products of what is large or tiny leave the range of float.
+    const float whole = a_by - b_by, share_of_a = -b_by / whole, share_of_b = a_by / whole;
+    return {share_of_a * a.position_clip + share_of_b * b.position_clip,
+            share_of_a * a.weights + share_of_b * b.weights};
 }
 
 /// The corners that cutting by six planes may leave: 9 of a convex polygon, but rounding may dent
@@ -62,9 +63,13 @@ class ClippedTriangles {
     std::size_t count_ = 0;
 };
 
+/// Coordinates in clip space stay below this: then no difference in Eq. 4.11 overflows.
+constexpr float clip_limit = 0x1p125f;
+
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.12).
 ///
-/// @param corners  Clip space. A corner with a coordinate that is not a number counts as outside.
+/// @param corners  Clip space. When a coordinate is not a number or is not below clip_limit in
+///                 size, nothing is left.
 /// @return         The triangle itself, when it is all inside; nothing, when it is all outside of
 ///                 one plane.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
@@ -72,9 +77,10 @@ inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
     ClippedTriangles clipped;
     unsigned outside_any = 0, outside_all = ~0u;
     for (const vec4 corner : corners) {
+        if (!glm::all(glm::lessThan(glm::abs(corner), vec4(clip_limit)))) return clipped;
         unsigned outside = 0;
         for (int plane = 0; plane < frustum_planes; ++plane)
-            outside |= static_cast<unsigned>(!(inside_by(plane, corner) >= 0)) << plane;
+            outside |= static_cast<unsigned>(inside_by(plane, corner) < 0) << plane;
         outside_any |= outside;
         outside_all &= outside;
     }
@@ -116,7 +122,8 @@ inline std::array<vec4, 3> corners_of(const Triangle& triangle,
             positions_clip[triangle.corners[2].position]};
 }
 
-/// Whether nothing inside the box can be seen: all of its corners are outside of one plane.
+/// Whether nothing inside the box can be seen: all of its corners are outside of one plane
+/// (Eq. 4.13).
 ///
 /// False for some boxes of which nothing is seen either, beside an edge of the frustum.
 inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world) {

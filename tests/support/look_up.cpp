@@ -21,16 +21,25 @@ std::string equation_in(const std::string& name) {
     return "Eq. " + number;
 }
 
+/// "04_mvp" for 04_mvp_clip_test.cpp: the lesson whose name begins the file's.
+std::string lesson_of(const std::filesystem::path& file) {
+    const std::string stem = file.stem().string();
+    const auto lessons = std::filesystem::path(RASTERBOOK_ASSETS).parent_path() / "lessons";
+    for (const auto& lesson : std::filesystem::directory_iterator(lessons))
+        if (const std::string name = lesson.path().filename().string();
+            stem.starts_with(name + '_'))
+            return name;
+    return stem;
+}
+
 class PlacePrinter : public testing::EmptyTestEventListener {
     void OnTestStart(const testing::TestInfo& test) override {
         place_of_this_test = equation_in(test.name());
     }
     void OnTestEnd(const testing::TestInfo& test) override {
         if (test.result()->Passed() || place_of_this_test.empty()) return;
-        std::string lesson = std::filesystem::path(test.file()).stem().string();
-        lesson.erase(lesson.rfind("_test"));
-        std::cout << "To read: docs/derivations/" << lesson << ".md, " << place_of_this_test
-                  << '\n';
+        std::cout << "To read: docs/derivations/" << lesson_of(test.file()) << ".md, "
+                  << place_of_this_test << '\n';
     }
 };
 

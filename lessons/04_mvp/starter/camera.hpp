@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The camera: where it stands, where it looks, and how wide. Introduced in lesson 04;
+/// derivation: docs/derivations/04_mvp.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "04_mvp/transform.hpp"
+#include "common/lesson_app.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+struct Camera {
+    vec3 position_world;
+    mat4 view_from_world;
+    float fov_y_radians;  ///< From the lower to the upper border, in (0, pi).
+    float near, far;      ///< Distances in front of the camera, 0 < near < far.
+
+    /// View first, then perspective (Eq. 4.4).
+    ///
+    /// @param size  Of the picture, in pixels.
+    mat4 clip_from_world(ivec2 size) const {
+        // TODO: Eq. 4.4 and 4.8.
+        return mat4(1);
+    }
+};
+
+/// The way from a sphere's centre to a place on it, of length 1 (Eq. 4.6).
+///
+/// @param yaw_radians    Around the y axis, from +z towards +x.
+/// @param pitch_radians  Up from the horizon.
+inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
+    // TODO: Eq. 4.6.
+    return {0, 0, 1};
+}
+
+/// A camera on a sphere around a scene's centre, that looks at the centre.
+///
+/// @param orbit   orbit.distance is in radii of the scene: half of its box's diagonal.
+/// @param bounds  Of the scene, world space. Empty or of no size: as if its radius were 1.
+inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
+    // TODO: the eye by Eq. 4.6; near and far from the distance and the radius; Eq. 4.5.
+    return {vec3(0, 0, 1), mat4(1), 1, 1, 2};
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What of a triangle lies in front of the camera and inside the picture. Introduced in lesson 04;
+/// derivation: docs/derivations/04_mvp.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <vector>
+
+#include "common/math/types.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// A corner of what is left of a triangle.
+struct ClippedCorner {
+    vec4 position_clip;
+    vec3 weights;  ///< Of the whole triangle's corners: this corner is their weighted sum.
+};
+
+using ClippedTriangle = std::array<ClippedCorner, 3>;
+
+constexpr int frustum_planes = 6;
+
+/// How far inside one of the six planes a point is, times its distance from it: negative outside
+/// (Eq. 4.10).
+///
+/// @param plane  0 to 5: left, right, bottom, top, near, far.
+constexpr float inside_by(int plane, vec4 position_clip) {
+    // TODO: Eq. 4.10.
+    return 0;
+}
+
+/// Where the way from a to b crosses the plane of which they are inside by `a_by` and `b_by`, one
+/// of them negative (Eq. 4.11).
+///
+/// The way from b to a crosses it in the same point, bit for bit: triangles that share a side still
+/// share it when both are cut.
+inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedCorner& b,
+                              float b_by) {
+    // TODO: Eq. 4.11; divide first, and mind what overflows.
+    return a;
+}
+
+/// The corners that cutting by six planes may leave: 9 of a convex polygon, but rounding may dent
+/// it a little, and then a plane may cut off every second corner and add two for each.
+constexpr std::size_t most_clipped_corners = 28;
+
+/// What is left of one triangle: a polygon, as a fan.
+class ClippedTriangles {
+  public:
+    const ClippedTriangle* begin() const { return triangles_.data(); }
+    const ClippedTriangle* end() const { return triangles_.data() + count_; }
+    void add(const ClippedTriangle& triangle) { triangles_[count_++] = triangle; }
+
+  private:
+    std::array<ClippedTriangle, most_clipped_corners - 2> triangles_;
+    std::size_t count_ = 0;
+};
+
+/// Coordinates in clip space stay below this: then no difference in Eq. 4.11 overflows.
+constexpr float clip_limit = 0x1p125f;
+
+/// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.12).
+///
+/// @param corners  Clip space. When a coordinate is not a number or is not below clip_limit in
+///                 size, nothing is left.
+/// @return         The triangle itself, when it is all inside; nothing, when it is all outside of
+///                 one plane.
+/// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
+inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
+    // TODO: refuse what is not usable; Eq. 4.12.
+    return {};
+}
+
+/// A triangle's corners in clip space.
+inline std::array<vec4, 3> corners_of(const Triangle& triangle,
+                                      const std::vector<vec4>& positions_clip) {
+    return {positions_clip[triangle.corners[0].position],
+            positions_clip[triangle.corners[1].position],
+            positions_clip[triangle.corners[2].position]};
+}
+
+/// Whether nothing inside the box can be seen: all of its corners are outside of one plane
+/// (Eq. 4.13).
+///
+/// False for some boxes of which nothing is seen either, beside an edge of the frustum.
+inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world) {
+    // TODO: Eq. 4.10 and 4.13.
+    return false;
+}
+
+/// A point on the screen in pixels, and its depth: 0 to 1 (Eq. 4.9).
+///
+/// @param position_clip  Inside the frustum, w > 0.
+inline vec3 screen_from_clip(vec4 position_clip, ivec2 size) {
+    // TODO: Eq. 4.9.
+    return vec3(0);
+}
+
+}  // namespace rasterbook

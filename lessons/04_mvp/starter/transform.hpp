@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The matrices that take a point from its model to the screen. Introduced in lesson 04;
+/// derivation: docs/derivations/04_mvp.md.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <vector>
+
+#include "common/math/numerics.hpp"
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+/// Moves by t (Eq. 4.3).
+///
+///     1  0  0  t.x
+///     0  1  0  t.y
+///     0  0  1  t.z
+///     0  0  0  1
+template <std::floating_point T>
+constexpr glm::mat<4, 4, T> translation(glm::vec<3, T> t) {
+    // TODO: Eq. 4.3.
+    return glm::mat<4, 4, T>(1);
+}
+
+/// Stretches along the axes by the factors s (Eq. 4.3); negative ones mirror.
+template <std::floating_point T>
+constexpr glm::mat<4, 4, T> scaling(glm::vec<3, T> s) {
+    // TODO: Eq. 4.3.
+    return glm::mat<4, 4, T>(1);
+}
+
+/// Turns around the x axis, y towards z (Eq. 4.2).
+///
+///     1  0   0  0
+///     0  c  -s  0
+///     0  s   c  0
+///     0  0   0  1
+template <std::floating_point T>
+glm::mat<4, 4, T> rotation_x(T angle_radians) {
+    // TODO: Eq. 4.2.
+    return glm::mat<4, 4, T>(1);
+}
+
+/// Turns around the y axis, z towards x (Eq. 4.2).
+///
+///      c  0  s  0
+///      0  1  0  0
+///     -s  0  c  0
+///      0  0  0  1
+template <std::floating_point T>
+glm::mat<4, 4, T> rotation_y(T angle_radians) {
+    // TODO: Eq. 4.2.
+    return glm::mat<4, 4, T>(1);
+}
+
+/// Turns around the z axis, x towards y (Eq. 4.1).
+///
+///     c  -s  0  0
+///     s   c  0  0
+///     0   0  1  0
+///     0   0  0  1
+template <std::floating_point T>
+glm::mat<4, 4, T> rotation_z(T angle_radians) {
+    // TODO: Eq. 4.1.
+    return glm::mat<4, 4, T>(1);
+}
+
+/// The camera's view: its place becomes the origin, what it looks at lies on -z (Eq. 4.5).
+///
+/// @param eye,center  World space. When they are the same point, the camera looks along -z.
+/// @param up          What shall point up in the picture, of any length. When it is parallel to
+///                    the view or has no direction, the axis that is least parallel takes its
+///                    place.
+/// @return            view_from_world: its upper 3x3 part is a rotation within 4 eps.
+template <std::floating_point T>
+glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3, T> up) {
+    // TODO: Eq. 4.5; another up where this one has no direction or is parallel to the view.
+    return glm::mat<4, 4, T>(1);
+}
+
+/// Perspective, from view space to clip space (Eq. 4.8).
+///
+///     f/aspect  0   0  0
+///     0         f   0  0         f = 1 / tan(fov_y / 2)
+///     0         0   A  B         A = -(far + near) / (far - near)
+///     0         0  -1  0         B = -2 far near / (far - near)
+///
+/// @param fov_y_radians  The angle from the lower to the upper border, in (0, pi).
+/// @param aspect         Width divided by height, > 0.
+/// @param near,far       Distances, 0 < near < far; far may be infinite.
+template <std::floating_point T>
+glm::mat<4, 4, T> perspective(T fov_y_radians, T aspect, T near, T far) {
+    // TODO: Eq. 4.7 and 4.8; mind an infinite far.
+    return glm::mat<4, 4, T>(1);
+}
+
+/// From normalised device coordinates to the screen, in pixels, and to depths from 0 to 1
+/// (Eq. 4.9).
+///
+///     W/2   0    0    W/2
+///     0    -H/2  0    H/2
+///     0     0    1/2  1/2
+///     0     0    0    1
+///
+/// @param size  Of the picture: W, H.
+template <std::floating_point T>
+constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
+    // TODO: Eq. 4.9.
+    return glm::mat<4, 4, T>(1);
+}
+
+/// What normals have to be multiplied with where points are multiplied with `m`: the matrix of
+/// cofactors (Eq. 4.14). The result points the right way also where m mirrors, and there is one
+/// where m is singular; its length says nothing.
+template <std::floating_point T>
+glm::mat<3, 3, T> normal_matrix(const glm::mat<3, 3, T>& m) {
+    // TODO: Eq. 4.14.
+    return glm::mat<3, 3, T>(1);
+}
+
+/// Points of one space in the clip space of `m`, as homogeneous coordinates.
+inline std::vector<vec4> transform(const mat4& m, const std::vector<vec3>& points) {
+    // TODO: Eq. 4.4.
+    return std::vector<vec4>(points.size(), vec4(0, 0, 0, 1));
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,504 @@
+// SPDX-License-Identifier: MIT
+// What is clipped and culled; the matrices and the camera: 04_mvp_test.cpp.
+#include "04_mvp/clip.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/transform.hpp"
+#include "support/ascii_picture.hpp"
+#include "support/look_up.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using rasterbook::test::look_up, rasterbook::test::Pixels, rasterbook::test::same_pixels;
+
+namespace {
+
+using Corners = std::array<vec4, 3>;
+using lvec3 = glm::vec<3, long double>;
+using Bits = std::array<std::uint32_t, 4>;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+Bits bits_of(vec4 v) { return std::bit_cast<Bits>(std::array{v.x, v.y, v.z, v.w}); }
+
+std::vector<ClippedTriangle> clipped(const Corners& corners) {
+    const ClippedTriangles triangles = clip_triangle(corners);
+    return {triangles.begin(), triangles.end()};
+}
+
+float greatest_size(const Corners& corners) {
+    float greatest = 0;
+    for (const vec4 corner : corners)
+        for (int i = 0; i < 4; ++i) greatest = std::max(greatest, std::abs(corner[i]));
+    return greatest;
+}
+
+/// For EXPECT_TRUE: what is left lies in the frustum, and the weights say where it comes from.
+///
+/// One crossing rounds four times: at the difference of the distances, the quotient, the product
+/// and the sum, half an eps each. A corner goes through at most six crossings.
+testing::AssertionResult is_part_of(const ClippedTriangle& part, const Corners& corners) {
+    const float tolerance = 6 * 4 * FLT_EPSILON / 2;
+    const float greatest = greatest_size(corners);
+    for (const ClippedCorner& corner : part) {
+        const vec3 weights = corner.weights;
+        for (int i = 0; i < 3; ++i)
+            if (!(weights[i] >= -tolerance && weights[i] <= 1 + tolerance))
+                return testing::AssertionFailure() << "weights " << testing::PrintToString(weights);
+        if (!(std::abs(weights.x + weights.y + weights.z - 1) <= tolerance))
+            return testing::AssertionFailure()
+                   << "the sum of the weights " << testing::PrintToString(weights);
+        const dvec4 sum = dvec4(corners[0]) * double{weights.x} +
+                          dvec4(corners[1]) * double{weights.y} +
+                          dvec4(corners[2]) * double{weights.z};
+        for (int i = 0; i < 4; ++i)
+            if (!(std::abs(sum[i] - corner.position_clip[i]) <= tolerance * greatest))
+                return testing::AssertionFailure()
+                       << "the weighted sum " << testing::PrintToString(sum) << " is not "
+                       << testing::PrintToString(corner.position_clip);
+        for (int plane = 0; plane < frustum_planes; ++plane)
+            if (!(inside_by(plane, corner.position_clip) >= -tolerance * greatest))
+                return testing::AssertionFailure() << testing::PrintToString(corner.position_clip)
+                                                   << " is outside of plane " << plane;
+    }
+    return testing::AssertionSuccess();
+}
+
+ScreenTriangle on_screen(const ClippedTriangle& part, ivec2 size) {
+    return snap_triangle(screen_from_clip(part[0].position_clip, size),
+                         screen_from_clip(part[1].position_clip, size),
+                         screen_from_clip(part[2].position_clip, size));
+}
+
+Pixels covered(const Corners& corners, ivec2 size) {
+    Pixels pixels;
+    for (const ClippedTriangle& part : clip_triangle(corners))
+        fill_triangle(on_screen(part, size), size,
+                      [&](ivec2 pixel, vec3) { pixels.insert({pixel.x, pixel.y}); });
+    return pixels;
+}
+
+/// The oracle: whether the ray through a point of the screen hits the triangle between the planes.
+///
+/// The ray's points with w > 0 are multiples of (x, y, w = 1) in normalised device coordinates:
+/// which sum of the corners is that?
+bool is_hit(const Corners& corners, lvec3 ray) {
+    const auto column = [&](std::size_t i) {
+        return lvec3(corners[i].x, corners[i].y, corners[i].w);
+    };
+    const lvec3 a = column(0), b = column(1), c = column(2);
+    const long double whole = glm::dot(a, glm::cross(b, c));
+    if (whole == 0) return false;
+    const lvec3 shares = lvec3(glm::dot(ray, glm::cross(b, c)), glm::dot(ray, glm::cross(c, a)),
+                               glm::dot(ray, glm::cross(a, b))) /
+                         whole;
+    const long double z =
+        shares.x * corners[0].z + shares.y * corners[1].z + shares.z * corners[2].z;
+    return shares.x >= 0 && shares.y >= 0 && shares.z >= 0 && z >= -1 && z <= 1;
+}
+
+bool is_hit(const Corners& corners, dvec2 point, ivec2 size) {
+    return is_hit(corners, {static_cast<long double>(point.x) * 2 / size.x - 1,
+                            1 - static_cast<long double>(point.y) * 2 / size.y, 1});
+}
+
+/// Whether an edge is within 1/256 pixel of the centre, which is how far snapping may move it.
+bool is_close_to_edge(const Corners& corners, dvec2 center, ivec2 size) {
+    constexpr int directions = 16;
+    for (int i = 0; i < directions; ++i) {
+        const double angle = 2 * std::numbers::pi * i / directions;
+        const dvec2 beside = center + dvec2(std::cos(angle), std::sin(angle)) / 256.0;
+        if (is_hit(corners, beside, size) != is_hit(corners, center, size)) return true;
+    }
+    return false;
+}
+
+/// For EXPECT_TRUE: each pixel is as the oracle has it, unless an edge is close to its centre.
+testing::AssertionResult covers_what_rays_hit(const Corners& corners, ivec2 size, int& covering) {
+    const Pixels actual = covered(corners, size);
+    Pixels expected;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const dvec2 center(x + 0.5, y + 0.5);
+            const bool is = actual.contains({x, y});
+            bool should = is_hit(corners, center, size);
+            if (is != should && is_close_to_edge(corners, center, size)) should = is;
+            if (should) expected.insert({x, y});
+        }
+    covering += !expected.empty();
+    return same_pixels(actual, expected);
+}
+
+constexpr Corners all_inside = {{{-0.5f, -0.25f, 0, 1}, {0.5f, -1, 1, 1.5f}, {0, 2, -3, 3}}};
+
+}  // namespace
+
+TEST(Mvp, Eq4_10_InsideByOfEachPlane) {
+    const vec4 point(1, 2, 4, 8);
+    const float expected[] = {9, 7, 10, 6, 12, 4};  // left, right, bottom, top, near, far
+    for (int plane = 0; plane < frustum_planes; ++plane)
+        EXPECT_EQ(inside_by(plane, point), expected[plane]) << "plane " << plane;
+    EXPECT_EQ(inside_by(1, {0, 0, 0, 1}), 1);
+    EXPECT_EQ(inside_by(1, {3, 0, 0, 1}), -2);
+}
+
+TEST(Mvp, Eq4_10_PlanesBoundTheCube) {
+    for (int plane = 0; plane < frustum_planes; ++plane) {
+        vec4 point(0, 0, 0, 2);
+        const float sign = plane % 2 == 0 ? -1.0f : 1.0f;
+        point[plane / 2] = sign * 2;
+        for (int other = 0; other < frustum_planes; ++other)
+            EXPECT_EQ(inside_by(other, point), other == plane ? 0 : other == (plane ^ 1) ? 4 : 2);
+    }
+}
+
+TEST(Mvp, Eq4_11_CrossingOfTheWorkedExample) {
+    const ClippedCorner from = {{0, 0, 0, 1}, {1, 0, 0}}, to = {{3, 0, 0, 1}, {0, 1, 0}};
+    const ClippedCorner there = crossing(from, 1, to, -2);
+    EXPECT_EQ(there.position_clip, vec4(1, 0, 0, 1));
+    EXPECT_NEAR(there.weights.x, 2.0f / 3, FLT_EPSILON);
+    EXPECT_NEAR(there.weights.y, 1.0f / 3, FLT_EPSILON);
+    EXPECT_EQ(there.weights.z, 0);
+}
+
+TEST(Mvp, Eq4_11_BothWaysCrossInTheSamePoint) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> any(-3, 3);
+    int crossings = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        const auto vector = [&] {
+            return vec4(any(random), any(random), any(random), any(random));
+        };
+        const ClippedCorner from = {vector(), vec3(vector())}, to = {vector(), vec3(vector())};
+        const int plane = i % frustum_planes;
+        const float from_by = inside_by(plane, from.position_clip),
+                    to_by = inside_by(plane, to.position_clip);
+        if ((from_by >= 0) == (to_by >= 0)) continue;
+        ++crossings;
+        const ClippedCorner there = crossing(from, from_by, to, to_by),
+                            back = crossing(to, to_by, from, from_by);
+        ASSERT_EQ(bits_of(there.position_clip), bits_of(back.position_clip))
+            << "seed 1, case " << i;
+        ASSERT_EQ(there.weights, back.weights) << "seed 1, case " << i;
+        // Half an eps for each of four roundings, of the greatest number there is, 3 or 6.
+        ASSERT_NEAR(inside_by(plane, there.position_clip), 0, 12 * FLT_EPSILON)
+            << "seed 1, case " << i;
+    }
+    EXPECT_GT(crossings, 80'000);
+}
+
+TEST(Mvp, Eq4_12_WhatIsLeftOfTheWorkedExample) {
+    // A right angle at the middle; its sides end twice as far away as the picture.
+    const Corners corners = {{{0, 0, 0, 1}, {2, 0, 0, 1}, {0, 2, 0, 1}}};
+    std::set<std::pair<float, float>> left;
+    for (const ClippedTriangle& part : clipped(corners)) {
+        EXPECT_TRUE(is_part_of(part, corners));
+        for (const ClippedCorner& corner : part)
+            left.insert({corner.position_clip.x, corner.position_clip.y});
+    }
+    EXPECT_EQ(left, (std::set<std::pair<float, float>>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+}
+
+TEST(Mvp, Eq4_12_WhatIsAllInsideStaysBitForBit) {
+    const auto parts = clipped(all_inside);
+    ASSERT_EQ(parts.size(), 1u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(bits_of(parts[0][i].position_clip), bits_of(all_inside[i]));
+        EXPECT_EQ(parts[0][i].weights, vec3(i == 0, i == 1, i == 2));
+    }
+}
+
+TEST(Mvp, Eq4_12_NothingIsLeftOutsideOfOnePlane) {
+    EXPECT_FALSE(clipped(all_inside).empty());
+    for (int plane = 0; plane < frustum_planes; ++plane) {
+        Corners corners = all_inside;
+        for (vec4& corner : corners)
+            corner[plane / 2] = (plane % 2 == 0 ? -1.001f : 1.001f) * corner.w;
+        EXPECT_TRUE(clipped(corners).empty()) << "plane " << plane;
+    }
+}
+
+TEST(Mvp, WeightsOfWhatIsLeftSayWhereItComesFrom) {
+    look_up("Eq. 4.11 for positions and weights alike");
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> any(-3, 3);
+    int cut = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        const auto corner = [&] {
+            return vec4(any(random), any(random), any(random), any(random) + 1);
+        };
+        const Corners corners = {corner(), corner(), corner()};
+        const auto parts = clipped(corners);
+        for (const ClippedTriangle& part : parts)
+            ASSERT_TRUE(is_part_of(part, corners)) << "seed 2, case " << i;
+        cut += parts.size() > 2;
+    }
+    EXPECT_GT(cut, 10'000);
+}
+
+TEST(Mvp, WhatIsLeftKeepsTheWinding) {
+    look_up("Eq. 4.12: the corners stay in their order");
+    constexpr ivec2 size(640, 480);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> any(-3, 3);
+    int parts = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const auto corner = [&] {
+            return vec4(any(random), any(random), any(random), any(random) + 2);
+        };
+        const Corners corners = {corner(), corner(), corner()};
+        const auto row = [&](std::size_t k) {
+            return dvec3(corners[k].x, corners[k].y, corners[k].w);
+        };
+        const double turn = glm::dot(row(0), glm::cross(row(1), row(2)));
+        for (const ClippedTriangle& part : clip_triangle(corners)) {
+            const std::int64_t twice_area = on_screen(part, size).twice_area;
+            constexpr std::int64_t pixel = 65536;  // slivers may be turned by the snapping
+            if (std::abs(twice_area) < 4 * pixel) continue;
+            ASSERT_EQ(twice_area > 0, turn > 0) << "seed 3, case " << i;
+            ++parts;
+        }
+    }
+    EXPECT_GT(parts, 10'000);
+}
+
+TEST(Mvp, HardCase_SharedEdgeIsCutInTheSamePoints) {
+    look_up("Eq. 4.11: the same from both ends, bit for bit");
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> any(-3, 3);
+    int cut = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        const auto corner = [&] {
+            return vec4(any(random), any(random), any(random), any(random) + 1.5f);
+        };
+        const vec4 first = corner(), second = corner(), third = corner(), fourth = corner();
+        const auto on_edge = [&](const Corners& corners) {
+            std::set<Bits> points;
+            for (const ClippedTriangle& part : clip_triangle(corners))
+                for (const ClippedCorner& p : part)
+                    if (p.weights.z == 0) points.insert(bits_of(p.position_clip));
+            return points;
+        };
+        const auto points = on_edge({first, second, third});
+        const auto other = on_edge({second, first, fourth});
+        if (points.empty() || other.empty()) continue;  // one of them is all outside
+        ASSERT_EQ(points, other) << "seed 4, case " << i;
+        cut += points != std::set<Bits>{bits_of(first), bits_of(second)};
+    }
+    EXPECT_GT(cut, 10'000);
+}
+
+TEST(Mvp, HardCase_TrianglesAroundTheCameraCoverWhatItsRaysHit) {
+    look_up("Eq. 4.10 to 4.12");
+    constexpr ivec2 size(32, 24);
+    const mat4 clip_from_view = perspective(1.2f, 32.0f / 24, 0.25f, 9.0f);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> spread(0.3f, 12), any(-1, 1);
+    int covering = 0;
+    for (int i = 0; i < 10'000; ++i) {
+        const float reach = spread(random);
+        const auto corner = [&] {
+            return clip_from_view *
+                   vec4(reach * any(random), reach * any(random), reach * any(random), 1);
+        };
+        ASSERT_TRUE(covers_what_rays_hit({corner(), corner(), corner()}, size, covering))
+            << "seed 5, case " << i;
+    }
+    EXPECT_GT(covering, 3'000);
+}
+
+TEST(Mvp, HardCase_TriangleAcrossAllSixPlanes) {
+    look_up("Eq. 4.12: plane by plane");
+    const Corners corners = {{{-10, -9, -8, 1}, {12, -9, 1, 1}, {0, 10, 4, 1}}};
+    for (int plane = 0; plane < frustum_planes; ++plane)
+        EXPECT_LT(std::min({inside_by(plane, corners[0]), inside_by(plane, corners[1]),
+                            inside_by(plane, corners[2])}),
+                  0);
+    int covering = 0;
+    EXPECT_TRUE(covers_what_rays_hit(corners, {64, 48}, covering));
+    EXPECT_EQ(covering, 1);
+    for (const ClippedTriangle& part : clip_triangle(corners))
+        EXPECT_TRUE(is_part_of(part, corners));
+}
+
+TEST(Mvp, HardCase_NearPlaneThroughCorners) {
+    look_up("Eq. 4.12: a corner on the plane is inside");
+    const vec4 on(0.25f, 0, -1, 1), also_on(-0.5f, 0.25f, -1, 1), third_on(0, -0.5f, -1, 1),
+        inside(0, 0.5f, 0, 1), beside(0.5f, 0.5f, 0.5f, 1), outside(0, 0, -2, 1),
+        far_outside(0.5f, 0, -3, 1);
+    for (const Corners& corners : {Corners{on, inside, beside}, Corners{on, also_on, inside},
+                                   Corners{on, also_on, third_on}}) {
+        const auto parts = clipped(corners);
+        ASSERT_EQ(parts.size(), 1u);
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ(bits_of(parts[0][i].position_clip), bits_of(corners[i]));
+    }
+    for (const Corners& corners : {Corners{on, outside, far_outside}, Corners{on, also_on, outside},
+                                   Corners{far_outside, on, outside}})
+        for (const ClippedTriangle& part : clip_triangle(corners)) {
+            EXPECT_TRUE(is_part_of(part, corners));
+            EXPECT_EQ(on_screen(part, {640, 480}).twice_area, 0) << "a point or a side is left";
+        }
+    int covering = 0;
+    EXPECT_TRUE(covers_what_rays_hit({on, inside, outside}, {64, 48}, covering));
+    EXPECT_TRUE(covers_what_rays_hit({outside, on, inside}, {64, 48}, covering));
+    EXPECT_EQ(covering, 2);
+}
+
+TEST(Mvp, HardCase_CameraInsideATriangle) {
+    look_up("Eq. 4.12: w is 0 at the eye, and the near plane lies before it");
+    const mat4 clip_from_view = perspective(1.0f, 4.0f / 3, 0.001f, 100.0f);
+    const auto floor_at = [&](float y) {
+        return Corners{clip_from_view * vec4(-50, y, 40, 1), clip_from_view * vec4(60, y, 30, 1),
+                       clip_from_view * vec4(0, y, -80, 1)};
+    };
+    EXPECT_TRUE(covered(floor_at(0), {64, 48}).empty()) << "seen from its edge";
+    int covering = 0;
+    for (const float y : {-0.01f, 0.01f, -1.0f})
+        EXPECT_TRUE(covers_what_rays_hit(floor_at(y), {64, 48}, covering)) << y;
+    EXPECT_EQ(covering, 3);
+}
+
+TEST(Mvp, HardCase_WZeroNegativeAndTiny) {
+    look_up("Eq. 4.10: what lies behind the eye is outside of a plane");
+    constexpr ivec2 size(64, 48);
+    for (const float w : {0.0f, -0.0f, -1.0f, -1e-40f}) {
+        EXPECT_TRUE(covered({{{0, 0, -1, w}, {1, 0, -1, w}, {0, 1, -1, w}}}, size).empty());
+        int covering = 0;
+        EXPECT_TRUE(covers_what_rays_hit(
+            {{{0.1f, 0.2f, w - 0.5f, w}, all_inside[1], all_inside[2]}}, size, covering))
+            << "w " << w;
+        EXPECT_EQ(covering, 1);
+    }
+    EXPECT_TRUE(covered({vec4(0), vec4(0), vec4(0)}, size).empty());
+    EXPECT_TRUE(covered({vec4(0), all_inside[1], all_inside[2]}, size).empty())
+        << "a corner at the eye has no place on the screen";
+    // A tiny w is ordinary: positions on the screen are quotients.
+    constexpr float tiny = 0x1p-135f;
+    EXPECT_EQ(covered({{tiny * all_inside[0], tiny * all_inside[1], tiny * all_inside[2]}}, size),
+              covered(all_inside, size));
+}
+
+TEST(Mvp, HardCase_TinyAndHugeCornersAreCutAsOthers) {
+    look_up("Eq. 4.11: products of corners may overflow, quotients do not");
+    constexpr ivec2 size(64, 48);
+    const Corners corners = {{{-1, -2, 0, 1}, {3, 0, 0.5f, 2}, {0, 2, -0.25f, 1.5f}}};
+    const Pixels expected = covered(corners, size);
+    EXPECT_GT(expected.size(), 500u);
+    for (const float scale : {0x1p-120f, 0x1p-70f, 0x1p70f, 0x1p120f})
+        EXPECT_TRUE(same_pixels(
+            covered({{scale * corners[0], scale * corners[1], scale * corners[2]}}, size),
+            expected))
+            << scale;
+}
+
+TEST(Mvp, HardCase_NotANumberAndInfiniteCornersLeaveNothingThatIsNotFinite) {
+    look_up("Eq. 4.12, and what counts as outside");
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float special[] = {0.0f,   -0.0f,   1.0f,     -1.0f,     0.5f,    -3.0f,
+                                 1e-40f, -1e-40f, FLT_MIN,  1e-30f,    FLT_MAX, -FLT_MAX,
+                                 1e30f,  -1e30f,  infinity, -infinity, nan,     FLT_EPSILON};
+    std::mt19937 random(6);
+    std::uniform_int_distribution<std::size_t> any(0, std::size(special) - 1);
+    std::uniform_real_distribution<float> ordinary(-2, 2);
+    int left = 0, covering = 0;
+    for (int i = 0; i < 1'000'000; ++i) {
+        Corners corners;
+        // One number in so many is a special one.
+        const unsigned rarity = static_cast<unsigned>(i % 8 + 1);
+        for (vec4& corner : corners)
+            for (int axis = 0; axis < 4; ++axis)
+                corner[axis] = random() % rarity == 0 ? special[any(random)]
+                                                      : ordinary(random) + (axis == 3 ? 1 : 0);
+        for (const ClippedTriangle& part : clip_triangle(corners)) {
+            ++left;
+            for (const ClippedCorner& corner : part)
+                for (int axis = 0; axis < 4; ++axis)
+                    ASSERT_TRUE(std::isfinite(corner.position_clip[axis]) &&
+                                std::isfinite(corner.weights[axis % 3]))
+                        << "seed 6, case " << i << ": " << testing::PrintToString(corners);
+            constexpr ivec2 size(4, 3);
+            fill_triangle(on_screen(part, size), size, [&](ivec2 pixel, vec3 weights) {
+                covering += pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.x && pixel.y < size.y &&
+                            weights.x + weights.y + weights.z < 2;
+            });
+        }
+    }
+    EXPECT_GT(covering, 100'000);
+    EXPECT_GT(left, 100'000);
+    for (const float bad : {nan, infinity, -infinity})
+        for (std::size_t i = 0; i < 3; ++i)
+            for (int axis = 0; axis < 4; ++axis) {
+                Corners corners = all_inside;
+                corners[i][axis] = bad;
+                EXPECT_TRUE(clipped(corners).empty()) << "corner " << i << ", axis " << axis;
+            }
+}
+
+TEST(Mvp, Eq4_13_BoxesOutsideOfAPlaneAreCulled) {
+    const mat4 clip_from_view = perspective(1.5707963f, 1.0f, 1.0f, 10.0f);
+    const auto box = [](vec3 center) { return Bounds{center - 0.5f, center + 0.5f}; };
+    EXPECT_FALSE(is_outside_frustum(box({0, 0, -5}), clip_from_view));
+    for (const vec3 center : {vec3(-7, 0, -5), vec3(7, 0, -5), vec3(0, -7, -5), vec3(0, 7, -5),
+                              vec3(0, 0, -0.3f), vec3(0, 0, -11), vec3(0, 0, 5), vec3(0, 0, 50)})
+        EXPECT_TRUE(is_outside_frustum(box(center), clip_from_view))
+            << testing::PrintToString(center);
+    for (const vec3 center : {vec3(-5.4f, 0, -5), vec3(5.4f, 0, -5), vec3(0, -5.4f, -5),
+                              vec3(0, 5.4f, -5), vec3(0, 0, -0.6f), vec3(0, 0, -10.4f)})
+        EXPECT_FALSE(is_outside_frustum(box(center), clip_from_view))
+            << testing::PrintToString(center) << " reaches across a plane";
+}
+
+TEST(Mvp, Eq4_13_NoBoxIsCulledOfWhichAPointIsSeen) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> any(-1, 1), share(0, 1);
+    int culled = 0, seen = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const auto point = [&](float reach) {
+            return reach * vec3(any(random), any(random), any(random));
+        };
+        const Camera camera = {{},
+                               look_at(point(5), point(5), vec3(0, 1, 0)),
+                               0.1f + 2.5f * share(random),
+                               0.1f,
+                               6.0f};
+        const mat4 clip_from_world = camera.clip_from_world({64, 48});
+        Bounds bounds;
+        const vec3 place = point(8);
+        bounds.add(place), bounds.add(place + point(4));
+        const bool is_culled = is_outside_frustum(bounds, clip_from_world);
+        bool is_seen = false;
+        for (int k = 0; k < 100 && !is_seen; ++k) {
+            const dvec3 inside = glm::mix(dvec3(bounds.min), dvec3(bounds.max),
+                                          dvec3(share(random), share(random), share(random)));
+            const dvec4 clip = dmat4(clip_from_world) * dvec4(inside, 1);
+            is_seen = glm::all(glm::lessThan(glm::abs(dvec3(clip)), dvec3(clip.w)));
+        }
+        ASSERT_FALSE(is_culled && is_seen) << "seed 7, case " << i;
+        culled += is_culled, seen += is_seen;
+    }
+    EXPECT_GT(culled, 2'000);
+    EXPECT_GT(seen, 2'000);
+}
+
+TEST(Mvp, HardCase_BoxAroundTheCameraIsNotCulled) {
+    look_up("Eq. 4.13: outside of one and the same plane");
+    const mat4 clip_from_view = perspective(1.0f, 1.0f, 0.1f, 5.0f);
+    EXPECT_FALSE(is_outside_frustum({vec3(-9), vec3(9)}, clip_from_view));
+    EXPECT_FALSE(is_outside_frustum({{-90, -1, -4}, {90, 1, -3}}, clip_from_view));
+    EXPECT_FALSE(is_outside_frustum({{0, 0, -1}, {0, 0, -1}}, clip_from_view)) << "a point";
+    EXPECT_TRUE(is_outside_frustum({{-90, -90, 0.1f}, {90, 90, 1}}, clip_from_view)) << "behind";
+}

@@ -1,0 +1,578 @@
+// SPDX-License-Identifier: MIT
+// The matrices and the camera; what is clipped and culled: 04_mvp_clip_test.cpp.
+#include "04_mvp/transform.hpp"
+
+#include <cfloat>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "support/golden.hpp"
+#include "support/look_up.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using rasterbook::test::look_up;
+
+namespace {
+
+using lmat3 = glm::mat<3, 3, long double>;
+using lvec3 = glm::vec<3, long double>;
+
+constexpr float eps = FLT_EPSILON;
+constexpr float quarter_turn = std::numbers::pi_v<float> / 2;
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr int cases = 100'000;
+
+/// Sizes of all orders from 10^-decades to 10^decades, with either sign.
+class AnySize {
+  public:
+    AnySize(unsigned seed, float decades) : random_(seed), exponent_(-decades, decades) {}
+    float positive() { return std::pow(10.0f, exponent_(random_)); }
+    float number() { return random_() & 1 ? positive() : -positive(); }
+    vec3 vector() { return {number(), number(), number()}; }
+
+  private:
+    std::mt19937 random_;
+    std::uniform_real_distribution<float> exponent_;
+};
+
+/// For EXPECT_TRUE: every element is as near to the exact one as `tolerance` says of it.
+template <int n, typename T>
+testing::AssertionResult near(const glm::mat<n, n, T>& actual, const glm::mat<n, n, double>& exact,
+                              const std::function<double(int row, int column)>& tolerance) {
+    for (int row = 0; row < n; ++row)
+        for (int column = 0; column < n; ++column)
+            if (!(std::abs(actual[column][row] - exact[column][row]) <= tolerance(row, column)))
+                return testing::AssertionFailure()
+                       << "row " << row << ", column " << column << ": " << actual[column][row]
+                       << " instead of " << exact[column][row] << ", tolerance "
+                       << tolerance(row, column);
+    return testing::AssertionSuccess();
+}
+
+/// For EXPECT_TRUE: finite; above, a rotation within 4 eps; the last row as it should be.
+testing::AssertionResult is_rigid(const mat4& m) {
+    constexpr long double tolerance = 4 * FLT_EPSILON;  // as look_at promises
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row]))
+                return testing::AssertionFailure() << "not finite: column " << column;
+    const lmat3 r{mat3(m)};
+    const lmat3 product = r * glm::transpose(r);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (const long double error = product[column][row] - (column == row);
+                !(std::abs(error) <= tolerance))
+                return testing::AssertionFailure()
+                       << "rows " << row << " and " << column << " are off by " << error;
+    if (!(std::abs(glm::determinant(r) - 1) <= 2 * tolerance))  // half of the three rows' errors
+        return testing::AssertionFailure() << "determinant " << glm::determinant(r);
+    if (glm::transpose(m)[3] != vec4(0, 0, 0, 1)) return testing::AssertionFailure() << "last row";
+    return testing::AssertionSuccess();
+}
+
+/// For EXPECT_TRUE: what the camera looks at lies before it, in the middle.
+testing::AssertionResult sees_in_the_middle(const mat4& view, vec3 eye, vec3 center) {
+    const dvec3 seen(dmat4(view) * dvec4(center, 1));
+    const double distance = glm::length(dvec3(eye) - dvec3(center));
+    // The rotation is within 4 eps, and so is the product with the eye in the last column.
+    const double tolerance =
+        8 * double{eps} * (glm::length(dvec3(eye)) + glm::length(dvec3(center)));
+    if (glm::length(seen - dvec3(0, 0, -distance)) <= 2 * tolerance)
+        return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "the center is seen at " << testing::PrintToString(seen);
+}
+
+void expect_point(vec3 actual, vec3 expected, float tolerance) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], tolerance);
+}
+
+vec3 moved(const mat4& m, vec3 point) { return vec3(m * vec4(point, 1)); }
+
+constexpr float turn_tolerance = eps;  // the cosine of pi/2 in float is -4e-8
+
+/// Sines and cosines in float are within 1 ulp, which is at most eps for sizes up to 1.
+double rotation_tolerance(int, int) { return double{eps}; }
+
+}  // namespace
+
+TEST(Mvp, Eq4_1_QuarterTurnAroundZTakesXToY) {
+    const mat4 turn = rotation_z(quarter_turn);
+    expect_point(moved(turn, {1, 0, 0}), {0, 1, 0}, turn_tolerance);
+    expect_point(moved(turn, {0, 1, 0}), {-1, 0, 0}, turn_tolerance);
+    EXPECT_EQ(moved(turn, {0, 0, 7}), vec3(0, 0, 7));
+}
+
+TEST(Mvp, Eq4_1_EqualsGlmForAllAngles) {
+    AnySize any(1, 3);
+    for (int i = 0; i < cases; ++i) {
+        const float angle = any.number();
+        ASSERT_TRUE(near<4>(rotation_z(angle), glm::rotate(dmat4(1), double{angle}, dvec3(0, 0, 1)),
+                            rotation_tolerance))
+            << "seed 1, case " << i << ", angle " << angle;
+    }
+}
+
+TEST(Mvp, Eq4_2_QuarterTurnsAroundXAndY) {
+    const mat4 around_x = rotation_x(quarter_turn), around_y = rotation_y(quarter_turn);
+    expect_point(moved(around_x, {0, 1, 0}), {0, 0, 1}, turn_tolerance);
+    expect_point(moved(around_x, {0, 0, 1}), {0, -1, 0}, turn_tolerance);
+    EXPECT_EQ(moved(around_x, {7, 0, 0}), vec3(7, 0, 0));
+    expect_point(moved(around_y, {0, 0, 1}), {1, 0, 0}, turn_tolerance);
+    expect_point(moved(around_y, {1, 0, 0}), {0, 0, -1}, turn_tolerance);
+    EXPECT_EQ(moved(around_y, {0, 7, 0}), vec3(0, 7, 0));
+}
+
+TEST(Mvp, Eq4_2_EqualsGlmForAllAngles) {
+    AnySize any(2, 3);
+    for (int i = 0; i < cases; ++i) {
+        const float angle = any.number();
+        const auto exact = [&](dvec3 axis) { return glm::rotate(dmat4(1), double{angle}, axis); };
+        ASSERT_TRUE(near<4>(rotation_x(angle), exact({1, 0, 0}), rotation_tolerance))
+            << "seed 2, case " << i << ", angle " << angle;
+        ASSERT_TRUE(near<4>(rotation_y(angle), exact({0, 1, 0}), rotation_tolerance))
+            << "seed 2, case " << i << ", angle " << angle;
+    }
+}
+
+TEST(Mvp, Eq4_3_EqualsGlmBitForBit) {
+    AnySize any(3, 30);
+    for (int i = 0; i < cases; ++i) {
+        const vec3 v = any.vector();
+        ASSERT_EQ(translation(v), glm::translate(mat4(1), v)) << "seed 3, case " << i;
+        ASSERT_EQ(scaling(v), glm::scale(mat4(1), v)) << "seed 3, case " << i;
+    }
+    EXPECT_EQ(translation(vec3(1, 2, 3)) * vec4(5, 5, 5, 0), vec4(5, 5, 5, 0))
+        << "a direction is not moved";
+}
+
+TEST(Mvp, Eq4_4_TheRightOneActsFirst) {
+    const mat4 move = translation(vec3(1, 2, 3)), stretch = scaling(vec3(2));
+    EXPECT_EQ(moved(move * stretch, vec3(1)), vec3(3, 4, 5));
+    EXPECT_EQ(moved(stretch * move, vec3(1)), vec3(4, 6, 8));
+}
+
+TEST(Mvp, Eq4_4_TransformedPointsAreTheMatrixTimesThem) {
+    const std::vector<vec4> transformed =
+        transform(translation(vec3(1, 2, 3)) * scaling(vec3(2)), {{1, 1, 1}, {0, 0, 0}});
+    EXPECT_EQ(transformed, (std::vector<vec4>{{3, 4, 5, 1}, {1, 2, 3, 1}}));
+    EXPECT_TRUE(transform(mat4(1), {}).empty());
+}
+
+TEST(Mvp, Eq4_4_CameraFirstViewsThenProjects) {
+    const Camera camera = {{0, 0, 5}, translation(vec3(0, 0, -5)), quarter_turn, 1, 9};
+    const vec4 clip = camera.clip_from_world({400, 200}) * vec4(2, 1, 3, 1);
+    expect_point(vec3(clip), {1, 1, -10.0f / 8 * -2 - 18.0f / 8}, 8 * eps);  // five roundings
+    EXPECT_EQ(clip.w, 2);
+}
+
+TEST(Mvp, Eq4_5_LooksAtTheCenterAlongMinusZ) {
+    const vec3 up(0, 1, 0);
+    EXPECT_EQ(moved(look_at(vec3(0, 0, 5), vec3(0), up), vec3(0)), vec3(0, 0, -5));
+    const mat4 from_the_right = look_at(vec3(5, 0, 0), vec3(0), up);
+    EXPECT_EQ(moved(from_the_right, vec3(0)), vec3(0, 0, -5));
+    EXPECT_EQ(from_the_right * vec4(0, 0, -1, 0), vec4(1, 0, 0, 0))
+        << "what lies to the north is on the right of who looks west";
+    EXPECT_EQ(from_the_right * vec4(0, 1, 0, 0), vec4(0, 1, 0, 0));
+}
+
+TEST(Mvp, Eq4_5_EqualsGlm) {
+    AnySize any(4, 3);
+    for (int i = 0; i < cases; ++i) {
+        const vec3 eye = any.vector(), center = any.vector(), up = any.vector();
+        const dvec3 back = glm::normalize(dvec3(eye) - dvec3(center));
+        const double sine = glm::length(glm::cross(glm::normalize(dvec3(up)), back));
+        // Up and back are within 2 eps, a cross product of theirs within 6 eps of its size `sine`;
+        // the translation adds three of them, each times the eye, and three roundings.
+        ASSERT_TRUE(near<4>(look_at(eye, center, up),
+                            glm::lookAtRH(dvec3(eye), dvec3(center), dvec3(up)),
+                            [&](int, int column) {
+                                return (8 / sine + 3) * double{eps} *
+                                       (column == 3 ? 2 * glm::length(dvec3(eye)) : 1);
+                            }))
+            << "seed 4, case " << i;
+        ASSERT_TRUE(is_rigid(look_at(eye, center, up))) << "seed 4, case " << i;
+    }
+}
+
+TEST(Mvp, Eq4_6_DirectionsOfTheWorkedExample) {
+    const auto direction = [](float yaw_degrees, float pitch_degrees) {
+        return direction_from_angles(glm::radians(yaw_degrees), glm::radians(pitch_degrees));
+    };
+    EXPECT_EQ(direction(0, 0), vec3(0, 0, 1));
+    expect_point(direction(90, 0), {1, 0, 0}, turn_tolerance);
+    expect_point(direction(180, 0), {0, 0, -1}, turn_tolerance);
+    expect_point(direction(0, 30), {0, 0.5f, std::sqrt(0.75f)}, turn_tolerance);
+    for (const float yaw : {-300.0f, 0.0f, 17.0f, 90.0f}) {
+        expect_point(direction(yaw, 90), {0, 1, 0}, turn_tolerance);
+        expect_point(direction(yaw, -90), {0, -1, 0}, turn_tolerance);
+    }
+}
+
+TEST(Mvp, Eq4_6_EqualsTwoTurnsOfTheZAxis) {
+    AnySize any(5, 2);
+    for (int i = 0; i < cases; ++i) {
+        const float yaw = any.number(), pitch = any.number();
+        const dmat4 around_y = glm::rotate(dmat4(1), double{yaw}, dvec3(0, 1, 0));
+        const dvec4 turned =
+            glm::rotate(around_y, -double{pitch}, dvec3(1, 0, 0)) * dvec4(0, 0, 1, 0);
+        const vec3 direction = direction_from_angles(yaw, pitch);
+        for (int axis = 0; axis < 3; ++axis)  // two functions within 1 ulp and a product
+            ASSERT_NEAR(direction[axis], turned[axis], 2 * double{eps}) << "seed 5, case " << i;
+    }
+}
+
+TEST(Mvp, Eq4_7_SimilarTrianglesOfTheWorkedExample) {
+    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
+    const vec4 clip = clip_from_view * vec4(1, 1, -1, 1);
+    expect_point(vec3(clip), {0.5f, 1, -1}, 4 * eps);  // tan(pi/4) in float and a division
+    EXPECT_EQ(clip.w, 1);
+    EXPECT_NEAR(perspective(glm::radians(60.0f), 1.0f, 1.0f, 3.0f)[1][1], std::sqrt(3.0f), 4 * eps);
+}
+
+TEST(Mvp, Eq4_8_NearFarAndBetweenOfTheWorkedExample) {
+    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
+    EXPECT_NEAR(clip_from_view[2][2], -2, 4 * eps);
+    EXPECT_NEAR(clip_from_view[3][2], -3, 4 * eps);
+    const auto z_ndc = [&](float distance) {
+        const vec4 clip = clip_from_view * vec4(0, 0, -distance, 1);
+        EXPECT_EQ(clip.w, distance);
+        return clip.z / clip.w;
+    };
+    constexpr float tolerance = 8 * eps;  // A and B are within 2 eps of 2 and 3
+    EXPECT_NEAR(z_ndc(1), -1, tolerance);
+    EXPECT_NEAR(z_ndc(1.5f), 0, tolerance);
+    EXPECT_NEAR(z_ndc(3), 1, tolerance);
+    EXPECT_NEAR(screen_from_clip(clip_from_view * vec4(0, 0, -1.5f, 1), {4, 2}).z, 0.5f, tolerance);
+}
+
+TEST(Mvp, Eq4_8_EqualsGlm) {
+    AnySize any(6, 3);
+    for (int i = 0; i < cases; ++i) {
+        const float aspect = any.positive(), near_ = any.positive(),
+                    far_ = near_ * (1 + any.positive()),
+                    fov = std::min(any.positive(), 3.1f * any.positive() / 1000);
+        // f: 1 ulp of the tangent, a division, one more by the aspect. A, B: near/far is within
+        // half an eps, and what is left of 1 - near/far has that error.
+        const double ratio = double{near_} / far_;
+        const double of_depth = double{eps} * (2 + 0.5 / (1 - ratio));
+        const dmat4 exact =
+            glm::perspectiveRH_NO(double{fov}, double{aspect}, double{near_}, double{far_});
+        ASSERT_TRUE(near<4>(perspective(fov, aspect, near_, far_), exact,
+                            [&](int row, int column) {
+                                return std::abs(exact[column][row]) * (row < 2 ? 2.5 * double{eps}
+                                                                       : row == 2 ? of_depth
+                                                                                  : 0);
+                            }))
+            << "seed 6, case " << i;
+    }
+}
+
+TEST(Mvp, Eq4_8_LeftHandedFormIsOursWithZMirrored) {
+    const double fov = 1, aspect = 1.5, near_ = 0.5, far_ = 7;
+    const dmat4 left_handed = glm::perspectiveLH_NO(fov, aspect, near_, far_);
+    EXPECT_EQ((left_handed * dvec4(0, 0, 3, 1)).w, 3) << "there w is z, not -z";
+    EXPECT_TRUE(near<4>(perspective(fov, aspect, near_, far_) * scaling(dvec3(1, 1, -1)),
+                        left_handed, [](int, int) { return 4 * DBL_EPSILON; }));
+}
+
+TEST(Mvp, Eq4_7_OneParameterFormDiffersByAScale) {
+    // w = 1 - z/c, as many short texts have it: an eye at (0, 0, c) that projects onto z = 0.
+    const double c = 3, fov = 1, f = 1 / std::tan(fov / 2);
+    dmat4 one_parameter(1);
+    one_parameter[2][3] = -1 / c;
+    const dmat4 ours = perspective(fov, 1.0, 0.5, 7.0) * translation(dvec3(0, 0, -c));
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(-2, 2);
+    for (int i = 0; i < 1000; ++i) {
+        const dvec4 point(any(random), any(random), any(random), 1);
+        const dvec4 theirs_clip = one_parameter * point, ours_clip = ours * point;
+        for (int axis = 0; axis < 2; ++axis)  // a handful of roundings of numbers below 4
+            ASSERT_NEAR(ours_clip[axis] / ours_clip.w, f / c * theirs_clip[axis] / theirs_clip.w,
+                        32 * DBL_EPSILON)
+                << "seed 7, case " << i;
+    }
+}
+
+TEST(Mvp, Eq4_9_ViewportOfTheWorkedExample) {
+    const mat4 screen_from_ndc = viewport<float>({4, 2});
+    EXPECT_EQ(moved(screen_from_ndc, {-1, 1, -1}), vec3(0, 0, 0));
+    EXPECT_EQ(moved(screen_from_ndc, {0, 0, 0}), vec3(2, 1, 0.5f));
+    EXPECT_EQ(moved(screen_from_ndc, {1, -1, 1}), vec3(4, 2, 1));
+    EXPECT_EQ(moved(viewport<float>({5, 3}), {0, 0, 0}), vec3(2.5f, 1.5f, 0.5f));
+}
+
+TEST(Mvp, Eq4_9_ScreenIsTheViewportAfterTheDivision) {
+    EXPECT_EQ(screen_from_clip({-3, 3, -3, 3}, {4, 2}), vec3(0, 0, 0));
+    EXPECT_EQ(screen_from_clip({0, 0, 0, 3}, {4, 2}), vec3(2, 1, 0.5f));
+    EXPECT_EQ(screen_from_clip({3, -3, 3, 3}, {4, 2}), vec3(4, 2, 1));
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> any(-1, 1);
+    constexpr ivec2 size(1279, 719);
+    for (int i = 0; i < cases; ++i) {
+        const vec4 clip(any(random), any(random), any(random), 1.5f + any(random));
+        const dvec4 exact = viewport<double>(size) * (dvec4(clip) / double{clip.w});
+        const vec3 screen = screen_from_clip(clip, size);
+        for (int axis = 0; axis < 3; ++axis) {
+            // Half an eps of the quotient, of the sum and of the product with the size.
+            const double span = axis == 2 ? 1 : size[axis];
+            const double largest = 1 + std::abs(double{clip[axis]} / clip.w);
+            ASSERT_NEAR(screen[axis], exact[axis], span * largest * double{eps})
+                << "seed 8, case " << i;
+        }
+    }
+}
+
+TEST(Mvp, Eq4_9_FormWithSizeMinusOneMeansPixelsByTheirIndex) {
+    // (W - 1)/2 in other texts: corners of the cube land on the centres of the picture's corners.
+    constexpr dvec2 size(4, 2);
+    for (const dvec2 ndc : {dvec2(-1, 1), dvec2(1, -1), dvec2(0.25, 0.5)}) {
+        const dvec2 theirs = dvec2(ndc.x + 1, 1 - ndc.y) * (size - 1.0) / 2.0;
+        const dvec2 ours = dvec2(viewport<double>(ivec2(size)) * dvec4(ndc, 0, 1));
+        EXPECT_EQ(theirs * size, ours * (size - 1.0)) << "a picture that is one pixel too small";
+    }
+}
+
+TEST(Mvp, Eq4_14_EqualsInverseTransposeTimesDeterminant) {
+    AnySize any(9, 3);
+    for (int i = 0; i < cases; ++i) {
+        const mat3 m(any.vector(), any.vector(), any.vector());
+        const lmat3 exact = glm::determinant(lmat3(m)) * glm::transpose(glm::inverse(lmat3(m)));
+        const mat3 normals = normal_matrix(m);
+        // Each element is a difference of products within 1.5 ulp; the inverse in long double has
+        // the error of its own sums of products up to the product of three columns' sizes.
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+                ASSERT_LE(std::abs(normals[column][row] - exact[column][row]),
+                          1.5L * FLT_EPSILON * std::abs(exact[column][row]) + 1e-9L)
+                    << "seed 9, case " << i;
+    }
+}
+
+TEST(Mvp, Eq4_14_NormalsStandOnTransformedTangentsAlsoWhereMIsSingular) {
+    AnySize any(10, 1);
+    int mirroring = 0;
+    for (int i = 0; i < cases; ++i) {
+        mat3 m(any.vector(), any.vector(), any.vector());
+        if (i % 4 == 0) m[2] = m[0];  // flat
+        if (i % 8 == 0) m = mat3(m[0], m[1], vec3(0));
+        if (i % 100 == 0) m[1] = 2.0f * m[0];  // a line: no normal
+        mirroring += glm::determinant(m) < 0;
+        const lvec3 u(any.vector()), v(any.vector());
+        const lvec3 across = glm::cross(u, v), u_moved = lmat3(m) * u, v_moved = lmat3(m) * v;
+        const lvec3 normal = lmat3(normal_matrix(m)) * across;
+        // The matrix's elements are within 1.5 ulp, the rest is as good as exact. It is the normal
+        // of the moved tangents, and so also points to the side from which they turn left.
+        const lvec3 expected = glm::cross(u_moved, v_moved);
+        for (int axis = 0; axis < 3; ++axis) {
+            long double size = 0;
+            for (int k = 0; k < 3; ++k) size += std::abs(normal_matrix(m)[k][axis] * across[k]);
+            ASSERT_LE(std::abs(normal[axis] - expected[axis]), 1.5L * FLT_EPSILON * size + 1e-12L)
+                << "seed 10, case " << i;
+        }
+    }
+    EXPECT_GT(mirroring, cases / 4);
+    EXPECT_EQ(normal_matrix(mat3(scaling(vec3(2, 1, 1)))) * vec3(1, 1, 0), vec3(1, 2, 0))
+        << "what is stretched along x is less steep against x";
+}
+
+TEST(Mvp, HardCase_LookAtWithUpThatIsNoUp) {
+    look_up("Eq. 4.5, and what takes the place of up");
+    AnySize any(11, 1);
+    for (int i = 0; i < 20'000; ++i) {
+        const vec3 eye = any.vector(), center = any.vector(), back = eye - center;
+        const mat4 without = look_at(eye, center, vec3(0));
+        ASSERT_TRUE(is_rigid(without)) << "seed 11, case " << i;
+        ASSERT_TRUE(sees_in_the_middle(without, eye, center)) << "seed 11, case " << i;
+        for (const vec3 up : {back, -back, any.number() * back, vec3(not_a_number),
+                              vec3(0, not_a_number, 0), vec3(infinity, 0, 0), vec3(-0.0f)})
+            ASSERT_EQ(look_at(eye, center, up), without)
+                << "seed 11, case " << i << ", up " << testing::PrintToString(up);
+    }
+    for (const vec3 axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 1, 0)})
+        for (const float sign : {1.0f, -1.0f})
+            for (const float size : {1e-30f, 1.0f, 1e30f}) {
+                EXPECT_TRUE(is_rigid(look_at(sign * axis, vec3(0), size * axis)));
+                EXPECT_EQ(look_at(sign * axis, vec3(0), size * axis),
+                          look_at(sign * axis, vec3(0), vec3(0)));
+            }
+    const mat4 level = look_at(vec3(0, 0, 1), vec3(0), vec3(0));
+    EXPECT_EQ(level, glm::translate(mat4(1), vec3(0, 0, -1)))
+        << "up is y where that is least parallel";
+}
+
+TEST(Mvp, HardCase_LookAtFromTheCenterItself) {
+    look_up("Eq. 4.5");
+    EXPECT_EQ(look_at(vec3(1, 2, 3), vec3(1, 2, 3), vec3(0, 1, 0)),
+              glm::translate(mat4(1), vec3(-1, -2, -3)));
+    for (const vec3 up : {vec3(0), vec3(0, 0, 1), vec3(not_a_number), vec3(1e-6f, 0, 1)})
+        EXPECT_TRUE(is_rigid(look_at(vec3(1, 2, 3), vec3(1, 2, 3), up)));
+}
+
+TEST(Mvp, HardCase_LookAtWithNearlyParallelUp) {
+    look_up("Eq. 4.5: cross products and what rounding leaves of them");
+    AnySize any(12, 1);
+    for (int i = 0; i < 20'000; ++i) {
+        const vec3 back = glm::normalize(any.vector());
+        const vec3 aside = glm::normalize(glm::cross(back, any.vector()));
+        const float angle = std::pow(10.0f, -6 + 3 * static_cast<float>(i) / 20'000);
+        const vec3 up = (i % 2 ? 1.0f : -1.0f) * back + angle * aside;
+        const mat4 view = look_at(back, vec3(0), up);
+        ASSERT_TRUE(is_rigid(view)) << "seed 12, case " << i;
+        const lvec3 exact_right = glm::normalize(glm::cross(lvec3(up), lvec3(back)));
+        const long double sine = glm::length(glm::cross(lvec3(up), lvec3(back)));
+        if (sine < 1e-5L) continue;  // below 64 eps another up is taken
+        // Up and back become unit vectors within 1 ulp, then as in Eq4_5_EqualsGlm.
+        for (int axis = 0; axis < 3; ++axis)
+            ASSERT_LE(std::abs(view[axis][0] - exact_right[axis]), 6 * FLT_EPSILON / sine)
+                << "seed 12, case " << i << ", sine " << sine;
+    }
+}
+
+TEST(Mvp, HardCase_LookAtOverTinyAndHugeDistances) {
+    look_up("Eq. 4.5: the length of what is normalised is taken in a wider type");
+    AnySize any(13, 1);
+    for (int i = 0; i < 10'000; ++i) {
+        const vec3 eye = any.vector(), up = any.vector();
+        const mat4 expected = look_at(eye, vec3(0), up);
+        ASSERT_TRUE(is_rigid(expected)) << "seed 13, case " << i;
+        ASSERT_TRUE(sees_in_the_middle(expected, eye, vec3(0))) << "seed 13, case " << i;
+        for (const float size : {0x1p-100f, 0x1p100f}) {  // powers of two: nothing rounds anew
+            mat4 actual = look_at(size * eye, vec3(0), up);
+            ASSERT_TRUE(is_rigid(actual)) << "seed 13, case " << i << ", size " << size;
+            actual[3] = vec4(vec3(actual[3]) / size, 1);
+            ASSERT_EQ(actual, expected) << "seed 13, case " << i << ", size " << size;
+            ASSERT_EQ(look_at(eye, vec3(0), size * up), expected) << "seed 13, case " << i;
+        }
+    }
+    for (const float size : {1e-30f, 1e30f})
+        EXPECT_TRUE(is_rigid(look_at(vec3(size, size, 0), vec3(0), vec3(0, 1, 0))));
+}
+
+TEST(Mvp, HardCase_PerspectiveAtItsLimits) {
+    look_up("Eq. 4.7 and 4.8, with near/far in place of both");
+    for (const float fov_degrees : {1e-3f, 1.0f, 90.0f, 179.9f})
+        for (const float aspect : {1e-4f, 1.0f, 16384.0f})
+            for (const float near_ : {1e-6f, 1.0f})
+                for (const float far_ : {1.001f, 1e6f, 1e30f, infinity}) {
+                    const mat4 m = perspective(glm::radians(fov_degrees), aspect, near_, far_);
+                    for (int column = 0; column < 4; ++column)
+                        for (int row = 0; row < 4; ++row)
+                            ASSERT_TRUE(std::isfinite(m[column][row])) << fov_degrees;
+                    EXPECT_GT(m[0][0], 0);
+                    EXPECT_GT(m[1][1], 0);
+                    // As in Eq4_8_EqualsGlm, of two terms up to 2 / (1 - near/far).
+                    const float tolerance = 8 * eps / ((1 - near_ / far_) * (1 - near_ / far_));
+                    const vec4 on_near = m * vec4(0, 0, -near_, 1);
+                    EXPECT_NEAR(on_near.z / on_near.w, -1, tolerance);
+                    if (far_ == infinity) continue;
+                    const vec4 on_far = m * vec4(0, 0, -far_, 1);
+                    EXPECT_NEAR(on_far.z / on_far.w, 1, tolerance);
+                }
+}
+
+TEST(Mvp, HardCase_InfinitelyFarPlane) {
+    look_up("Eq. 4.8 with near/far = 0");
+    const mat4 m = perspective(1.0f, 1.0f, 0.5f, infinity);
+    EXPECT_EQ(m[2][2], -1);
+    EXPECT_EQ(m[3][2], -1);
+    float before = -1;
+    for (float distance = 1; distance < 1e6f; distance *= 2) {
+        const vec4 clip = m * vec4(0, 0, -distance, 1);
+        EXPECT_GT(clip.z / clip.w, before);
+        EXPECT_LT(clip.z / clip.w, 1);
+        before = clip.z / clip.w;
+    }
+}
+
+TEST(Mvp, HardCase_WholeSceneLiesBetweenNearAndFar) {
+    look_up("Eq. 4.6: the scene in a sphere around its centre");
+    std::mt19937 random(14);
+    std::uniform_real_distribution<float> yaw(-720, 720), pitch(-90, 90), decades(0, 6),
+        place(-50, 50), side(0, 2);
+    for (int i = 0; i < 20'000; ++i) {
+        const float scale = std::pow(10.0f, place(random) / 5);
+        Bounds bounds;
+        bounds.min = scale * vec3(place(random), place(random), place(random));
+        bounds.max = bounds.min + scale * vec3(side(random), side(random), side(random) + 1);
+        Orbit orbit;
+        orbit.yaw_degrees = yaw(random);
+        orbit.pitch_degrees = i % 3 ? pitch(random) : i % 2 ? 90.0f : -90.0f;
+        orbit.distance = 1 + 0.3f * std::pow(10.0f, decades(random));
+        const Camera camera = orbit_camera(orbit, bounds);
+        ASSERT_TRUE(0 < camera.near && camera.near < camera.far) << "seed 14, case " << i;
+        ASSERT_TRUE(is_rigid(camera.view_from_world)) << "seed 14, case " << i;
+        for (int corner = 0; corner < 8; ++corner) {
+            const dvec4 world(corner & 1 ? bounds.max.x : bounds.min.x,
+                              corner & 2 ? bounds.max.y : bounds.min.y,
+                              corner & 4 ? bounds.max.z : bounds.min.z, 1);
+            const double distance = -(dmat4(camera.view_from_world) * world).z;
+            ASSERT_GE(distance, camera.near) << "seed 14, case " << i;
+            ASSERT_LE(distance, camera.far) << "seed 14, case " << i;
+        }
+        const vec4 middle = camera.clip_from_world({16, 9}) * vec4(bounds.center(), 1);
+        // The eye is as far from the origin as 100 radii more than its distance: some eps of that.
+        const float tolerance = 1e-4f * middle.w / std::tan(camera.fov_y_radians / 2);
+        ASSERT_NEAR(middle.x, 0, tolerance) << "seed 14, case " << i;
+        ASSERT_NEAR(middle.y, 0, tolerance) << "seed 14, case " << i;
+    }
+}
+
+TEST(Mvp, HardCase_OrbitAroundScenesOfNoSize) {
+    look_up("Eq. 4.6");
+    Bounds point;
+    point.add(vec3(1, 2, 3));
+    for (const Bounds& bounds : {Bounds(), point}) {
+        const Camera camera = orbit_camera(Orbit(), bounds);
+        const vec3 center = bounds.min.x <= bounds.max.x ? vec3(1, 2, 3) : vec3(0);
+        EXPECT_NEAR(glm::distance(camera.position_world, center), Orbit().distance, 8 * eps);
+        EXPECT_TRUE(is_rigid(camera.view_from_world));
+        EXPECT_NEAR(camera.near, 0.999f * (Orbit().distance - 1), 4 * eps);
+        EXPECT_NEAR(camera.far, 1.001f * (Orbit().distance + 1), 4 * eps);
+    }
+}
+
+TEST(Mvp, HardCase_OrbitAroundTinyAndHugeScenes) {
+    look_up("Eq. 4.6: all in radii of the scene");
+    const auto camera_around = [](float size) {
+        Bounds bounds;
+        bounds.add(size * vec3(-1, -2, -3)), bounds.add(size * vec3(3, 2, 1));
+        return orbit_camera(Orbit(), bounds);
+    };
+    const Camera expected = camera_around(1);
+    for (const float size : {0x1p-100f, 0x1p-66f, 0x1p66f, 0x1p120f}) {
+        const Camera camera = camera_around(size);
+        EXPECT_EQ(camera.position_world, size * expected.position_world) << size;
+        EXPECT_EQ(camera.near, size * expected.near) << size;
+        EXPECT_EQ(camera.far, size * expected.far) << size;
+        EXPECT_TRUE(mat3(camera.view_from_world) == mat3(expected.view_from_world)) << size;
+    }
+}
+
+TEST(Mvp, HardCase_OrbitFromInsideTheScene) {
+    look_up("Eq. 4.8: near must stay above 0");
+    Bounds bounds;
+    bounds.add(vec3(-1)), bounds.add(vec3(1));
+    for (const float distance : {0.01f, 0.5f, 0.999f, 1.0f, 1.001f}) {
+        Orbit orbit;
+        orbit.distance = distance;
+        const Camera camera = orbit_camera(orbit, bounds);
+        EXPECT_GE(camera.near, 0.0009f * camera.far) << "or the depths have no digits left";
+        EXPECT_GE(camera.far, (1 + distance) * std::sqrt(3.0f));
+    }
+}
+
+TEST(Mvp, PictureOfTheLesson) { EXPECT_TRUE(test::equals_golden("04_mvp", "04_mvp")); }
+
+TEST(Mvp, PictureOfTheDepth) {
+    EXPECT_TRUE(test::equals_golden("04_mvp", "04_mvp_depth", {"--depth"}));
+}
