@@ -6,6 +6,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "04_mvp/mvp_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 
@@ -16,11 +17,13 @@ namespace {
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
+    MvpVariant mvp;
 
     Options() { model = "scene.obj"; }
     void declare(Knobs& knobs) {
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
+        mvp.declare(knobs);
     }
 };
 
@@ -37,28 +40,30 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
             counters.add(Counter::meshes_culled_by_frustum);
             continue;
         }
-        const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
+        const std::vector<vec4> positions_clip =
+            transform(options.mvp, camera, scene.bounds().center(), options.size, mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
             counters.add(Counter::triangles_in);
             for (const ClippedTriangle& clipped :
-                 clip_triangle(corners_of(triangle, positions_clip))) {
+                 clip(options.mvp, corners_of(triangle, positions_clip), options.size)) {
                 const vec3 a = screen_from_clip(clipped[0].position_clip, options.size);
                 const vec3 b = screen_from_clip(clipped[1].position_clip, options.size);
                 const vec3 c = screen_from_clip(clipped[2].position_clip, options.size);
                 const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                if (!is_front_facing(on_screen)) {
+                if (!is_front_facing(options.mvp, on_screen, clipped)) {
                     counters.add(Counter::triangles_culled_by_facing);
                     continue;
                 }
                 const vec3 face_color =
                     flat_color(mesh, triangle, scene.materials[triangle.material]);
                 const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 weights) {
-                    counters.add(Counter::fragments_tested);
-                    if (!depth.test_and_write(pixel, triangle_depth.at(weights))) return;
-                    counters.add(Counter::fragments_shaded);
-                    color[pixel] = face_color;
-                });
+                fill(options.mvp, on_screen, triangle_depth, clipped, options.size,
+                     [&](ivec2 pixel, float z) {
+                         counters.add(Counter::fragments_tested);
+                         if (!depth.test_and_write(pixel, z)) return;
+                         counters.add(Counter::fragments_shaded);
+                         color[pixel] = face_color;
+                     });
             }
         }
     }
