@@ -112,35 +112,36 @@ inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& came
     return transform_double(clip_from_world_in(camera, eye, center_moved, size), positions_world);
 }
 
-/// The part of a triangle beyond the near plane, of which fill_triangle draws what lies in the
-/// picture. What is too far outside for it is cut by all six planes.
+/// Nothing is cut off.
+inline ClippedTriangle whole_triangle(const std::array<vec4, 3>& corners) {
+    return {{{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
+}
+
+/// The part of a triangle beyond the near plane: of that, fill_triangle draws what lies in the
+/// picture. A triangle that reaches too far for fill_triangle is cut by all six planes.
 ///
 /// @param corners  Clip space of a perspective.
 /// @param size     Of the picture, in pixels.
 inline ClippedTriangles clip_near(const std::array<vec4, 3>& corners, ivec2 size) {
     constexpr int near_plane = 4;
-    ClippedTriangles clipped;
+    // From the picture's middle, in halves of its size: a pixel less than fill_triangle takes.
+    const vec2 guard = 2.0f * (coordinate_limit - 1.0f) / vec2(size) - 1.0f;
+    const auto is_usable = [guard](vec4 p) {
+        return std::abs(p.x) < guard.x * p.w && std::abs(p.y) < guard.y * p.w;
+    };
+    const ClippedTriangle whole = whole_triangle(corners);
     std::array<ClippedCorner, 4> polygon;
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto corner = [&](std::size_t k) {
-            vec3 weights(0);
-            weights[static_cast<int>(k)] = 1;
-            return ClippedCorner{corners[k], weights};
-        };
-        const ClippedCorner from = corner(i), to = corner((i + 1) % 3);
+        const ClippedCorner &from = whole[i], &to = whole[i < 2 ? i + 1 : 0];
         const float from_by = inside_by(near_plane, from.position_clip);
         const float to_by = inside_by(near_plane, to.position_clip);
         if (from_by >= 0) polygon[count++] = from;
         if ((from_by >= 0) != (to_by >= 0)) polygon[count++] = crossing(from, from_by, to, to_by);
     }
-    // From the picture's middle, in halves of its size: a pixel less than fill_triangle takes.
-    const vec2 guard = 2.0f * (coordinate_limit - 1.0f) / vec2(size) - 1.0f;
-    for (std::size_t i = 0; i < count; ++i) {
-        const vec4 p = polygon[i].position_clip;
-        if (!(std::abs(p.x) < guard.x * p.w && std::abs(p.y) < guard.y * p.w))
-            return clip_triangle(corners);
-    }
+    ClippedTriangles clipped;
+    for (std::size_t i = 0; i < count; ++i)
+        if (!is_usable(polygon[i].position_clip)) return clip_triangle(corners);
     for (std::size_t i = 2; i < count; ++i) clipped.add({polygon[0], polygon[i - 1], polygon[i]});
     return clipped;
 }
@@ -151,7 +152,7 @@ inline ClippedTriangles clip(const MvpVariant& variant, const std::array<vec4, 3
     if (variant.clipping == Clipping::six_planes) return clip_triangle(corners);
     if (variant.clipping == Clipping::near_plane) return clip_near(corners, size);
     ClippedTriangles whole;
-    whole.add({{{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}});
+    whole.add(whole_triangle(corners));
     return whole;
 }
 
@@ -201,6 +202,7 @@ void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) 
     const ivec2 first(glm::clamp(glm::floor(low - 0.5), dvec2(0), dvec2(size)));
     const ivec2 last(glm::clamp(glm::ceil(high - 0.5), dvec2(-1), dvec2(size) - 1.0));
 
+    const dvec2 per_half = 1.0 / dvec2(size);  // NDC for half a pixel
     std::array<bool, 3> owned;
     for (std::size_t i = 0; i < 3; ++i)
         owned[i] = of.planes[i].x > 0 || (of.planes[i].x == 0 && of.planes[i].y < 0);
@@ -208,14 +210,14 @@ void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) 
                           triangle[2].position_clip.z) /
                     of.volume;
     for (int y = first.y; y <= last.y; ++y) {
-        const double y_ndc = 1.0 - (2 * y + 1) / double(size.y);
+        const double y_ndc = 1.0 - (2 * y + 1) * per_half.y;
         dvec3 row;
         for (int i = 0; i < 3; ++i) {
             const dvec3 plane = of.planes[static_cast<std::size_t>(i)];
             row[i] = plane.y * y_ndc + plane.z;
         }
         for (int x = first.x; x <= last.x; ++x) {
-            const double x_ndc = (2 * x + 1) / double(size.x) - 1.0;
+            const double x_ndc = (2 * x + 1) * per_half.x - 1.0;
             const dvec3 shares(of.planes[0].x * x_ndc + row[0], of.planes[1].x * x_ndc + row[1],
                                of.planes[2].x * x_ndc + row[2]);
             const auto is_inside = [&](int i) {
