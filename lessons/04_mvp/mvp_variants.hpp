@@ -129,6 +129,13 @@ inline ClippedTriangles clip_near(const std::array<vec4, 3>& corners, ivec2 size
     const auto is_usable = [guard](vec4 p) {
         return std::abs(p.x) < guard.x * p.w && std::abs(p.y) < guard.y * p.w;
     };
+    ClippedTriangles clipped;
+    const auto are_all_outside = [&corners](int plane) {
+        return inside_by(plane, corners[0]) < 0 && inside_by(plane, corners[1]) < 0 &&
+               inside_by(plane, corners[2]) < 0;
+    };
+    for (int plane = 0; plane < frustum_planes; ++plane)
+        if (are_all_outside(plane)) return clipped;
     const ClippedTriangle whole = whole_triangle(corners);
     std::array<ClippedCorner, 4> polygon;
     std::size_t count = 0;
@@ -139,7 +146,6 @@ inline ClippedTriangles clip_near(const std::array<vec4, 3>& corners, ivec2 size
         if (from_by >= 0) polygon[count++] = from;
         if ((from_by >= 0) != (to_by >= 0)) polygon[count++] = crossing(from, from_by, to, to_by);
     }
-    ClippedTriangles clipped;
     for (std::size_t i = 0; i < count; ++i)
         if (!is_usable(polygon[i].position_clip)) return clip_triangle(corners);
     for (std::size_t i = 2; i < count; ++i) clipped.add({polygon[0], polygon[i - 1], polygon[i]});
