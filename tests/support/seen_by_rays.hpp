@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "04_mvp/camera.hpp"
@@ -67,13 +68,28 @@ class RaySeen {
 
     /// @return  False where the triangle is seen clockwise.
     bool is_seen(ivec2 pixel, ivec2 size) const {
-        Crossing crossing;
-        return cross(2 * (pixel.x + 0.5L) / size.x - 1, 1 - 2 * (pixel.y + 0.5L) / size.y,
-                     crossing) &&
-               std::abs(crossing.z) <= crossing.w;
+        return is_seen_at(pixel.x + 0.5L, pixel.y + 0.5L, size);
+    }
+
+    /// Whether what is seen changes within about so many pixels of a pixel's centre.
+    bool is_near_border(ivec2 pixel, ivec2 size, long double band_px) const {
+        const bool here = is_seen(pixel, size);
+        for (int i = 0; i < 8; ++i) {
+            const long double angle_radians = i * 0.785398163397448310L;
+            if (is_seen_at(pixel.x + 0.5L + band_px * std::cos(angle_radians),
+                           pixel.y + 0.5L + band_px * std::sin(angle_radians), size) != here)
+                return true;
+        }
+        return false;
     }
 
   private:
+    bool is_seen_at(long double x, long double y, ivec2 size) const {
+        Crossing crossing;
+        return cross(2 * x / size.x - 1, 1 - 2 * y / size.y, crossing) &&
+               std::abs(crossing.z) <= crossing.w;
+    }
+
     struct Crossing {
         long double w, z;
     };
