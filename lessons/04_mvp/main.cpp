@@ -6,6 +6,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "04_mvp/mvp_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 
@@ -16,17 +17,21 @@ namespace {
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
+    MvpVariant mvp;
 
     Options() { model = "scene.obj"; }
     void declare(Knobs& knobs) {
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
+        mvp.declare(knobs);
     }
 };
 
 template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
+    if (options.mvp.clipping == Clipping::pixels)
+        return render_by_pixels(options, scene, camera, counters);
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
@@ -37,11 +42,12 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
             counters.add(Counter::meshes_culled_by_frustum);
             continue;
         }
-        const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
+        const std::vector<vec4> positions_clip =
+            transform(options.mvp, camera, options.size, mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
             counters.add(Counter::triangles_in);
             for (const ClippedTriangle& clipped :
-                 clip_triangle(corners_of(triangle, positions_clip))) {
+                 clip(options.mvp, corners_of(triangle, positions_clip), options.size)) {
                 const vec3 a = screen_from_clip(clipped[0].position_clip, options.size);
                 const vec3 b = screen_from_clip(clipped[1].position_clip, options.size);
                 const vec3 c = screen_from_clip(clipped[2].position_clip, options.size);

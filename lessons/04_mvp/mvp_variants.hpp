@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Other numbers to compute places in, and other ways to clip, to be seen with `--precision`,
+/// `--offset` and `--clip`, and measured in docs/accuracy/04_mvp.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <vector>
+
+#include "02_triangle_fill/flat_color.hpp"
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "common/backdrop.hpp"
+#include "common/lesson_app.hpp"
+
+namespace rasterbook {
+
+/// What the way from the world to clip space is computed in.
+enum class Precision { float32, relative, float64 };
+
+/// What is cut off: all outside six planes, all before the near plane, or nothing.
+enum class Clipping { six_planes, near_plane, pixels };
+
+struct MvpVariant {
+    Precision precision = Precision::float32;
+    double offset = 0;  ///< Of scene and camera in the world, along each axis.
+    Clipping clipping = Clipping::six_planes;
+
+    void declare(Knobs& knobs) {
+        knobs.choice("--precision", precision,
+                     {{"float", Precision::float32},
+                      {"relative", Precision::relative},
+                      {"double", Precision::float64}},
+                     "What places in the world are computed in; relative subtracts the camera's "
+                     "place in double and goes on in float");
+        knobs.choice(
+            "--offset", offset,
+            {{"0", 0.0}, {"1000", 1e3}, {"100000", 1e5}, {"1000000", 1e6}, {"10000000", 1e7}},
+            "Move scene and camera together so far along each axis");
+        knobs.choice("--clip", clipping,
+                     {{"six", Clipping::six_planes},
+                      {"near", Clipping::near_plane},
+                      {"pixel", Clipping::pixels}},
+                     "Cut triangles at all planes, at the near one, or ask each pixel instead");
+    }
+};
+
+/// Points of a world too large for float, in clip space: what is near the camera is subtracted in
+/// double, the rest is float.
+///
+/// @param clip_from_relative  For a camera at the origin.
+inline std::vector<vec4> transform_relative(const mat4& clip_from_relative, dvec3 eye_world,
+                                            const std::vector<dvec3>& positions_world) {
+    std::vector<vec4> transformed;
+    transformed.reserve(positions_world.size());
+    for (const dvec3 position : positions_world)
+        transformed.push_back(clip_from_relative * vec4(vec3(position - eye_world), 1));
+    return transformed;
+}
+
+/// Points in clip space, computed in double and rounded at the end.
+inline std::vector<vec4> transform_double(const dmat4& clip_from_world,
+                                          const std::vector<dvec3>& positions_world) {
+    std::vector<vec4> transformed;
+    transformed.reserve(positions_world.size());
+    for (const dvec3 position : positions_world)
+        transformed.push_back(vec4(clip_from_world * dvec4(position, 1)));
+    return transformed;
+}
+
+/// Points moved along each axis, computed in T.
+template <typename T>
+std::vector<glm::vec<3, T>> moved(const std::vector<vec3>& positions, T offset) {
+    std::vector<glm::vec<3, T>> result;
+    result.reserve(positions.size());
+    for (const vec3 position : positions) result.push_back(glm::vec<3, T>(position) + offset);
+    return result;
+}
+
+/// A camera in a world of T, at the origin for Precision::relative.
+template <typename T>
+glm::mat<4, 4, T> clip_from_world_in(const Camera& camera, glm::vec<3, T> eye,
+                                     glm::vec<3, T> center, ivec2 size) {
+    const T aspect = static_cast<T>(size.x) / static_cast<T>(size.y);
+    return perspective<T>(camera.fov_y_radians, aspect, camera.near, camera.far) *
+           look_at<T>(eye, center, {0, 1, 0});
+}
+
+/// The points as the camera sees them, in clip space: transform(), or with camera and points moved
+/// by the variant's offset, computed as it says.
+///
+/// @param camera  Before the move.
+inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& camera, ivec2 size,
+                                   const std::vector<vec3>& positions) {
+    const vec3 center = camera.center_world;
+    if (variant.precision == Precision::float32) {
+        if (variant.offset == 0) return transform(camera.clip_from_world(size), positions);
+        const auto offset = static_cast<float>(variant.offset);
+        return transform(
+            clip_from_world_in(camera, camera.position_world + offset, center + offset, size),
+            moved(positions, offset));
+    }
+    const dvec3 eye = dvec3(camera.position_world) + variant.offset;
+    const dvec3 center_moved = dvec3(center) + variant.offset;
+    const std::vector<dvec3> positions_world = moved(positions, variant.offset);
+    if (variant.precision == Precision::relative)
+        return transform_relative(
+            clip_from_world_in(camera, vec3(0), vec3(center_moved - eye), size), eye,
+            positions_world);
+    return transform_double(clip_from_world_in(camera, eye, center_moved, size), positions_world);
+}
+
+/// Nothing is cut off.
+inline ClippedTriangle whole_triangle(const std::array<vec4, 3>& corners) {
+    return {{{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
+}
+
+/// The part of a triangle beyond the near plane: of that, fill_triangle draws what lies in the
+/// picture. A triangle that reaches too far for fill_triangle is cut by all six planes.
+///
+/// @param corners  Clip space of a perspective.
+/// @param size     Of the picture, in pixels.
+inline ClippedTriangles clip_near(const std::array<vec4, 3>& corners, ivec2 size) {
+    constexpr int near_plane = 4;
+    // From the picture's middle, in halves of its size: a pixel less than fill_triangle takes.
+    const vec2 guard = 2.0f * (coordinate_limit - 1.0f) / vec2(size) - 1.0f;
+    const auto is_usable = [guard](vec4 p) {
+        return std::abs(p.x) < guard.x * p.w && std::abs(p.y) < guard.y * p.w;
+    };
+    ClippedTriangles clipped;
+    const auto are_all_outside = [&corners](int plane) {
+        return inside_by(plane, corners[0]) < 0 && inside_by(plane, corners[1]) < 0 &&
+               inside_by(plane, corners[2]) < 0;
+    };
+    for (int plane = 0; plane < frustum_planes; ++plane)
+        if (are_all_outside(plane)) return clipped;
+    const ClippedTriangle whole = whole_triangle(corners);
+    std::array<ClippedCorner, 4> polygon;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const ClippedCorner &from = whole[i], &to = whole[i < 2 ? i + 1 : 0];
+        const float from_by = inside_by(near_plane, from.position_clip);
+        const float to_by = inside_by(near_plane, to.position_clip);
+        if (from_by >= 0) polygon[count++] = from;
+        if ((from_by >= 0) != (to_by >= 0)) polygon[count++] = crossing(from, from_by, to, to_by);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        if (!is_usable(polygon[i].position_clip)) return clip_triangle(corners);
+    for (std::size_t i = 2; i < count; ++i) clipped.add({polygon[0], polygon[i - 1], polygon[i]});
+    return clipped;
+}
+
+/// clip_triangle, or the variant in its place.
+inline ClippedTriangles clip(const MvpVariant& variant, const std::array<vec4, 3>& corners,
+                             ivec2 size) {
+    return variant.clipping == Clipping::near_plane ? clip_near(corners, size)
+                                                    : clip_triangle(corners);
+}
+
+/// A triangle in clip space with corners anywhere, also behind the camera: the planes through the
+/// camera and its sides.
+///
+/// @see Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997
+struct HomogeneousTriangle {
+    std::array<dvec3, 3> planes;  ///< Opposite to each corner; inside > 0 if the triangle is front.
+    double volume;                ///< Of the corners' (x, y, w): > 0 where seen counter-clockwise.
+
+    explicit HomogeneousTriangle(const ClippedTriangle& triangle) {
+        std::array<dvec3, 3> xyw;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const vec4 p = triangle[i].position_clip;
+            xyw[i] = {p.x, p.y, p.w};
+        }
+        // The products of floats are exact: triangles that share a side have the same plane there,
+        // turned round.
+        for (std::size_t i = 0; i < 3; ++i)
+            planes[i] = glm::cross(xyw[(i + 1) % 3], xyw[(i + 2) % 3]);
+        volume = glm::dot(xyw[0], planes[0]);
+    }
+};
+
+/// Visits the pixels of a picture whose rays meet a triangle that is seen counter-clockwise,
+/// between the near and the far plane. A centre on a side belongs to a left or a top side's
+/// triangle.
+///
+/// @param emit  Called as emit(ivec2 pixel, float depth).
+template <std::invocable<ivec2, float> Emit>
+void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) {
+    const HomogeneousTriangle of(triangle);
+    if (!(of.volume > 0)) return;
+    // The box around the corners, or the whole picture if one of them is not in front.
+    dvec2 low(size), high(0);
+    bool all_in_front = true, all_behind = true;
+    for (const ClippedCorner& corner : triangle) {
+        const dvec4 p(corner.position_clip);
+        all_in_front &= p.w > 0;
+        all_behind &= p.w <= 0;
+        const dvec2 on_screen = (dvec2(p.x, -p.y) / p.w + 1.0) * 0.5 * dvec2(size);
+        low = glm::min(low, on_screen), high = glm::max(high, on_screen);
+    }
+    if (all_behind) return;
+    if (!all_in_front) low = dvec2(0), high = dvec2(size);
+    const ivec2 first(glm::clamp(glm::floor(low - 0.5), dvec2(0), dvec2(size)));
+    const ivec2 last(glm::clamp(glm::ceil(high - 0.5), dvec2(-1), dvec2(size) - 1.0));
+
+    const dvec2 per_half = 1.0 / dvec2(size);  // NDC for half a pixel
+    std::array<bool, 3> owned;
+    for (std::size_t i = 0; i < 3; ++i)
+        owned[i] = of.planes[i].x > 0 || (of.planes[i].x == 0 && of.planes[i].y < 0);
+    const dvec3 z = dvec3(triangle[0].position_clip.z, triangle[1].position_clip.z,
+                          triangle[2].position_clip.z) /
+                    of.volume;
+    for (int y = first.y; y <= last.y; ++y) {
+        const double y_ndc = 1.0 - (2 * y + 1) * per_half.y;
+        dvec3 row;
+        for (int i = 0; i < 3; ++i) {
+            const dvec3 plane = of.planes[static_cast<std::size_t>(i)];
+            row[i] = plane.y * y_ndc + plane.z;
+        }
+        for (int x = first.x; x <= last.x; ++x) {
+            const double x_ndc = (2 * x + 1) * per_half.x - 1.0;
+            const dvec3 shares(of.planes[0].x * x_ndc + row[0], of.planes[1].x * x_ndc + row[1],
+                               of.planes[2].x * x_ndc + row[2]);
+            const auto is_inside = [&](int i) {
+                return shares[i] > 0 || (shares[i] == 0 && owned[static_cast<std::size_t>(i)]);
+            };
+            if (!(is_inside(0) && is_inside(1) && is_inside(2))) continue;
+            const double z_ndc = glm::dot(shares, z);  // of shares that give w = 1
+            if (std::abs(z_ndc) <= 1) emit(ivec2(x, y), static_cast<float>((z_ndc + 1) * 0.5));
+        }
+    }
+}
+
+/// The picture of a scene of which nothing is cut off: every pixel is asked.
+template <typename Options, typename CounterPolicy>
+Image<vec3> render_by_pixels(const Options& options, const Scene& scene, const Camera& camera,
+                             CounterPolicy& counters) {
+    Image<vec3> color = backdrop(options.size);
+    DepthBuffer depth(options.size);
+    for (const Mesh& mesh : scene.meshes) {
+        const auto positions_clip = transform(options.mvp, camera, options.size, mesh.positions);
+        for (const Triangle& triangle : mesh.triangles) {
+            const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
+            fill_homogeneous(whole_triangle(corners_of(triangle, positions_clip)), options.size,
+                             [&](ivec2 pixel, float z) {
+                                 counters.add(Counter::fragments_tested);
+                                 if (!depth.test_and_write(pixel, z)) return;
+                                 counters.add(Counter::fragments_shaded);
+                                 color[pixel] = face_color;
+                             });
+        }
+    }
+    return options.show_depth ? depth_picture(depth) : color;
+}
+
+}  // namespace rasterbook
