@@ -50,7 +50,7 @@ struct MvpVariant {
     }
 };
 
-/// Points of a world too large for float, in clip space: what is near the camera is subtracted in
+/// Points of a world too large for float, in clip space: the camera's place is subtracted in
 /// double, the rest is float.
 ///
 /// @param clip_from_relative  For a camera at the origin.
@@ -82,7 +82,7 @@ std::vector<glm::vec<3, T>> moved(const std::vector<vec3>& positions, T offset) 
     return result;
 }
 
-/// A camera in a world of T, at the origin for Precision::relative.
+/// What Camera::clip_from_world gives, for a camera elsewhere and computed in T.
 template <typename T>
 glm::mat<4, 4, T> clip_from_world_in(const Camera& camera, glm::vec<3, T> eye,
                                      glm::vec<3, T> center, ivec2 size) {
