@@ -33,19 +33,26 @@ struct Drawn {
 
 /// As in the lesson; what lies beyond the far plane is not kept.
 void draw(const MvpVariant& variant, const ClipCorners& corners, Drawn& drawn) {
+    const auto keep = [&](ivec2 pixel, float z) {
+        if (!(z < DepthBuffer::cleared)) return;
+        ++drawn.hits[pixel];
+        drawn.depth[pixel] = z;
+    };
+    if (variant.clipping == Clipping::pixels) {
+        drawn.front += HomogeneousTriangle(whole_triangle(corners)).volume > 0;
+        fill_homogeneous(whole_triangle(corners), size, keep);
+        return;
+    }
     for (const ClippedTriangle& clipped : clip(variant, corners, size)) {
         const vec3 a = screen_from_clip(clipped[0].position_clip, size);
         const vec3 b = screen_from_clip(clipped[1].position_clip, size);
         const vec3 c = screen_from_clip(clipped[2].position_clip, size);
         const ScreenTriangle on_screen = snap_triangle(a, b, c);
-        if (!is_front_facing(variant, on_screen, clipped)) continue;
+        if (!is_front_facing(on_screen)) continue;
         ++drawn.front;
-        fill(variant, on_screen, TriangleDepth(vec3(a.z, b.z, c.z)), clipped, size,
-             [&](ivec2 pixel, float z) {
-                 if (!(z < DepthBuffer::cleared)) return;
-                 ++drawn.hits[pixel];
-                 drawn.depth[pixel] = z;
-             });
+        const TriangleDepth depth(vec3(a.z, b.z, c.z));
+        fill_triangle(on_screen, size,
+                      [&](ivec2 pixel, vec3 weights) { keep(pixel, depth.at(weights)); });
     }
 }
 
@@ -226,7 +233,7 @@ TEST(MvpVariants, OnlyFloatDependsOnWhereTheWorldIs) {
     const auto greatest_error_px = [&](Precision precision, double offset) {
         const ReferenceCamera reference(camera, bounds.center(), size, offset);
         const std::vector<vec4> positions_clip =
-            transform({precision, offset}, camera, bounds.center(), size, positions);
+            transform({precision, offset}, camera, size, positions);
         long double greatest = 0;
         for (std::size_t i = 0; i < positions.size(); ++i) {
             const Place place = reference.on_screen(positions[i]);
@@ -241,7 +248,7 @@ TEST(MvpVariants, OnlyFloatDependsOnWhereTheWorldIs) {
         EXPECT_LT(greatest_error_px(Precision::float64, offset), float_px) << offset;
         EXPECT_EQ(greatest_error_px(Precision::float32, offset) < float_px, offset == 0) << offset;
     }
-    EXPECT_EQ(transform({}, camera, bounds.center(), size, positions),
+    EXPECT_EQ(transform({}, camera, size, positions),
               transform(camera.clip_from_world(size), positions));
 }
 

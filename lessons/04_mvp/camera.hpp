@@ -15,10 +15,10 @@ namespace rasterbook {
 
 struct Camera {
     vec3 position_world;
-    vec3 center_world;  ///< What it looks at.
     mat4 view_from_world;
-    float fov_y_radians;  ///< From the lower to the upper border, in (0, pi).
-    float near, far;      ///< Distances in front of the camera, 0 < near < far.
+    float fov_y_radians;   ///< From the lower to the upper border, in (0, pi).
+    float near, far;       ///< Distances in front of the camera, 0 < near < far.
+    vec3 center_world{0};  ///< What it looks at.
 
     /// View first, then perspective (Eq. 4.4).
     ///
@@ -55,8 +55,8 @@ inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     // The scene lies between distance - radius and distance + radius.
     const float far = 1.001f * (distance + radius);
     const float near = std::max(0.999f * (distance - radius), 0.001f * far);
-    return {eye,  center, look_at(eye, center, vec3(0, 1, 0)), glm::radians(orbit.fov_degrees),
-            near, far};
+    return {eye,   look_at(eye, center, vec3(0, 1, 0)), glm::radians(orbit.fov_degrees), near, far,
+            center};
 }
 
 }  // namespace rasterbook

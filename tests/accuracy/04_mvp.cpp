@@ -43,8 +43,8 @@ Errors place_errors(const View& view, Precision precision) {
     Errors errors;
     for (const int power : {3, 5, 6, 7}) {
         const double offset = std::pow(10.0, power);
-        const std::vector<vec4> positions_clip = transform(
-            {precision, offset}, view.camera, view.bounds.center(), view.size, view.positions);
+        const std::vector<vec4> positions_clip =
+            transform({precision, offset}, view.camera, view.size, view.positions);
         const ReferenceCamera reference(view.camera, view.bounds.center(), view.size, offset);
         long double greatest = 0, sum_of_squares = 0;
         for (std::size_t i = 0; i < positions_clip.size(); ++i) {
@@ -85,15 +85,19 @@ constexpr ivec2 picture_size(256);
 /// seen.
 template <typename Emit>
 void draw(const MvpVariant& variant, const std::array<vec4, 3>& corners, Emit&& emit) {
+    if (variant.clipping == Clipping::pixels)
+        return fill_homogeneous(whole_triangle(corners), picture_size, [&](ivec2 pixel, float z) {
+            if (z < DepthBuffer::cleared) emit(pixel);
+        });
     for (const ClippedTriangle& clipped : clip(variant, corners, picture_size)) {
         const vec3 a = screen_from_clip(clipped[0].position_clip, picture_size);
         const vec3 b = screen_from_clip(clipped[1].position_clip, picture_size);
         const vec3 c = screen_from_clip(clipped[2].position_clip, picture_size);
         const ScreenTriangle on_screen = snap_triangle(a, b, c);
-        if (!is_front_facing(variant, on_screen, clipped)) continue;
+        if (!is_front_facing(on_screen)) continue;
         const TriangleDepth depth(vec3(a.z, b.z, c.z));
-        fill(variant, on_screen, depth, clipped, picture_size, [&](ivec2 pixel, float z) {
-            if (z < DepthBuffer::cleared) emit(pixel);
+        fill_triangle(on_screen, picture_size, [&](ivec2 pixel, vec3 weights) {
+            if (depth.at(weights) < DepthBuffer::cleared) emit(pixel);
         });
     }
 }

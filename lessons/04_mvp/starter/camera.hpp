@@ -16,8 +16,9 @@ namespace rasterbook {
 struct Camera {
     vec3 position_world;
     mat4 view_from_world;
-    float fov_y_radians;  ///< From the lower to the upper border, in (0, pi).
-    float near, far;      ///< Distances in front of the camera, 0 < near < far.
+    float fov_y_radians;   ///< From the lower to the upper border, in (0, pi).
+    float near, far;       ///< Distances in front of the camera, 0 < near < far.
+    vec3 center_world{0};  ///< What it looks at.
 
     /// View first, then perspective (Eq. 4.4).
     ///
