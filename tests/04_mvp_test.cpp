@@ -170,8 +170,9 @@ TEST(Mvp, Eq4_4_TransformedPointsAreTheMatrixTimesThem) {
 
 TEST(Mvp, Eq4_4_CameraFirstViewsThenProjects) {
     const Camera camera = {{0, 0, 5}, translation(vec3(0, 0, -5)), quarter_turn, 1, 9};
-    const vec4 clip = camera.clip_from_world({400, 200}) * vec4(2, 1, 3, 1);
-    expect_point(vec3(clip), {1, 1, -10.0f / 8 * -2 - 18.0f / 8}, 8 * eps);  // five roundings
+    const vec4 clip = camera.clip_from_world({300, 200}) * vec4(2, 1, 3, 1);
+    expect_point(vec3(clip), {4.0f / 3, 1, -10.0f / 8 * -2 - 18.0f / 8},
+                 8 * eps);  // five roundings
     EXPECT_EQ(clip.w, 2);
 }
 

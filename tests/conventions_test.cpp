@@ -14,6 +14,8 @@
 
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/clip.hpp"
+#include "04_mvp/transform.hpp"
 #include "common/image_io.hpp"
 #include "common/math/color.hpp"
 #include "common/math/error_metrics.hpp"
@@ -35,7 +37,7 @@ void expect_near(vec3 actual, vec3 expected) {
 
 const std::filesystem::path root = std::filesystem::path(RASTERBOOK_ASSETS).parent_path();
 
-/// C6 in code, as long as no lesson has needed it.
+/// C6 as the table has it, to hold the lessons' viewport against.
 vec2 screen_from_ndc(vec2 ndc, vec2 size) {
     return {(ndc.x + 1) * size.x / 2, (1 - ndc.y) * size.y / 2};
 }
@@ -69,6 +71,7 @@ TEST(Conventions, C2_TheRightmostMatrixActsFirst) {
     const mat4 view_from_world = glm::scale(mat4(1.0f), vec3(2));
     const mat4 view_from_model = view_from_world * world_from_model;
     EXPECT_EQ(view_from_model * vec4(0, 0, 0, 1), vec4(2, 0, 0, 1));
+    EXPECT_EQ(scaling(vec3(2)) * translation(vec3(1, 0, 0)), view_from_model);
 }
 
 TEST(Conventions, C3_RightHandedAndTheCameraLooksAlongMinusZ) {
@@ -76,11 +79,16 @@ TEST(Conventions, C3_RightHandedAndTheCameraLooksAlongMinusZ) {
     const mat4 view_from_world = glm::lookAt(vec3(0, 0, 5), vec3(0), vec3(0, 1, 0));
     expect_near(vec3(view_from_world * vec4(0, 0, 0, 1)), {0, 0, -5});
     expect_near(vec3(view_from_world * vec4(1, 2, 0, 1)), {1, 2, -5});
+    EXPECT_EQ(look_at(vec3(0, 0, 5), vec3(0), vec3(0, 1, 0)), view_from_world);
 }
 
 TEST(Conventions, C4_ClipSpaceIsTheCubeOfOpenGl) {
     const float near = 0.5f, far = 20.0f;
     const mat4 clip_from_view = glm::perspectiveRH_NO(glm::radians(60.0f), 1.0f, near, far);
+    const mat4 ours = perspective(glm::radians(60.0f), 1.0f, near, far);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            EXPECT_NEAR(ours[column][row], clip_from_view[column][row], tolerance);
     const vec4 on_near = clip_from_view * vec4(0, 0, -near, 1),
                on_far = clip_from_view * vec4(0, 0, -far, 1);
     EXPECT_NEAR(on_near.z / on_near.w, -1, tolerance);
@@ -96,12 +104,19 @@ TEST(Conventions, C5_DepthIsZeroNearestAndOneFarthest) {
     EXPECT_TRUE(depth.test_and_write({0, 0}, (0.5f + 1) / 2)) << "z_ndc 0.5 is nearer than nothing";
     EXPECT_TRUE(depth.test_and_write({0, 0}, (-0.5f + 1) / 2)) << "z_ndc -0.5 is nearer than 0.5";
     EXPECT_FALSE(depth.test_and_write({0, 0}, (0.0f + 1) / 2));
+    for (const float z_ndc : {-1.0f, -0.5f, 0.0f, 1.0f})
+        EXPECT_EQ(screen_from_clip({0, 0, 2 * z_ndc, 2}, {4, 2}).z, (z_ndc + 1) / 2);
 }
 
 TEST(Conventions, C6_ScreenStartsAtTheTopLeftCorner) {
     EXPECT_EQ(screen_from_ndc({-1, 1}, {640, 480}), vec2(0, 0));
     EXPECT_EQ(screen_from_ndc({1, -1}, {640, 480}), vec2(640, 480));
     EXPECT_EQ(screen_from_ndc({0, 0}, {640, 480}), vec2(320, 240));
+    for (const vec2 ndc : {vec2(-1, 1), vec2(1, -1), vec2(0), vec2(0.5f, -0.25f)}) {
+        const vec2 expected = screen_from_ndc(ndc, {640, 480});
+        EXPECT_EQ(vec2(viewport<float>({640, 480}) * vec4(ndc, 0, 1)), expected);
+        EXPECT_EQ(vec2(screen_from_clip(vec4(2.0f * ndc, 0, 2), {640, 480})), expected);
+    }
     // The view of the first lessons puts what is higher in the model higher in the picture.
     const Scene scene = load_obj(root / "assets/models/teapot.obj");
     const auto screen = ParallelView(scene, {640, 480}).screen_from_model({{0, 0, 0}, {0, 1, 0}});
