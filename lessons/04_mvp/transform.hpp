@@ -93,7 +93,7 @@ glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3,
     return matrix_from_rows<T>(row(right), row(new_up), row(back), {0, 0, 0, 1});
 }
 
-/// Perspective, from view space to clip space (Eq. 4.8).
+/// Perspective, from view space to clip space (Eq. 4.7 and 4.8).
 ///
 ///     f/aspect  0   0  0
 ///     0         f   0  0         f = 1 / tan(fov_y / 2)
@@ -127,8 +127,10 @@ constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
 }
 
 /// What normals have to be multiplied with where points are multiplied with `m`: the matrix of
-/// cofactors (Eq. 4.14). The result points the right way also where m mirrors, and there is one
-/// where m is singular; its length says nothing.
+/// cofactors (Eq. 4.14). There is one also where m is singular.
+///
+/// @return  Takes u x v to mu x mv, so where m mirrors, the way out of a body becomes the way in.
+///          The length of a normal is lost.
 template <std::floating_point T>
 glm::mat<3, 3, T> normal_matrix(const glm::mat<3, 3, T>& m) {
     return {cross_product(m[1], m[2]), cross_product(m[2], m[0]), cross_product(m[0], m[1])};

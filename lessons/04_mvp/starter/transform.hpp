@@ -82,7 +82,7 @@ glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3,
     return glm::mat<4, 4, T>(1);
 }
 
-/// Perspective, from view space to clip space (Eq. 4.8).
+/// Perspective, from view space to clip space (Eq. 4.7 and 4.8).
 ///
 ///     f/aspect  0   0  0
 ///     0         f   0  0         f = 1 / tan(fov_y / 2)
@@ -114,8 +114,10 @@ constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
 }
 
 /// What normals have to be multiplied with where points are multiplied with `m`: the matrix of
-/// cofactors (Eq. 4.14). The result points the right way also where m mirrors, and there is one
-/// where m is singular; its length says nothing.
+/// cofactors (Eq. 4.14). There is one also where m is singular.
+///
+/// @return  Takes u x v to mu x mv, so where m mirrors, the way out of a body becomes the way in.
+///          The length of a normal is lost.
 template <std::floating_point T>
 glm::mat<3, 3, T> normal_matrix(const glm::mat<3, 3, T>& m) {
     // TODO: Eq. 4.14.
