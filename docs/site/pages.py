@@ -220,7 +220,8 @@ def changes(lesson: int) -> str:
     else:
         summary = count
     text = [
-        summary + (" New files:" if lesson and new else ""),
+        summary + (" Indentation is passed over." if lesson else ""),
+        "New files:" if lesson and new else "",
         *new,
         *([html_only(marked(diff))] if diff else []),
         f"In a terminal: `{command}`",

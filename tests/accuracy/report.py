@@ -159,7 +159,7 @@ def plot(variants, unit, error, file):
         "set logscale xy", "unset key", "set tics scale 0", "set border 3 linecolor rgb '#94a3b8'",
         f"set xrange [{x.low}:{x.high}]", f"set yrange [{y.low}:{y.high}]",
         "set grid linetype 1 linewidth 0.5 linecolor rgb '#5594a3b8'",
-        "set xtics nomirror (" + ", ".join(f'"{t:g}" {t}' for t in time_ticks(x.low, x.high)) + ")",
+        "set xtics nomirror (" + ", ".join(f'"{t:,g}" {t}' for t in time_ticks(x.low, x.high)) + ")",
         "set ytics nomirror (" + ", ".join(y_ticks) + ")",
         f"set xlabel '{unit}'",
         f"set label '{error}' at screen 0.025, screen {(1 - TOP / HEIGHT + BOTTOM / HEIGHT) / 2} rotate center",
