@@ -18,6 +18,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/transform.hpp"
 #include "support/ascii_picture.hpp"
+#include "support/golden.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
 
@@ -174,7 +175,7 @@ TEST(Mvp, Eq4_11_CrossingOfTheWorkedExample) {
     EXPECT_EQ(there.weights.z, 0);
 }
 
-TEST(Mvp, Eq4_11_BothWaysCrossInTheSamePoint) {
+TEST(Mvp, Eq4_12_BothWaysCrossInTheSamePoint) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-3, 3);
     int crossings = 0;
@@ -200,7 +201,7 @@ TEST(Mvp, Eq4_11_BothWaysCrossInTheSamePoint) {
     EXPECT_GT(crossings, 80'000);
 }
 
-TEST(Mvp, Eq4_12_WhatIsLeftOfTheWorkedExample) {
+TEST(Mvp, Eq4_13_WhatIsLeftOfTheWorkedExample) {
     // A right angle at the middle; its sides end twice as far away as the picture.
     const Corners corners = {{{0, 0, 0, 1}, {2, 0, 0, 1}, {0, 2, 0, 1}}};
     std::set<std::pair<float, float>> left;
@@ -212,7 +213,7 @@ TEST(Mvp, Eq4_12_WhatIsLeftOfTheWorkedExample) {
     EXPECT_EQ(left, (std::set<std::pair<float, float>>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
 }
 
-TEST(Mvp, Eq4_12_WhatIsAllInsideStaysBitForBit) {
+TEST(Mvp, Eq4_13_WhatIsAllInsideStaysBitForBit) {
     const auto parts = clipped(all_inside);
     ASSERT_EQ(parts.size(), 1u);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -221,7 +222,7 @@ TEST(Mvp, Eq4_12_WhatIsAllInsideStaysBitForBit) {
     }
 }
 
-TEST(Mvp, Eq4_12_NothingIsLeftOutsideOfOnePlane) {
+TEST(Mvp, Eq4_13_NothingIsLeftOutsideOfOnePlane) {
     EXPECT_FALSE(clipped(all_inside).empty());
     for (int plane = 0; plane < frustum_planes; ++plane) {
         Corners corners = all_inside;
@@ -232,7 +233,7 @@ TEST(Mvp, Eq4_12_NothingIsLeftOutsideOfOnePlane) {
 }
 
 TEST(Mvp, WeightsOfWhatIsLeftSayWhereItComesFrom) {
-    look_up("Eq. 4.11 for positions and weights alike");
+    look_up("Eq. 4.12 for positions and weights alike");
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(-3, 3);
     int cut = 0;
@@ -250,7 +251,7 @@ TEST(Mvp, WeightsOfWhatIsLeftSayWhereItComesFrom) {
 }
 
 TEST(Mvp, WhatIsLeftKeepsTheWinding) {
-    look_up("Eq. 4.12: the corners stay in their order");
+    look_up("Eq. 4.13: the corners stay in their order");
     constexpr ivec2 size(640, 480);
     std::mt19937 random(3);
     std::uniform_real_distribution<float> any(-3, 3);
@@ -276,7 +277,7 @@ TEST(Mvp, WhatIsLeftKeepsTheWinding) {
 }
 
 TEST(Mvp, HardCase_SharedEdgeIsCutInTheSamePoints) {
-    look_up("Eq. 4.11: the same from both ends, bit for bit");
+    look_up("Eq. 4.12: the same from both ends, bit for bit");
     std::mt19937 random(4);
     std::uniform_real_distribution<float> any(-3, 3);
     int cut = 0;
@@ -302,7 +303,7 @@ TEST(Mvp, HardCase_SharedEdgeIsCutInTheSamePoints) {
 }
 
 TEST(Mvp, HardCase_TrianglesAroundTheCameraCoverWhatItsRaysHit) {
-    look_up("Eq. 4.10 to 4.12");
+    look_up("Eq. 4.10 to 4.13");
     constexpr ivec2 size(32, 24);
     const mat4 clip_from_view = perspective(1.2f, 32.0f / 24, 0.25f, 9.0f);
     std::mt19937 random(5);
@@ -321,7 +322,7 @@ TEST(Mvp, HardCase_TrianglesAroundTheCameraCoverWhatItsRaysHit) {
 }
 
 TEST(Mvp, HardCase_TriangleAcrossAllSixPlanes) {
-    look_up("Eq. 4.12: plane by plane");
+    look_up("Eq. 4.13: plane by plane");
     const Corners corners = {{{-10, -9, -8, 1}, {12, -9, 1, 1}, {0, 10, 4, 1}}};
     for (int plane = 0; plane < frustum_planes; ++plane)
         EXPECT_LT(std::min({inside_by(plane, corners[0]), inside_by(plane, corners[1]),
@@ -335,7 +336,7 @@ TEST(Mvp, HardCase_TriangleAcrossAllSixPlanes) {
 }
 
 TEST(Mvp, HardCase_NearPlaneThroughCorners) {
-    look_up("Eq. 4.12: a corner on the plane is inside");
+    look_up("Eq. 4.13: a corner on the plane is inside");
     const vec4 on(0.25f, 0, -1, 1), also_on(-0.5f, 0.25f, -1, 1), third_on(0, -0.5f, -1, 1),
         inside(0, 0.5f, 0, 1), beside(0.5f, 0.5f, 0.5f, 1), outside(0, 0, -2, 1),
         far_outside(0.5f, 0, -3, 1);
@@ -359,7 +360,7 @@ TEST(Mvp, HardCase_NearPlaneThroughCorners) {
 }
 
 TEST(Mvp, HardCase_CameraInsideATriangle) {
-    look_up("Eq. 4.12: w is 0 at the eye, and the near plane lies before it");
+    look_up("Eq. 4.13: w is 0 at the eye, and the near plane lies before it");
     const mat4 clip_from_view = perspective(1.0f, 4.0f / 3, 0.001f, 100.0f);
     const auto floor_at = [&](float y) {
         return Corners{clip_from_view * vec4(-50, y, 40, 1), clip_from_view * vec4(60, y, 30, 1),
@@ -393,7 +394,7 @@ TEST(Mvp, HardCase_WZeroNegativeAndTiny) {
 }
 
 TEST(Mvp, HardCase_TinyAndHugeCornersAreCutAsOthers) {
-    look_up("Eq. 4.11: products of corners may overflow, quotients do not");
+    look_up("Eq. 4.12: products of corners may overflow, quotients do not");
     constexpr ivec2 size(64, 48);
     const Corners corners = {{{-1, -2, 0, 1}, {3, 0, 0.5f, 2}, {0, 2, -0.25f, 1.5f}}};
     const Pixels expected = covered(corners, size);
@@ -406,7 +407,7 @@ TEST(Mvp, HardCase_TinyAndHugeCornersAreCutAsOthers) {
 }
 
 TEST(Mvp, HardCase_NotANumberAndInfiniteCornersLeaveNothingThatIsNotFinite) {
-    look_up("Eq. 4.12, and what counts as outside");
+    look_up("Eq. 4.13, and what counts as outside");
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float special[] = {0.0f,   -0.0f,   1.0f,     -1.0f,     0.5f,    -3.0f,
                                  1e-40f, -1e-40f, FLT_MIN,  1e-30f,    FLT_MAX, -FLT_MAX,
@@ -448,7 +449,7 @@ TEST(Mvp, HardCase_NotANumberAndInfiniteCornersLeaveNothingThatIsNotFinite) {
             }
 }
 
-TEST(Mvp, Eq4_13_BoxesOutsideOfAPlaneAreCulled) {
+TEST(Mvp, Eq4_14_BoxesOutsideOfAPlaneAreCulled) {
     const mat4 clip_from_view = perspective(1.5707963f, 1.0f, 1.0f, 10.0f);
     const auto box = [](vec3 center) { return Bounds{center - 0.5f, center + 0.5f}; };
     EXPECT_FALSE(is_outside_frustum(box({0, 0, -5}), clip_from_view));
@@ -462,7 +463,7 @@ TEST(Mvp, Eq4_13_BoxesOutsideOfAPlaneAreCulled) {
             << testing::PrintToString(center) << " reaches across a plane";
 }
 
-TEST(Mvp, Eq4_13_NoBoxIsCulledOfWhichAPointIsSeen) {
+TEST(Mvp, Eq4_14_NoBoxIsCulledOfWhichAPointIsSeen) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> any(-1, 1), share(0, 1);
     int culled = 0, seen = 0;
@@ -495,10 +496,16 @@ TEST(Mvp, Eq4_13_NoBoxIsCulledOfWhichAPointIsSeen) {
 }
 
 TEST(Mvp, HardCase_BoxAroundTheCameraIsNotCulled) {
-    look_up("Eq. 4.13: outside of one and the same plane");
+    look_up("Eq. 4.14: outside of one and the same plane");
     const mat4 clip_from_view = perspective(1.0f, 1.0f, 0.1f, 5.0f);
     EXPECT_FALSE(is_outside_frustum({vec3(-9), vec3(9)}, clip_from_view));
     EXPECT_FALSE(is_outside_frustum({{-90, -1, -4}, {90, 1, -3}}, clip_from_view));
     EXPECT_FALSE(is_outside_frustum({{0, 0, -1}, {0, 0, -1}}, clip_from_view)) << "a point";
     EXPECT_TRUE(is_outside_frustum({{-90, -90, 0.1f}, {90, 90, 1}}, clip_from_view)) << "behind";
+}
+
+TEST(Mvp, PictureOfTheLesson) { EXPECT_TRUE(test::equals_golden("04_mvp", "04_mvp")); }
+
+TEST(Mvp, PictureOfTheDepth) {
+    EXPECT_TRUE(test::equals_golden("04_mvp", "04_mvp_depth", {"--depth"}));
 }

@@ -42,7 +42,8 @@ inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
 /// A camera on a sphere around a scene's centre, that looks at the centre.
 ///
 /// @param orbit   orbit.distance is in radii of the scene: half of its box's diagonal.
-/// @param bounds  Of the scene, world space. Empty or of no size: as if its radius were 1.
+/// @param bounds  Of the scene, world space. Of no size: as if its radius were 1; empty: the same,
+///                around the origin.
 inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     const bool is_empty = !(bounds.min.x <= bounds.max.x);
     const vec3 center = is_empty ? vec3(0) : bounds.center();
@@ -50,13 +51,14 @@ inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     const double half_diagonal = is_empty ? 0 : glm::length(dvec3(bounds.max) - dvec3(center));
     const float radius = half_diagonal > 0 ? static_cast<float>(half_diagonal) : 1.0f;
     const float distance = orbit.distance * radius;
-    const vec3 eye = center + distance * direction_from_angles(glm::radians(orbit.yaw_degrees),
-                                                               glm::radians(orbit.pitch_degrees));
+    const float yaw_radians = glm::radians(orbit.yaw_degrees);
+    const float pitch_radians = glm::radians(orbit.pitch_degrees);
+    const vec3 eye = center + distance * direction_from_angles(yaw_radians, pitch_radians);
+    const vec3 up = direction_from_angles(yaw_radians, pitch_radians + glm::radians(90.0f));
     // The scene lies between distance - radius and distance + radius.
     const float far = 1.001f * (distance + radius);
     const float near = std::max(0.999f * (distance - radius), 0.001f * far);
-    return {eye,   look_at(eye, center, vec3(0, 1, 0)), glm::radians(orbit.fov_degrees), near, far,
-            center};
+    return {eye, look_at(eye, center, up), glm::radians(orbit.fov_degrees), near, far, center};
 }
 
 }  // namespace rasterbook

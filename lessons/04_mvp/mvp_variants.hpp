@@ -87,8 +87,10 @@ template <typename T>
 glm::mat<4, 4, T> clip_from_world_in(const Camera& camera, glm::vec<3, T> eye,
                                      glm::vec<3, T> center, ivec2 size) {
     const T aspect = static_cast<T>(size.x) / static_cast<T>(size.y);
+    const mat4& view = camera.view_from_world;
+    const glm::vec<3, T> up(view[0].y, view[1].y, view[2].y);  // its second row
     return perspective<T>(camera.fov_y_radians, aspect, camera.near, camera.far) *
-           look_at<T>(eye, center, {0, 1, 0});
+           look_at<T>(eye, center, up);
 }
 
 /// The points as the camera sees them, in clip space: transform(), or with camera and points moved

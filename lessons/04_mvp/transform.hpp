@@ -72,7 +72,7 @@ glm::mat<4, 4, T> rotation_z(T angle_radians) {
 /// @param eye,center  World space. When they are the same point, the camera looks along -z.
 /// @param up          What shall point up in the picture, of any length. When it is parallel to
 ///                    the view or has no direction, the axis that is least parallel takes its
-///                    place.
+///                    place; of equals, y first.
 /// @return            view_from_world: its upper 3x3 part is a rotation within 4 eps.
 template <std::floating_point T>
 glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3, T> up) {
@@ -127,7 +127,7 @@ constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
 }
 
 /// What normals have to be multiplied with where points are multiplied with `m`: the matrix of
-/// cofactors (Eq. 4.14). There is one also where m is singular.
+/// cofactors (Eq. 4.15). There is one also where m is singular.
 ///
 /// @return  Takes u x v to mu x mv, so where m mirrors, the way out of a body becomes the way in.
 ///          The length of a normal is lost.

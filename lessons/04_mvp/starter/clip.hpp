@@ -25,8 +25,7 @@ using ClippedTriangle = std::array<ClippedCorner, 3>;
 
 constexpr int frustum_planes = 6;
 
-/// How far inside one of the six planes a point is, times its distance from it: negative outside
-/// (Eq. 4.10).
+/// How far inside of one of the six planes a point is in NDC, times w: negative outside (Eq. 4.10).
 ///
 /// @param plane  0 to 5: left, right, bottom, top, near, far.
 constexpr float inside_by(int plane, vec4 position_clip) {
@@ -35,13 +34,13 @@ constexpr float inside_by(int plane, vec4 position_clip) {
 }
 
 /// Where the way from a to b crosses the plane of which they are inside by `a_by` and `b_by`, one
-/// of them negative (Eq. 4.11).
+/// of them negative (Eq. 4.11 and 4.12).
 ///
 /// The way from b to a crosses it in the same point, bit for bit: triangles that share a side still
 /// share it when both are cut.
 inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedCorner& b,
                               float b_by) {
-    // TODO: Eq. 4.11; divide first, and mind what overflows.
+    // TODO: Eq. 4.12.
     return a;
 }
 
@@ -61,10 +60,10 @@ class ClippedTriangles {
     std::size_t count_ = 0;
 };
 
-/// Coordinates in clip space stay below this: then no difference in Eq. 4.11 overflows.
+/// Coordinates in clip space stay below this: then no difference in Eq. 4.12 overflows.
 constexpr float clip_limit = 0x1p125f;
 
-/// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.12).
+/// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.13).
 ///
 /// @param corners  Clip space. When a coordinate is not a number or is not below clip_limit in
 ///                 size, nothing is left.
@@ -72,7 +71,7 @@ constexpr float clip_limit = 0x1p125f;
 ///                 one plane.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
 inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
-    // TODO: refuse what is not usable; Eq. 4.12.
+    // TODO: refuse what is not usable; Eq. 4.13.
     return {};
 }
 
@@ -85,11 +84,11 @@ inline std::array<vec4, 3> corners_of(const Triangle& triangle,
 }
 
 /// Whether nothing inside the box can be seen: all of its corners are outside of one plane
-/// (Eq. 4.13).
+/// (Eq. 4.14).
 ///
 /// False for some boxes of which nothing is seen either, beside an edge of the frustum.
 inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world) {
-    // TODO: Eq. 4.10 and 4.13.
+    // TODO: Eq. 4.10 and 4.14.
     return false;
 }
 
