@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "04_mvp/camera.hpp"
