@@ -73,8 +73,8 @@ void print_stats(const LessonProgram& program, ivec2 size, const Counters& count
 /// "turn_0007.png" for frame 7 of "turn_%04d.png"; other names stay as they are.
 std::filesystem::path name_of_frame(const std::filesystem::path& pattern, int frame) {
     const std::string name = pattern.string();
-    const auto begin = name.find('%'), end = name.find('d', begin);
-    if (begin == name.npos || end == name.npos) return pattern;
+    const auto begin = name.find('%'), end = name.find_first_not_of("0123456789", begin + 1);
+    if (begin == name.npos || end == name.npos || name[end] != 'd') return pattern;
     std::string number = std::to_string(frame);
     const std::size_t digits = std::strtoul(name.c_str() + begin + 1, nullptr, 10);
     if (number.size() < digits) number.insert(0, digits - number.size(), '0');
@@ -104,7 +104,8 @@ void make_pictures(const LessonProgram& program) {
         const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
         render_ms += elapsed_ms(render_start);
 
-        const std::filesystem::path file = name_of_frame(options.out, frame);
+        const std::filesystem::path file =
+            options.frames > 1 ? name_of_frame(options.out, frame) : options.out;
         const auto write_start = std::chrono::steady_clock::now();
         write_image(file, srgb8_from_linear(picture));
         write_ms += elapsed_ms(write_start);

@@ -114,6 +114,17 @@ TEST(LessonApp, HardCase_BadUsageIsExitStatus2) {
                  "'blue' is not one of flat|weights");
 }
 
+TEST(LessonApp, HardCase_PercentSignsThatAreNoFrameNumberStayInTheName) {
+    const auto folder = fresh_folder("percent");
+    for (const auto& [program, name] : std::vector<std::pair<std::string, std::string>>{
+             {"03_z_buffer", "100%d.png"}, {"04_mvp", "100%done.png"}, {"04_mvp", "50% red.png"}}) {
+        const ProcessResult result =
+            run_program(program, {"--size", "8x8", "--out", (folder / name).string()});
+        EXPECT_EQ(result.exit_status, 0) << result.err;
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    }
+}
+
 TEST(LessonApp, HardCase_MissingModelNamesEveryPathTried) {
     const ProcessResult result = run_program(lesson, {"--model", "no_such.obj"});
     expect_error(result, 1, "no_such.obj: there is no such file; tried ");

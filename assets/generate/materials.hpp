@@ -82,45 +82,27 @@ map_Kd ../textures/brick.png
 map_Ks ../textures/brick_specular.png
 map_Bump -bm )" + text_of(brick_relief) + " ../textures/brick_height.png\n";
 
-inline const std::string smooth_tiles = R"(
-newmtl tiles
-Ka 0.58 0.55 0.5
-Kd 0.58 0.55 0.5
-Ks 0.2 0.2 0.2
+/// Tiles for the light and the dark squares of a floor, which differ in their colour alone.
+inline std::string light_and_dark_tiles(const std::string& all_but_colour) {
+    const auto material = [&](const std::string& name, const std::string& colour) {
+        return "\nnewmtl " + name + "\nKa " + colour + "\nKd " + colour + "\n" + all_but_colour;
+    };
+    return material("tiles", "0.58 0.55 0.5") + material("dark_tiles", "0.1 0.15 0.22");
+}
+
+inline const std::string smooth_tiles = light_and_dark_tiles(R"(Ks 0.2 0.2 0.2
 Ns 60
 illum 2
 map_Kd ../textures/tiles.png
+)");
 
-newmtl dark_tiles
-Ka 0.1 0.15 0.22
-Kd 0.1 0.15 0.22
-Ks 0.2 0.2 0.2
-Ns 60
-illum 2
-map_Kd ../textures/tiles.png
-)";
-
-inline const std::string bumpy_tiles = R"(
-newmtl tiles
-Ka 0.58 0.55 0.5
-Kd 0.58 0.55 0.5
-Ks 1 1 1
+inline const std::string bumpy_tiles = light_and_dark_tiles(R"(Ks 1 1 1
 Ns 60
 illum 2
 map_Kd ../textures/tiles.png
 map_Ks ../textures/tiles_specular.png
 norm ../textures/tiles_normal.png
-
-newmtl dark_tiles
-Ka 0.1 0.15 0.22
-Kd 0.1 0.15 0.22
-Ks 1 1 1
-Ns 60
-illum 2
-map_Kd ../textures/tiles.png
-map_Ks ../textures/tiles_specular.png
-norm ../textures/tiles_normal.png
-)";
+)");
 
 inline const std::string checkered_floor = R"(
 newmtl checker
