@@ -14,16 +14,20 @@
 #include "06_phong/light.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
 
 namespace rasterbook {
+
+/// What a material calls for; nothing else is computed for it.
+struct Effects {
+    bool light, highlight, diffuse_map, specular_map;
+};
 
 /// A model whose every corner has a normal, and the textures and effects of its materials.
 struct LitScene : TexturedScene {
     MaterialTextures specular_textures;  ///< map_Ks, plain numbers.
     std::vector<Effects> effects;        ///< For each material.
 
-    /// @param options  Has a TextureVariant `texture`; with its `all_effects`, a lit material has
+    /// @param options  Has a TextureVariant `texture`; with shading.all_effects, a lit material has
     /// all
     ///                 effects: a white texture where it has none, a black highlight where it has
     ///                 none.
@@ -38,7 +42,7 @@ struct LitScene : TexturedScene {
                 materials[i].illumination >= 2 && materials[i].specular != vec3(0);
             effects.push_back({light, highlight, diffuse_textures[i] != nullptr,
                                highlight && specular_textures[i] != nullptr});
-            if (options.all_effects) add_neutral_effects(i);
+            if (options.shading.all_effects) add_neutral_effects(i);
         }
     }
 
@@ -50,6 +54,39 @@ struct LitScene : TexturedScene {
         if (!effects[i].specular_map) specular_textures[i] = white;
         if (!effects[i].highlight) materials[i].specular = vec3(0);
         effects[i] = {effects[i].light, effects[i].light, true, effects[i].light};
+    }
+};
+
+/// What a triangle's material makes of it.
+struct TriangleSurface {
+    const Material& material;
+    Effects effects;
+    const Texture *texture, *specular_texture;  ///< Null where the material names none.
+    std::array<vec2, 3> uvs, specular_uvs;
+
+    TriangleSurface(const LitScene& scene, const Mesh& mesh, const Triangle& triangle)
+        : material(scene.materials[triangle.material]),
+          effects(scene.effects[triangle.material]),
+          texture(scene.diffuse_textures[triangle.material].get()),
+          specular_texture(scene.specular_textures[triangle.material].get()),
+          uvs(uvs_of(mesh, triangle, material.diffuse_map)),
+          specular_uvs(uvs_of(mesh, triangle, material.specular_map)) {}
+
+    /// The colours of a fragment, of which textures are read as the effects say.
+    template <typename CounterPolicy>
+    SurfaceColor color(const FragmentWeights& weights, Filter filter,
+                       CounterPolicy& counters) const {
+        SurfaceColor color = surface_color(material);
+        if (effects.diffuse_map) {
+            counters.add(Counter::texture_samples);
+            color.tint(vec3(sample(*texture, filter, fragment_uv(uvs, weights))));
+        }
+        if (effects.specular_map) {
+            counters.add(Counter::texture_samples);
+            color.specular *=
+                vec3(sample(*specular_texture, filter, fragment_uv(specular_uvs, weights)));
+        }
+        return color;
     }
 };
 

@@ -86,6 +86,9 @@ inline SurfaceColor surface_color(const Material& material) {
             material.emission};
 }
 
+/// What a fragment of illum 0 sends to the eye: its colour, whatever the light.
+inline vec3 unlit(const SurfaceColor& color) { return color.emission + color.diffuse; }
+
 /// All the light that a fragment sends to the eye (Eq. 6.5); it may exceed 1.
 inline vec3 phong(const SurfaceColor& color, vec3 ambient_light, const ReflectedLight& light) {
     return color.emission + color.ambient * ambient_light + color.diffuse * light.diffuse +

@@ -11,16 +11,12 @@
 #include <span>
 
 #include "05_textures/interpolation.hpp"
+#include "06_phong/lit_scene.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
 #include "common/lesson_app.hpp"
 
 namespace rasterbook {
-
-/// What a material calls for; nothing else is computed for it.
-struct Effects {
-    bool light, highlight, diffuse_map, specular_map;
-};
 
 /// Light is computed once for a face, for its corners, or for each pixel.
 enum class Shading { flat, gouraud, phong };
@@ -37,6 +33,9 @@ struct ShadingVariant {
     Highlight highlight = Highlight::phong;
     Power power = Power::in_float;
     NormalScaling normals = NormalScaling::exact;
+    LightKind key_light = LightKind::point;
+    bool two_sided = false;
+    bool all_effects = false;
 
     void declare(Knobs& knobs) {
         knobs.choice(
@@ -57,6 +56,14 @@ struct ShadingVariant {
                       {"approximate", NormalScaling::approximate},
                       {"none", NormalScaling::none}},
                      "How an interpolated normal is scaled to length 1");
+        knobs.choice("--light", key_light,
+                     {{"sun", LightKind::directional},
+                      {"lamp", LightKind::point},
+                      {"spot", LightKind::spot}},
+                     "What the scene is lit by");
+        knobs.flag("--two-sided", two_sided, "Draw the backs of faces, too");
+        knobs.flag("--all-effects", all_effects,
+                   "Compute each effect also where it can change nothing");
     }
 };
 
@@ -110,19 +117,19 @@ class TriangleLight {
     /// @param mesh     Each corner has a normal of length 1.
     /// @param is_back  The triangle is seen from behind: its normals point to the other side.
     TriangleLight(const ShadingVariant& variant, std::span<const Light> lights, vec3 eye_world,
-                  const Mesh& mesh, const Triangle& triangle, bool is_back, Effects effects,
-                  float shininess)
+                  const Mesh& mesh, const Triangle& triangle, bool is_back,
+                  const TriangleSurface& surface)
         : variant_(variant),
           lights_(lights),
           eye_world_(eye_world),
-          has_highlight_(effects.highlight),
-          shininess_(shininess) {
+          has_highlight_(surface.effects.highlight),
+          shininess_(surface.material.shininess) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Corner corner = triangle.corners[i];
             positions_[i] = mesh.positions[corner.position];
             normals_[i] = is_back ? -mesh.normals[corner.normal] : mesh.normals[corner.normal];
         }
-        if (!effects.light || variant.shading == Shading::phong) return;
+        if (!surface.effects.light || variant.shading == Shading::phong) return;
         if (variant.shading == Shading::gouraud)
             for (std::size_t i = 0; i < 3; ++i)
                 at_corners_[i] = reflected(positions_[i], normals_[i]);
@@ -132,7 +139,10 @@ class TriangleLight {
     }
 
     /// @param weights  Of the corners.
-    ReflectedLight at(vec3 weights) const {
+    template <typename CounterPolicy>
+    ReflectedLight at(vec3 weights, CounterPolicy& counters) const {
+        counters.add(Counter::fragments_lit);
+        if (has_highlight_) counters.add(Counter::highlights);
         if (variant_.shading == Shading::flat) return at_corners_[0];
         if (variant_.shading == Shading::gouraud)
             return {interpolate<vec3>(
