@@ -176,6 +176,24 @@ TEST_F(OpenGlTest, CoversTheSamePixelsWhereCornersAreSnapped) {
             << "seed 1, case " << i << " of those left";
 }
 
+TEST_F(OpenGlTest, CoversTheSamePixelsWhereCornersLieOnHalfSteps) {
+    // Beside centres of pixels, so that a step more or less is seen. Nothing is rounded before.
+    constexpr float step = 1.0f / subpixels;
+    const OpenGlView view(ivec2(16));
+    Random random(1);
+    std::vector<OpenGlTriangle> triangles(1000);
+    for (OpenGlTriangle& triangle : triangles)
+        for (vec4& corner : triangle.corners_clip) {
+            const vec2 center = vec2(any_point(random, 1, 14)) + 0.5f;
+            const vec2 ndc = (center + vec2(any_point(random, -3, 3)) * step / 2.0f) / 8.0f - 1.0f;
+            corner = {ndc.x, -ndc.y, 0, 1};
+        }
+    const std::vector<OpenGlPicture> theirs = gl->draw_each(triangles, view);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        ASSERT_TRUE(covers_the_same(drawn(triangles[i].corners_clip, view).times, theirs[i]))
+            << "seed 1, case " << i;
+}
+
 TEST_F(OpenGlTest, CoversTheSamePixelsWherePlanesCut) {
     // Where planes cut a triangle, OpenGL finds new corners in its own way, and snaps those. By
     // that a side moves by less than a step, and so does ours: all centres that are farther than a
