@@ -24,11 +24,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-void for_each_pixel(ivec2 size, auto&& visit) {
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) visit(ivec2(x, y));
-}
-
 /// What the stages make of one triangle that no plane cuts.
 struct Drawn {
     Image<int> times;

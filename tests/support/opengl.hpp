@@ -51,6 +51,24 @@ class OpenGl {
     /// 1 where the triangle is, then uv.
     static constexpr const char* coverage_and_uv = "color = vec4(1, uv, 0);";
 
+    /// The texture, from the finest level alone.
+    static constexpr const char* bilinear = "color = vec4(textureLod(levels, uv, 0.0).rgb, 1);";
+
+    /// The texture, from the two levels that suit the pixel: the longer side of its footprint is
+    /// 2^lambda texels.
+    ///
+    /// texture() would not do. It takes differences between neighbours for derivatives, which are
+    /// far off where uv bends, and llvmpipe takes the logarithm roughly: colours differ by up to 8
+    /// levels of 255. The quantities that are linear on the screen, u/w and 1/w, have exact
+    /// differences. (gl_FragCoord.w is 1/w.)
+    static constexpr const char* trilinear = R"(
+        float q = gl_FragCoord.w;
+        vec2 texels = vec2(textureSize(levels, 0));
+        vec2 along_x = texels * (dFdx(uv * q) - uv * dFdx(q)) / q;
+        vec2 along_y = texels * (dFdy(uv * q) - uv * dFdy(q)) / q;
+        float lambda = log2(max(length(along_x), length(along_y)));
+        color = vec4(textureLod(levels, uv, lambda).rgb, 1);)";
+
     /// @throw std::runtime_error  There is no such driver; says what to install.
     OpenGl();
     ~OpenGl();

@@ -38,6 +38,11 @@ inline Steps any_steps(Random& random, int low, int high) {
     return steps;
 }
 
+inline void for_each_pixel(ivec2 size, auto&& visit) {
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) visit(ivec2(x, y));
+}
+
 /// One way to choose triangles whose corners are whole steps.
 struct Kind {
     std::string name;
