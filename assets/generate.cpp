@@ -61,6 +61,8 @@ void write_models(const path& folder, const std::vector<Part>& teapot) {
     write_model(folder, "floor", "A wide floor of tiles", {floor("tiles", 48, 3)}, smooth_tiles);
     write_model(folder, "floor_checker", "A wide checkered floor", {floor("checker", 48, 6)},
                 checkered_floor);
+    write_model(folder, "horizon", "A wooden crate on a checkered floor to the horizon",
+                {crate("crate"), floor("checker", 384, 6)}, wooden_crate + checkered_floor);
     write_model(folder, "scene", "Teapot, crate and floor", scene(teapot, "", "crate", "tiles"),
                 porcelain + tea_in_spout + wooden_crate + smooth_tiles);
     write_model(folder, "scene_bumpy", "Teapot, crate and floor with normal maps",

@@ -19,6 +19,7 @@ enum class Counter {
     triangles_culled_by_facing,
     fragments_tested,  ///< Compared with the depth buffer.
     fragments_shaded,  ///< Written into the picture.
+    texture_samples,
     count
 };
 
@@ -31,7 +32,8 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "triangles_in",
     "triangles_culled_by_facing",
     "fragments_tested",
-    "fragments_shaded"};
+    "fragments_shaded",
+    "texture_samples"};
 
 /// Counts.
 struct Counters {

@@ -84,7 +84,7 @@ std::filesystem::path name_of_frame(const std::filesystem::path& pattern, int fr
 void make_pictures(const LessonProgram& program) {
     LessonOptions& options = program.options;
     const auto load_start = std::chrono::steady_clock::now();
-    const Scene scene = load_obj(find_model(options.model));
+    const Scene& scene = program.prepare(load_obj(find_model(options.model)));
     const double load_ms = elapsed_ms(load_start);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
 
@@ -99,7 +99,7 @@ void make_pictures(const LessonProgram& program) {
             program.orbit->yaw_degrees = first_yaw_degrees + 360.0f * static_cast<float>(frame) /
                                                                  static_cast<float>(options.frames);
         const auto render_start = std::chrono::steady_clock::now();
-        Image<vec3> rendered = program.render(scene, options.stats ? &counters : nullptr);
+        Image<vec3> rendered = program.render(options.stats ? &counters : nullptr);
         is_empty = is_empty && is_backdrop(rendered);
         const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
         render_ms += elapsed_ms(render_start);

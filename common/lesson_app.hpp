@@ -6,8 +6,9 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
-#include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -84,7 +85,8 @@ struct LessonProgram {
     LessonOptions& options;
     Orbit* orbit;  ///< Of the options, or null.
     std::function<void(Knobs&)> declare_knobs;
-    std::function<Image<vec3>(const Scene&, Counters*)> render;  ///< Counts when not null.
+    std::function<const Scene&(Scene)> prepare;    ///< Called once, with the model as it was read.
+    std::function<Image<vec3>(Counters*)> render;  ///< Counts when not null.
 };
 
 /// @return  The exit status: 0, 1 for bad input, 2 for bad usage; errors are one line on stderr.
@@ -92,12 +94,15 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 
 /// Runs a lesson: reads the command line and the model, renders, writes the picture.
 ///
-/// @tparam Options  Derived from LessonOptions; may have `void declare(Knobs&)`.
-/// @param render    Called once as render(const Options&, const Scene&, counters), where counters
-///                  is a Counters or a NoCounters; gives the picture in linear colour.
-template <typename Options, typename Render>
+/// @tparam Options      Derived from LessonOptions; may have `void declare(Knobs&)`.
+/// @tparam LessonScene  Scene, or derived from it and made once as LessonScene(Scene, Options).
+/// @param render        Called for each picture as render(const Options&, const LessonScene&,
+///                      counters), where counters is a Counters or a NoCounters; gives the picture
+///                      in linear colour.
+template <typename Options, typename LessonScene = Scene, typename Render>
 int run_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
     Options options;
+    std::optional<LessonScene> scene;
     Orbit* orbit = nullptr;
     if constexpr (requires { options.orbit; }) orbit = &options.orbit;
     return run_lesson_program({std::move(name), std::move(title), options, orbit,
@@ -105,10 +110,16 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, Rende
                                    if constexpr (requires { options.declare(knobs); })
                                        options.declare(knobs);
                                },
-                               [&](const Scene& scene, Counters* counters) {
+                               [&](Scene model) -> const Scene& {
+                                   if constexpr (std::is_same_v<LessonScene, Scene>)
+                                       return scene.emplace(std::move(model));
+                                   else
+                                       return scene.emplace(std::move(model), options);
+                               },
+                               [&](Counters* counters) {
                                    NoCounters none;
-                                   return counters ? render(options, scene, *counters)
-                                                   : render(options, scene, none);
+                                   return counters ? render(options, *scene, *counters)
+                                                   : render(options, *scene, none);
                                }},
                               argc, argv);
 }

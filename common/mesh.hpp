@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -67,11 +68,13 @@ struct Mesh {
 
 /// A picture that a material names, with the options that MTL puts before its name.
 struct TextureMap {
-    std::filesystem::path file;    ///< Ready to open; empty when there is no map.
-    vec3 offset{0.0f};             ///< -o, in uv.
-    vec3 scale{1.0f};              ///< -s, in uv.
-    float bump_multiplier = 1.0f;  ///< -bm.
-    bool clamp = false;            ///< -clamp on.
+    std::filesystem::path file;     ///< Ready to open; empty when there is no map.
+    std::filesystem::path library;  ///< The material library that names it.
+    std::size_t line = 0;           ///< Of that library, from 1.
+    vec3 offset{0.0f};              ///< -o, in uv.
+    vec3 scale{1.0f};               ///< -s, in uv.
+    float bump_multiplier = 1.0f;   ///< -bm.
+    bool clamp = false;             ///< -clamp on.
 };
 
 /// What MTL says of a surface. Colours are linear, as written.

@@ -104,6 +104,8 @@ void MaterialReader::read_map(const StatementReader& in, const Statement& statem
     name = bare_name(name);
     if (name.empty()) return warnings_.add(in, std::string(statement.keyword) + " names no file");
     map.file = path_beside(in.file(), name);
+    map.library = in.file();
+    map.line = in.line();
 }
 
 }  // namespace rasterbook

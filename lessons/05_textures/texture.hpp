@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A picture on a surface: which of its texels a point sees. Introduced in lesson 05;
+/// derivation: docs/derivations/05_textures.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "05_textures/interpolation.hpp"
+#include "common/image.hpp"
+#include "common/math/color.hpp"
+
+namespace rasterbook {
+
+/// What lies beyond a picture's borders: the picture again, the picture mirrored, or its border.
+enum class Wrap { repeat, mirror, clamp };
+
+/// Which texels make a fragment's colour: the nearest one, the four around it, or four of each of
+/// two levels.
+enum class Filter { nearest, bilinear, trilinear };
+
+/// A picture of linear red, green and blue, and opacity, ready to be sampled.
+struct TextureLevel {
+    ivec2 size;          ///< In texels, without the border.
+    Image<vec4> texels;  ///< With a border of one texel that holds what lies beyond the picture.
+};
+
+/// A picture and smaller copies of it.
+struct Texture {
+    Wrap wrap;
+    std::vector<TextureLevel>
+        levels;  ///< Each half as wide and high as the one before; 1 x 1 last.
+};
+
+/// A texture coordinate brought into the picture, 0 to 1 (Eq. 5.4). What is not a number becomes 0,
+/// and so does infinity, but for Wrap::clamp.
+inline float wrapped(float coordinate, Wrap wrap) {
+    // Written so that NaN loses each comparison.
+    if (wrap == Wrap::repeat) return std::max(0.0f, coordinate - std::floor(coordinate));
+    if (wrap == Wrap::clamp) return std::min(std::max(0.0f, coordinate), 1.0f);
+    const float there_and_back = coordinate - 2 * std::floor(0.5f * coordinate);
+    return std::max(0.0f, std::min(there_and_back, 2 - there_and_back));
+}
+
+/// A place in the picture: x from 0 at its left to 1 at its right, y from 0 at its upper border to
+/// 1 at its lower one (Eq. 5.5).
+inline vec2 place_from_uv(vec2 uv, Wrap wrap) {
+    return {wrapped(uv.x, wrap), 1 - wrapped(uv.y, wrap)};
+}
+
+/// The texel in which a place lies.
+///
+/// @param place  0 to 1.
+inline vec4 sample_nearest(const TextureLevel& level, vec2 place) {
+    const ivec2 texel(place * vec2(level.size));  // not negative, so this rounds down
+    return level.texels[glm::min(texel, level.size - 1) + 1];
+}
+
+/// The mean of the four texels around a place, by how near their centres are (Eq. 5.6).
+///
+/// @param place  0 to 1.
+inline vec4 sample_bilinear(const TextureLevel& level, vec2 place) {
+    const vec2 from_first_center = place * vec2(level.size) + 0.5f;  // the border's first texel
+    const ivec2 first(from_first_center);
+    const vec2 share = from_first_center - vec2(first);
+    const vec4* const upper = &level.texels[first];
+    const vec4* const lower = upper + level.texels.size().x;
+    // a + t (b - a) is exactly a where a and b are equal.
+    const vec4 in_upper = upper[0] + share.x * (upper[1] - upper[0]);
+    const vec4 in_lower = lower[0] + share.x * (lower[1] - lower[0]);
+    return in_upper + share.y * (in_lower - in_upper);
+}
+
+/// The level at which a pixel's footprint is one texel long, by its longer side (Eq. 5.8).
+///
+/// @param step_x,step_y  Change of uv from a pixel to its right and to its lower neighbour.
+/// @param size           Of level 0, in texels.
+/// @return               0 where the footprint is a texel or less, and for NaN.
+inline float level_of_detail(vec2 step_x, vec2 step_y, ivec2 size) {
+    const vec2 across = step_x * vec2(size), down = step_y * vec2(size);
+    const float longer_squared = std::max(glm::dot(across, across), glm::dot(down, down));
+    return longer_squared > 1 ? 0.5f * std::log2(longer_squared) : 0.0f;
+}
+
+/// The mean of what two levels have at a place, by how near they are to `level` (Eq. 5.10).
+///
+/// @param place  0 to 1.
+/// @param level  >= 0; beyond the last level it is the last one.
+inline vec4 sample_trilinear(const Texture& texture, vec2 place, float level) {
+    const auto last = static_cast<float>(texture.levels.size() - 1);
+    level = std::min(level, last);
+    const auto finer = static_cast<std::size_t>(level);
+    const vec4 in_finer = sample_bilinear(texture.levels[finer], place);
+    const float share = level - static_cast<float>(finer);
+    if (share == 0) return in_finer;
+    const vec4 in_coarser = sample_bilinear(texture.levels[finer + 1], place);
+    return in_finer + share * (in_coarser - in_finer);
+}
+
+/// Where on a texture a fragment lies, and how fast that changes.
+struct FragmentUv {
+    vec2 here, step_x, step_y;  ///< As in FragmentWeights.
+};
+
+/// @param uvs  Of the triangle's corners.
+inline FragmentUv fragment_uv(const std::array<vec2, 3>& uvs, const FragmentWeights& weights) {
+    return {interpolate(uvs, weights.here), interpolate(uvs, weights.step_x),
+            interpolate(uvs, weights.step_y)};
+}
+
+/// The texture's colour, linear, and opacity in a fragment.
+inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) {
+    const vec2 place = place_from_uv(uv.here, texture.wrap);
+    if (filter == Filter::nearest) return sample_nearest(texture.levels[0], place);
+    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], place);
+    const float level = level_of_detail(uv.step_x, uv.step_y, texture.levels[0].size);
+    return sample_trilinear(texture, place, level);
+}
+
+/// A picture half as wide and high, rounded down, but at least 1: each texel is the mean of what it
+/// covers (Eq. 5.9). A picture of one colour keeps it exactly.
+inline Image<vec4> halved(const Image<vec4>& picture) {
+    const ivec2 from = picture.size(), to = glm::max(from / 2, ivec2(1));
+    const dvec2 side = dvec2(from) / dvec2(to);  // of what a texel covers: 1 to 3
+    Image<vec4> half(to);
+    for (int y = 0; y < to.y; ++y)
+        for (int x = 0; x < to.x; ++x) {
+            const dvec2 low = dvec2(x, y) * side, high = dvec2(x + 1, y + 1) * side;
+            const ivec2 first(low), last = glm::min(ivec2(glm::ceil(high)), from) - 1;
+            dvec4 sum(0);
+            double area = 0;
+            for (int row = first.y; row <= last.y; ++row)
+                for (int column = first.x; column <= last.x; ++column) {
+                    const dvec2 covered = glm::min(high, dvec2(column + 1, row + 1)) -
+                                          glm::max(low, dvec2(column, row));
+                    sum += covered.x * covered.y * dvec4(picture[{column, row}]);
+                    area += covered.x * covered.y;
+                }
+            half[{x, y}] = vec4(sum / area);
+        }
+    return half;
+}
+
+/// The picture with a border of one texel, as bilinear filtering asks for.
+inline TextureLevel with_border(const Image<vec4>& picture, Wrap wrap) {
+    const ivec2 size = picture.size();
+    TextureLevel level{size, Image<vec4>(size + 2)};
+    for (int y = 0; y < size.y + 2; ++y)
+        for (int x = 0; x < size.x + 2; ++x) {
+            const ivec2 texel = ivec2(x, y) - 1;
+            // A mirrored picture begins with its border once more.
+            level.texels[{x, y}] =
+                picture[wrap == Wrap::repeat ? (texel + size) % size
+                                             : glm::clamp(texel, ivec2(0), size - 1)];
+        }
+    return level;
+}
+
+/// A texture with all of its levels.
+///
+/// @param picture  Linear colour and opacity; at least one texel.
+inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
+    Texture texture{wrap, {with_border(picture, wrap)}};
+    while (picture.size() != ivec2(1)) {
+        picture = halved(picture);
+        texture.levels.push_back(with_border(picture, wrap));
+    }
+    return texture;
+}
+
+/// A picture's colours decoded from sRGB (Eq. 5.11); opacity is not encoded.
+inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
+    std::array<float, 256> linear;
+    for (std::size_t code = 0; code < linear.size(); ++code)
+        linear[code] = linear_from_srgb(static_cast<float>(code) / 255.0f);
+    Image<vec4> decoded(picture.size());
+    for (std::size_t i = 0; i < decoded.pixels().size(); ++i) {
+        const u8vec4 code = picture.pixels()[i];
+        decoded.pixels()[i] = {linear[code.r], linear[code.g], linear[code.b],
+                               static_cast<float>(code.a) / 255.0f};
+    }
+    return decoded;
+}
+
+}  // namespace rasterbook
