@@ -31,11 +31,22 @@ void main() {
 }
 )";
 
-std::string fragment_shader(const std::string& statements) {
-    return "#version 330 core\nuniform sampler2D levels;\nin vec2 uv;\nout vec4 color;\n"
-           "void main() { " +
-           statements + " }\n";
+// level() is not left to texture(): that takes differences between neighbours for derivatives,
+// which are far off where uv bends, and llvmpipe takes the logarithm only roughly; colours come out
+// up to 8 of 255 levels away. Here the differences are taken of u/w, v/w and 1/w, which are linear
+// on the screen, so that they are derivatives. (gl_FragCoord.w is 1/w.)
+constexpr const char* fragment_shader = R"(#version 330 core
+uniform sampler2D levels;
+in vec2 uv;
+out vec4 color;
+float level() {
+    float nearness = gl_FragCoord.w;
+    vec2 texels = vec2(textureSize(levels, 0)) / nearness;
+    vec2 across = texels * (dFdx(uv * nearness) - uv * dFdx(nearness));
+    vec2 down = texels * (dFdy(uv * nearness) - uv * dFdy(nearness));
+    return max(0.0, log2(max(length(across), length(down))));
 }
+void main() { )";
 
 void check(bool good, const std::string& what) {
     if (!good)
@@ -61,7 +72,7 @@ void compile(GLuint program, GLenum kind, const std::string& source) {
 GLuint link(const std::string& statements) {
     const GLuint program = glCreateProgram();
     compile(program, GL_VERTEX_SHADER, vertex_shader);
-    compile(program, GL_FRAGMENT_SHADER, fragment_shader(statements));
+    compile(program, GL_FRAGMENT_SHADER, fragment_shader + statements + " }\n");
     glLinkProgram(program);
     GLint good = 0;
     glGetProgramiv(program, GL_LINK_STATUS, &good);
@@ -128,19 +139,26 @@ OpenGl::~OpenGl() {
     eglDestroyContext(display_, context_);
 }
 
-void OpenGl::set_texture(std::span<const Image<vec3>> levels) {
+void OpenGl::set_texture(const Texture& texture) {
     glDeleteTextures(1, &texture_);
     glGenTextures(1, &texture_);
     glBindTexture(GL_TEXTURE_2D, texture_);
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        const Image<vec3>& level = levels[i];
-        glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGB32F, level.size().x,
-                     level.size().y, 0, GL_RGB, GL_FLOAT, level.pixels().data());
+    for (std::size_t i = 0; i < texture.levels.size(); ++i) {
+        const ivec2 size = texture.levels[i].size;
+        Image<vec4> bottom_first(size);  // as v goes
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                bottom_first[{x, size.y - 1 - y}] = texture.levels[i].texels[ivec2(x, y) + 1];
+        glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA32F, size.x, size.y, 0, GL_RGBA,
+                     GL_FLOAT, bottom_first.pixels().data());
     }
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(levels.size()) - 1);
+    const GLint wrap = texture.wrap == Wrap::repeat   ? GL_REPEAT
+                       : texture.wrap == Wrap::mirror ? GL_MIRRORED_REPEAT
+                                                      : GL_CLAMP_TO_EDGE;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                    levels.size() > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
 }
 
 OpenGlPicture OpenGl::draw(std::span<const OpenGlTriangle> triangles, const OpenGlView& view,

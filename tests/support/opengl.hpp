@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "05_textures/texture.hpp"
 #include "common/image.hpp"
 
 namespace rasterbook::test {
@@ -48,26 +49,14 @@ struct OpenGlPicture {
 /// way round, front faces are clockwise.)
 class OpenGl {
   public:
+    // Shaders: a fragment's statements, from `vec2 uv` and `sampler2D levels` to `vec4 color`.
+    // level() is the level at which the longer side of the pixel's footprint is a texel.
+
     /// 1 where the triangle is, then uv.
     static constexpr const char* coverage_and_uv = "color = vec4(1, uv, 0);";
-
-    /// The texture, from the finest level alone.
-    static constexpr const char* bilinear = "color = vec4(textureLod(levels, uv, 0.0).rgb, 1);";
-
-    /// The texture, from the two levels that suit the pixel: the longer side of its footprint is
-    /// 2^lambda texels.
-    ///
-    /// texture() would not do. It takes differences between neighbours for derivatives, which are
-    /// far off where uv bends, and llvmpipe takes the logarithm roughly: colours differ by up to 8
-    /// levels of 255. The quantities that are linear on the screen, u/w and 1/w, have exact
-    /// differences. (gl_FragCoord.w is 1/w.)
-    static constexpr const char* trilinear = R"(
-        float q = gl_FragCoord.w;
-        vec2 texels = vec2(textureSize(levels, 0));
-        vec2 along_x = texels * (dFdx(uv * q) - uv * dFdx(q)) / q;
-        vec2 along_y = texels * (dFdy(uv * q) - uv * dFdy(q)) / q;
-        float lambda = log2(max(length(along_x), length(along_y)));
-        color = vec4(textureLod(levels, uv, lambda).rgb, 1);)";
+    static constexpr const char* uv_and_level = "color = vec4(1, uv, level());";
+    static constexpr const char* bilinear = "color = textureLod(levels, uv, 0.0);";
+    static constexpr const char* trilinear = "color = textureLod(levels, uv, level());";
 
     /// @throw std::runtime_error  There is no such driver; says what to install.
     OpenGl();
@@ -75,14 +64,10 @@ class OpenGl {
     OpenGl(const OpenGl&) = delete;
     OpenGl& operator=(const OpenGl&) = delete;
 
-    /// Uploads a texture as floats, its levels from the finest on, each half as large; it repeats,
-    /// and is filtered linearly within and between levels. Shaders know it as `levels`.
-    void set_texture(std::span<const Image<vec3>> levels);
+    /// Uploads a texture, all of its levels as they are, to be filtered linearly.
+    void set_texture(const Texture& texture);
 
     /// Draws all into one picture.
-    ///
-    /// @param shader  A fragment's statements, from `vec2 uv` and `sampler2D levels` to
-    ///                `vec4 color`.
     OpenGlPicture draw(std::span<const OpenGlTriangle> triangles, const OpenGlView& view,
                        const std::string& shader = coverage_and_uv);
 
