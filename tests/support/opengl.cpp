@@ -115,6 +115,7 @@ OpenGl::OpenGl() {
     // The software driver also where there is a graphics card: the rules of cards differ.
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);  // it would lie in the home directory
     display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     check(display_ != EGL_NO_DISPLAY && eglInitialize(display_, nullptr, nullptr),
           "There is no EGL without a display here");
