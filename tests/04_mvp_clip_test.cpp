@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is clipped and culled; the matrices and the camera: 04_mvp_test.cpp.
+// What is clipped and culled; numbers that are no numbers: 04_mvp_special_test.cpp.
 #include "04_mvp/clip.hpp"
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <random>
 #include <set>
@@ -30,8 +29,6 @@ namespace {
 using Corners = std::array<vec4, 3>;
 using lvec3 = glm::vec<3, long double>;
 using Bits = std::array<std::uint32_t, 4>;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 Bits bits_of(vec4 v) { return std::bit_cast<Bits>(std::array{v.x, v.y, v.z, v.w}); }
 
@@ -404,49 +401,6 @@ TEST(Mvp, HardCase_TinyAndHugeCornersAreCutAsOthers) {
             covered({{scale * corners[0], scale * corners[1], scale * corners[2]}}, size),
             expected))
             << scale;
-}
-
-TEST(Mvp, HardCase_NotANumberAndInfiniteCornersLeaveNothingThatIsNotFinite) {
-    look_up("Eq. 4.13, and what counts as outside");
-    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    constexpr float special[] = {0.0f,   -0.0f,   1.0f,     -1.0f,     0.5f,    -3.0f,
-                                 1e-40f, -1e-40f, FLT_MIN,  1e-30f,    FLT_MAX, -FLT_MAX,
-                                 1e30f,  -1e30f,  infinity, -infinity, nan,     FLT_EPSILON};
-    std::mt19937 random(6);
-    std::uniform_int_distribution<std::size_t> any(0, std::size(special) - 1);
-    std::uniform_real_distribution<float> ordinary(-2, 2);
-    int left = 0, covering = 0;
-    for (int i = 0; i < 1'000'000; ++i) {
-        Corners corners;
-        // One number in so many is a special one.
-        const unsigned rarity = static_cast<unsigned>(i % 8 + 1);
-        for (vec4& corner : corners)
-            for (int axis = 0; axis < 4; ++axis)
-                corner[axis] = random() % rarity == 0 ? special[any(random)]
-                                                      : ordinary(random) + (axis == 3 ? 1 : 0);
-        for (const ClippedTriangle& part : clip_triangle(corners)) {
-            ++left;
-            for (const ClippedCorner& corner : part)
-                for (int axis = 0; axis < 4; ++axis)
-                    ASSERT_TRUE(std::isfinite(corner.position_clip[axis]) &&
-                                std::isfinite(corner.weights[axis % 3]))
-                        << "seed 6, case " << i << ": " << testing::PrintToString(corners);
-            constexpr ivec2 size(4, 3);
-            fill_triangle(on_screen(part, size), size, [&](ivec2 pixel, vec3 weights) {
-                covering += pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.x && pixel.y < size.y &&
-                            weights.x + weights.y + weights.z < 2;
-            });
-        }
-    }
-    EXPECT_GT(covering, 100'000);
-    EXPECT_GT(left, 100'000);
-    for (const float bad : {nan, infinity, -infinity})
-        for (std::size_t i = 0; i < 3; ++i)
-            for (int axis = 0; axis < 4; ++axis) {
-                Corners corners = all_inside;
-                corners[i][axis] = bad;
-                EXPECT_TRUE(clipped(corners).empty()) << "corner " << i << ", axis " << axis;
-            }
 }
 
 TEST(Mvp, Eq4_14_BoxesOutsideOfAPlaneAreCulled) {

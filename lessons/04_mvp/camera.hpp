@@ -48,8 +48,8 @@ inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     const bool is_empty = !(bounds.min.x <= bounds.max.x);
     const vec3 center = is_empty ? vec3(0) : bounds.center();
     // In double, where the squares of lengths neither overflow nor underflow.
-    const double half_diagonal = is_empty ? 0 : glm::length(dvec3(bounds.max) - dvec3(center));
-    const float radius = half_diagonal > 0 ? static_cast<float>(half_diagonal) : 1.0f;
+    const double diagonal = is_empty ? 0 : glm::length(dvec3(bounds.max) - dvec3(bounds.min));
+    const float radius = diagonal > 0 ? static_cast<float>(diagonal / 2) : 1.0f;
     const float distance = orbit.distance * radius;
     const float yaw_radians = glm::radians(orbit.yaw_degrees);
     const float pitch_radians = glm::radians(orbit.pitch_degrees);

@@ -65,12 +65,20 @@ class ClippedTriangles {
 /// Coordinates in clip space stay below this: then no difference in Eq. 4.12 overflows.
 constexpr float clip_limit = 0x1p125f;
 
+/// The nearest point of the frustum to one that rounding has left a little outside of it: on the
+/// screen it then lies inside the picture and its depth between 0 and 1, or, with a w of 0,
+/// nowhere.
+inline vec4 into_frustum(vec4 position_clip) {
+    const float w = std::max(position_clip.w, 0.0f);
+    return {glm::clamp(vec3(position_clip), -w, w), w};
+}
+
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.13).
 ///
 /// @param corners  Clip space. When a coordinate is not a number or is not below clip_limit in
 ///                 size, nothing is left.
 /// @return         The triangle itself, when it is all inside; nothing, when it is all outside of
-///                 one plane.
+///                 one plane. No corner has a coordinate beyond its w, and no w is negative.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
 inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
     ClippedTriangles clipped;
@@ -109,6 +117,8 @@ inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
         std::copy_n(rest.begin(), rest_count, polygon.begin());
         count = rest_count;
     }
+    for (std::size_t i = 0; i < count; ++i)
+        polygon[i].position_clip = into_frustum(polygon[i].position_clip);
     for (std::size_t i = 2; i < count; ++i) clipped.add({polygon[0], polygon[i - 1], polygon[i]});
     return clipped;
 }
@@ -141,7 +151,8 @@ inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world
 
 /// A point on the screen in pixels, and its depth: 0 to 1 (Eq. 4.9).
 ///
-/// @param position_clip  Inside the frustum, w > 0.
+/// @param position_clip  Inside the frustum, w > 0. A w of 0 gives NaN, which snap_triangle
+/// refuses.
 inline vec3 screen_from_clip(vec4 position_clip, ivec2 size) {
     const vec3 position_ndc = vec3(position_clip) / position_clip.w;
     return {(position_ndc.x + 1) * 0.5f * static_cast<float>(size.x),

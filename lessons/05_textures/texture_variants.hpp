@@ -51,11 +51,7 @@ struct TextureVariant {
 
     /// A picture's colours as the variant has it.
     Image<vec4> decoded(const Image<u8vec4>& picture) const {
-        if (decoding == Decoding::srgb) return linear_from_srgb8(picture);
-        Image<vec4> linear(picture.size());
-        for (std::size_t i = 0; i < linear.pixels().size(); ++i)
-            linear.pixels()[i] = vec4(picture.pixels()[i]) / 255.0f;
-        return linear;
+        return decoding == Decoding::srgb ? linear_from_srgb8(picture) : plain_numbers(picture);
     }
 };
 
