@@ -3,9 +3,11 @@
 /// A scene with lights and all that its materials ask for. Introduced in lesson 06.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -106,7 +108,7 @@ inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds) {
     Light light{key, vec3(1.0f, 0.92f, 0.8f), toward_key};
     if (key != LightKind::directional) {
         light.position_world = center + 0.9f * radius * toward_key;
-        light.half_distance = radius;
+        light.half_distance = std::max(radius, std::numeric_limits<float>::min());
         light.color *= 2.4f;
     }
     if (key == LightKind::spot) {

@@ -167,7 +167,8 @@ class TriangleLight {
     }
 
     ReflectedLight reflected(vec3 position, vec3 normal) const {
-        const SurfacePoint point{position, normal, unit_or(eye_world_ - position, normal)};
+        const vec3 toward_eye = has_highlight_ ? unit_or(eye_world_ - position, normal) : vec3(0);
+        const SurfacePoint point{position, normal, toward_eye};
         return reflected_light(
             lights_, point, has_highlight_, variant_.highlight, [&](float cosine) {
                 return cosine < least_cosine_ ? 0.0f : power_as(variant_.power, cosine, shininess_);
