@@ -76,6 +76,7 @@ class MappedWeights {
                   const ClippedTriangle& clipped)
         : mapping_(variant.mapping),
           whole_from_piece_(clipped[0].weights, clipped[1].weights, clipped[2].weights),
+          is_whole_(whole_from_piece_ == mat3(1)),
           exact_(on_screen, variant.mapping == affine ? without_perspective(clipped) : clipped),
           edges_(edges_of(on_screen)),
           row_edges_(edges_),
@@ -88,7 +89,8 @@ class MappedWeights {
     FragmentWeights at(ivec2 pixel, vec3 screen_weights) {
         if (mapping_ == 1) return exact_.at(screen_weights);
         if (mapping_ == affine)
-            return {whole_from_piece_ * screen_weights, begin_.step_x, begin_.step_y};
+            return {is_whole_ ? screen_weights : whole_from_piece_ * screen_weights, begin_.step_x,
+                    begin_.step_y};
         if (pixel.y != row_) begin_row(pixel.y);
         if (pixel.x >= span_end_) begin_span(pixel.x, screen_weights);
         const auto from_begin = static_cast<float>(pixel.x - span_begin_);
@@ -142,6 +144,7 @@ class MappedWeights {
 
     int mapping_;
     mat3 whole_from_piece_;
+    bool is_whole_;
     PerspectiveWeights exact_;
     std::array<EdgeWalk, 3> edges_, row_edges_;  ///< From column 0, of row 0 and of this row.
     float per_area_;

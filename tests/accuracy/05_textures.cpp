@@ -257,8 +257,8 @@ void add_decodings() {
             Difference difference;
             for (const vec2 place : places)
                 difference.add(sample(picture, place), mean_around(picture.light, place));
-            errors["RMS error, " + picture.name] = difference.rms();
-            errors["greatest error, " + picture.name] = difference.greatest;
+            errors["RMS error, millionths, " + picture.name] = 1e6 * difference.rms();
+            errors["greatest error, millionths, " + picture.name] = 1e6 * difference.greatest;
         }
         add_variant("decoding", name, static_cast<double>(places.size()), errors, [=] {
             const Picture& picture = pictures.back();
