@@ -29,7 +29,7 @@ struct Rectangle {
 
     /// @param corners  Counter-clockwise on the screen, all inside the frustum.
     Rectangle(const std::array<vec4, 4>& corners, const std::array<vec2, 4>& corner_uvs) {
-        for (const std::size_t i : {1, 2}) {
+        for (std::size_t i = 1; i <= 2; ++i) {
             triangles.push_back(
                 {{{corners[0], {1, 0, 0}}, {corners[i], {0, 1, 0}}, {corners[i + 1], {0, 0, 1}}}});
             uvs.push_back({corner_uvs[0], corner_uvs[i], corner_uvs[i + 1]});
