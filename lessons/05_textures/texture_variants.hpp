@@ -21,9 +21,6 @@ enum class Decoding { srgb, ignored };
 
 constexpr int affine = 0;  ///< For TextureVariant::mapping: no division at all.
 
-/// A code taken for amounts of light.
-inline vec4 undecoded(u8vec4 code) { return vec4(code) / 255.0f; }
-
 struct TextureVariant {
     int mapping = 1;  ///< Perspective is divided out every so many pixels of a row, or `affine`.
     Filter filter = Filter::trilinear;
@@ -58,11 +55,7 @@ struct TextureVariant {
 
     /// A picture's colours as the variant has it.
     Image<vec4> decoded(const Image<u8vec4>& picture) const {
-        if (decoding == Decoding::srgb) return linear_from_srgb8(picture);
-        Image<vec4> linear(picture.size());
-        for (std::size_t i = 0; i < linear.pixels().size(); ++i)
-            linear.pixels()[i] = undecoded(picture.pixels()[i]);
-        return linear;
+        return decoding == Decoding::srgb ? linear_from_srgb8(picture) : plain_numbers(picture);
     }
 };
 
@@ -188,6 +181,9 @@ vec4 sample_bilinear(const CodedLevel& level, vec2 place, Read&& read) {
     const vec4 in_lower = left_below + share.x * (read(lower[1]) - left_below);
     return in_upper + share.y * (in_lower - in_upper);
 }
+
+/// A code taken for amounts of light.
+inline vec4 undecoded(u8vec4 code) { return vec4(code) / 255.0f; }
 
 /// Colour decoded from sRGB (Eq. 5.11), each channel 0 to 1; opacity is not encoded.
 inline vec4 decoded_exactly(vec4 color) {
