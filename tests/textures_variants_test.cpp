@@ -253,7 +253,7 @@ TEST(TextureVariants, DecodingTheMeanIsExactInCentresAndTooDarkBetween) {
     const Image<u8vec4> codes = random_picture({7, 5});
     const CodedLevel coded = make_coded_level(codes, Wrap::repeat);
     const TextureLevel decoded = with_border(linear_from_srgb8(codes), Wrap::repeat);
-    const Image<vec4> ignored = TextureVariant{.decoding = Decoding::ignored}.decoded(codes);
+    const Image<vec4> ignored = TextureOptions{.decoding = Decoding::ignored}.decoded(codes);
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 7; ++x) {
             const vec2 center = (vec2(x, y) + 0.5f) / vec2(7, 5);

@@ -19,25 +19,14 @@ namespace rasterbook {
 /// What the codes in a picture are taken for: sRGB, or amounts of light.
 enum class Decoding { srgb, ignored };
 
-constexpr int affine = 0;  ///< For TextureVariant::mapping: no division at all.
-
-struct TextureVariant {
-    int mapping = 1;  ///< Perspective is divided out every so many pixels of a row, or `affine`.
+/// How textures are read, in this lesson and all later ones.
+struct TextureOptions {
     Filter filter = Filter::trilinear;
     Wrap wrap = Wrap::repeat;  ///< Of maps that do not ask for -clamp.
     Decoding decoding = Decoding::srgb;
     bool keep_going = false;  ///< A picture that cannot be read is replaced.
 
     void declare(Knobs& knobs) {
-        knobs.choice("--mapping", mapping,
-                     {{"affine", affine},
-                      {"64", 64},
-                      {"32", 32},
-                      {"16", 16},
-                      {"8", 8},
-                      {"4", 4},
-                      {"perspective", 1}},
-                     "Textures in perspective: not at all, every so many pixels, or everywhere");
         knobs.choice("--filter", filter,
                      {{"nearest", Filter::nearest},
                       {"bilinear", Filter::bilinear},
@@ -53,9 +42,28 @@ struct TextureVariant {
                    "A texture that cannot be read is a warning, and a chessboard takes its place");
     }
 
-    /// A picture's colours as the variant has it.
+    /// A picture's colours as the options have it.
     Image<vec4> decoded(const Image<u8vec4>& picture) const {
         return decoding == Decoding::srgb ? linear_from_srgb8(picture) : plain_numbers(picture);
+    }
+};
+
+constexpr int affine = 0;  ///< For TextureVariant::mapping: no division at all.
+
+struct TextureVariant : TextureOptions {
+    int mapping = 1;  ///< Perspective is divided out every so many pixels of a row, or `affine`.
+
+    void declare(Knobs& knobs) {
+        TextureOptions::declare(knobs);
+        knobs.choice("--mapping", mapping,
+                     {{"affine", affine},
+                      {"64", 64},
+                      {"32", 32},
+                      {"16", 16},
+                      {"8", 8},
+                      {"4", 4},
+                      {"perspective", 1}},
+                     "Textures in perspective: not at all, every so many pixels, or everywhere");
     }
 };
 

@@ -29,7 +29,7 @@ struct LitScene : TexturedScene {
     MaterialTextures specular_textures;  ///< map_Ks, plain numbers.
     std::vector<Effects> effects;        ///< For each material.
 
-    /// @param options  Has a TextureVariant `texture`; with shading.all_effects, a lit material has
+    /// @param options  Has TextureOptions `texture`; with shading.all_effects, a lit material has
     /// all
     ///                 effects: a white texture where it has none, a black highlight where it has
     ///                 none.

@@ -18,7 +18,7 @@ namespace {
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
-    TextureVariant texture;
+    TextureOptions texture;
     ShadingVariant shading;
 
     Options() { model = "scene.obj"; }

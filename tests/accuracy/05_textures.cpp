@@ -67,7 +67,7 @@ void add_mappings() {
                                                     {"16", 16},         {"8", 8},   {"4", 4},
                                                     {"perspective", 1}};
     for (const auto& [name, mapping] : mappings) {
-        const TextureVariant variant{.mapping = mapping};
+        const TextureVariant variant{{}, mapping};
         long double greatest = 0, sum_of_squares = 0;
         draw(variant, wall, size, [&](ivec2 pixel, const FragmentUv& uv) {
             const long double x = (pixel.x + 0.5L) / size.x;
@@ -237,7 +237,7 @@ void add_decodings() {
     static std::vector<Picture> pictures;
     for (const std::string name : {"checker", "wood"}) {
         const Image<u8vec4> codes = asset(name);
-        const TextureVariant ignored{.decoding = Decoding::ignored};
+        const TextureOptions ignored{.decoding = Decoding::ignored};
         pictures.push_back({name, with_border(linear_from_srgb8(codes), Wrap::repeat),
                             with_border(ignored.decoded(codes), Wrap::repeat),
                             make_coded_level(codes, Wrap::repeat), light_of(codes)});

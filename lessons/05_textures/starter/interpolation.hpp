@@ -46,12 +46,6 @@ class PerspectiveWeights {
         return {screen_weights, vec3(0), vec3(0)};
     }
 
-    /// How fast the weights on the screen change, a pixel to the right.
-    vec3 screen_step_x() const {
-        // TODO: Eq. 2.5 over the area.
-        return vec3(0);
-    }
-
   private:
     // TODO: what the constructor keeps for at().
 };
