@@ -55,11 +55,9 @@ struct SurfacePoint {
 template <typename Power>
 ReflectedLight reflected_light(std::span<const Light> lights, const SurfacePoint& point,
                                bool has_highlight, Highlight highlight, Power&& power) {
-    ReflectedLight sum;
-    for (const Light& light : lights) {
-        // TODO: what arrives of this light, by Eq. 6.1; what of it is a highlight, by Eq. 6.3.
-    }
-    return sum;
+    // TODO: the sum over all lights of incoming_light() by Eq. 6.1, and, where N.L > 0, of what it
+    // is as a highlight: power(highlight_cosine()) times its colour.
+    return {};
 }
 
 /// The colours of a surface in one fragment; linear.
