@@ -63,6 +63,7 @@ struct TriangleSurface {
     Effects effects;
     const Texture *texture, *specular_texture;  ///< Null where the material names none.
     std::array<vec2, 3> uvs, specular_uvs;
+    SurfaceColor own_color;
 
     TriangleSurface(const LitScene& scene, const Mesh& mesh, const Triangle& triangle)
         : material(scene.materials[triangle.material]),
@@ -70,13 +71,14 @@ struct TriangleSurface {
           texture(scene.diffuse_textures[triangle.material].get()),
           specular_texture(scene.specular_textures[triangle.material].get()),
           uvs(uvs_of(mesh, triangle, material.diffuse_map)),
-          specular_uvs(uvs_of(mesh, triangle, material.specular_map)) {}
+          specular_uvs(uvs_of(mesh, triangle, material.specular_map)),
+          own_color(surface_color(material)) {}
 
     /// The colours of a fragment, of which textures are read as the effects say.
     template <typename CounterPolicy>
     SurfaceColor color(const FragmentWeights& weights, Filter filter,
                        CounterPolicy& counters) const {
-        SurfaceColor color = surface_color(material);
+        SurfaceColor color = own_color;
         if (effects.diffuse_map) {
             counters.add(Counter::texture_samples);
             color.tint(vec3(sample(*texture, filter, fragment_uv(uvs, weights))));
