@@ -96,7 +96,7 @@ constexpr int spans[] = {64, 32, 16, 8, 4};
 template <typename IsLeftOut>
 int expect_straight_spans(const Case& c, int every, IsLeftOut&& is_left_out) {
     const PerspectiveWeights exact(c.on_screen, c.clipped);
-    MappedWeights mapped({.mapping = every}, c.on_screen, c.clipped);
+    MappedWeights mapped({{}, every}, c.on_screen, c.clipped);
     const auto length = static_cast<std::size_t>(every);
     int within = 0;
     for (const std::vector<Fragment>& row : rows_of(c.on_screen)) {
@@ -163,7 +163,7 @@ TEST(TextureVariants, PerspectiveIsPerspectiveWeights) {
 
 TEST(TextureVariants, AffineIsWhatTheScreenHas) {
     for (const Case& c : random_cases(100, 50)) {
-        MappedWeights mapped({.mapping = affine}, c.on_screen, c.clipped);
+        MappedWeights mapped({{}, affine}, c.on_screen, c.clipped);
         const mat3 weights(c.clipped[0].weights, c.clipped[1].weights, c.clipped[2].weights);
         for (const auto& row : rows_of(c.on_screen))
             for (std::size_t i = 0; i < row.size(); ++i) {
@@ -205,7 +205,7 @@ TEST(TextureVariants, WeightsStaySharesHoweverDeepATriangleIs) {
     for (const float greatest_w : {1e3f, 1e12f})
         for (const Case& c : random_cases(100, greatest_w))
             for (const int every : spans) {
-                MappedWeights mapped({.mapping = every}, c.on_screen, c.clipped);
+                MappedWeights mapped({{}, every}, c.on_screen, c.clipped);
                 fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
                     const vec3 here = mapped.at(pixel, screen_weights).here;
                     ASSERT_GE(std::min({here.x, here.y, here.z}), -in_span_tolerance);
@@ -219,7 +219,7 @@ TEST(TextureVariants, AffineIsWrongByNineElevenths) {
     const Case c(whole({vec4(-1, -1, 0, 1), vec4(100, -100, 0, 100), vec4(-1, 1, 0, 1)}));
     std::vector<float> worst;
     for (const int mapping : {affine, 64, 32, 16, 8, 4, 1}) {
-        MappedWeights mapped({.mapping = mapping}, c.on_screen, c.clipped);
+        MappedWeights mapped({{}, mapping}, c.on_screen, c.clipped);
         worst.push_back(0);
         fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
             const float x = (static_cast<float>(pixel.x) + 0.5f) / static_cast<float>(size.x);

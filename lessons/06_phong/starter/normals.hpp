@@ -24,7 +24,7 @@ inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle) {
     return {0, 1, 0};
 }
 
-/// The angle between the two sides at a triangle's corner, 0 to pi.
+/// The angle between the two sides at a triangle's corner, 0 to pi; 0 for a triangle of no area.
 inline float corner_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t corner) {
     // TODO: what the text says behind Eq. 6.9; in double, too.
     return 0;
