@@ -90,8 +90,8 @@ TEST(ShadingVariants, EveryShadingIsThatOfTheSurfaceWhereItIsComputed) {
             ASSERT_NEAR(grey(light_at(phong, corners[i])), expected, tolerance);
         }
         const dvec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
-        const auto expected =
-            exact.light_at(wide(across / glm::length(across)), wide((at[0] + at[1] + at[2]) / 3.0));
+        const auto expected = static_cast<double>(exact.light_at(
+            wide(across / glm::length(across)), wide((at[0] + at[1] + at[2]) / 3.0)));
         for (const vec3 weights : corners)
             ASSERT_NEAR(grey(light_at(flat, weights)), expected, tolerance);
     }
