@@ -86,8 +86,9 @@ void add_power(const char* name, OfExponent of_exponent) {
             sum_of_squares += error * error;
         }
         const std::string at = " at " + std::to_string(exponent);
-        errors["greatest error" + at] = static_cast<double>(greatest);
-        errors["RMS error" + at] = static_cast<double>(std::sqrt(sum_of_squares / (steps + 1)));
+        errors["greatest error, millionths" + at] = static_cast<double>(1e6L * greatest);
+        errors["RMS error" + at] =
+            static_cast<double>(1e6L * std::sqrt(sum_of_squares / (steps + 1)));
     }
 
     static const std::vector<float> cosines = [] {
@@ -140,7 +141,7 @@ void add_normals(const char* name, NormalScaling scaling, Scale scale) {
     }
     const ShadingVariant variant{.normals = scaling};
     add_variant("normals", name, static_cast<double>(normals.size()),
-                {{"greatest error of the length", static_cast<double>(greatest)},
+                {{"error of the length, millionths", static_cast<double>(1e6L * greatest)},
                  {"RMS, coarse", light_errors(coarse(), variant).rms},
                  {"greatest, coarse", light_errors(coarse(), variant).greatest},
                  {"RMS, fine", light_errors(fine(), variant).rms},
