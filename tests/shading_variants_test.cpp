@@ -187,6 +187,17 @@ TEST(ShadingVariants, SchlicksCurveLiesAboveThePower) {
     EXPECT_GT(greatest, 0.2f) << "the bound is no wider than it has to be";
 }
 
+TEST(ShadingVariants, NoHighlightIsLeftOutThatCanBeSeen) {
+    constexpr float least_seen = 1.0f / 255 / 13 / 2;  // half of the first code of sRGB
+    for (const Power how : {Power::in_float, Power::in_double, Power::squarings, Power::schlick})
+        for (const float exponent : {0.0f, 1.0f, 7.0f, 32.0f, 90.0f, 1000.0f}) {
+            const float least = least_seen_cosine(how, exponent);
+            if (least == 0) continue;
+            EXPECT_LT(power_as(how, least, exponent), least_seen / 1000)
+                << static_cast<int>(how) << ": " << exponent;
+        }
+}
+
 TEST(ShadingVariants, PowersTakeWhatMaterialsAndRoundingBring) {
     const float above_one = std::nextafter(1.0f, 2.0f);
     for (const Power how : {Power::in_float, Power::in_double, Power::squarings, Power::schlick}) {

@@ -37,6 +37,12 @@ inline float corner_angle_radians(const Mesh& mesh, const Triangle& triangle, st
 /// Faces that meet at a greater angle than 60 degrees meet in a sharp edge.
 constexpr float cos_sharp = 0.5f;
 
+/// One of the faces that meet in a position.
+struct FaceAround {
+    vec3 normal;          ///< Length 1.
+    float angle_radians;  ///< Between the face's sides there.
+};
+
 /// The normal of a triangle's corner, before it is scaled, from the faces around it (Eq. 6.9).
 class SmoothNormals {
   public:
@@ -63,10 +69,6 @@ class SmoothNormals {
     }
 
   private:
-    struct FaceAround {
-        vec3 normal;
-        float angle_radians;
-    };
     std::vector<std::size_t>
         begin_;  ///< Of each position's faces in around_, and one more: the end.
     std::vector<FaceAround> around_;

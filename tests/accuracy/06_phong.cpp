@@ -93,7 +93,8 @@ void add_power(const char* name, OfExponent of_exponent) {
 
     static const std::vector<float> cosines = [] {
         std::mt19937 random(1);
-        std::uniform_real_distribution<float> any(0, 1);
+        // Those for which the lesson computes a power.
+        std::uniform_real_distribution<float> any(least_seen_cosine(Power::in_float, 32), 1);
         std::vector<float> drawn(4096);
         for (float& cosine : drawn) cosine = any(random);
         return drawn;

@@ -19,7 +19,6 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
-#include "05_textures/texture_variants.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/counters.hpp"
@@ -163,7 +162,7 @@ void triangles_through_the_camera(benchmark::State& state) {
 
 /// What lessons 05 and 06 are told on the command line.
 struct PictureKnobs {
-    TextureVariant texture;
+    TextureOptions texture;
     ShadingVariant shading;
     Orbit orbit;
 };
@@ -219,13 +218,13 @@ void textured_and_lit(benchmark::State& state) {
                     const ScreenTriangle on_screen = snap_triangle(a, b, c);
                     if (!is_front_facing(on_screen)) continue;
                     const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                    MappedWeights mapped(knobs.texture, on_screen, clipped);
+                    const PerspectiveWeights perspective(on_screen, clipped);
                     const auto fill = [&](auto&& shade) {
                         fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
                             if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights)))
                                 return;
                             counters.add(Counter::fragments_shaded);
-                            color[pixel] = shade(mapped.at(pixel, screen_weights));
+                            color[pixel] = shade(perspective.at(screen_weights));
                         });
                     };
                     if (!with_light) {

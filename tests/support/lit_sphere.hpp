@@ -14,7 +14,7 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
-#include "05_textures/texture_variants.hpp"
+#include "05_textures/interpolation.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/math/types.hpp"
@@ -51,7 +51,7 @@ inline Mesh sphere_mesh(int rows, int columns) {
 /// A grey sphere with a highlight, a lamp and a camera that sees both.
 struct LitSphere {
     struct Options {
-        TextureVariant texture;
+        TextureOptions texture;
         ShadingVariant shading;
     };
 
