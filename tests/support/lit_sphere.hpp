@@ -124,10 +124,7 @@ class ExactSphere {
     explicit ExactSphere(const LitSphere& sphere) {
         const Light& light = sphere.lights[0];
         half_distance_ = light.half_distance, color_ = light.color.x;
-        for (int i = 0; i < 3; ++i) {
-            eye_[i] = sphere.camera.position_world[i];
-            lamp_[i] = light.position_world[i];
-        }
+        eye_ = wide(sphere.camera.position_world), lamp_ = wide(light.position_world);
         const Vector forward = scaled(eye_, -1 / length(eye_));  // towards the origin
         const long double level = std::hypot(forward[0], forward[2]);
         right_ = {-forward[2] / level, 0, forward[0] / level};
@@ -170,6 +167,7 @@ class ExactSphere {
   private:
     using Vector = std::array<long double, 3>;
 
+    static Vector wide(vec3 v) { return {v.x, v.y, v.z}; }
     static long double dot(const Vector& a, const Vector& b) {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     }
