@@ -185,7 +185,7 @@ class TriangleLight {
             });
     }
 
-    const ShadingVariant& variant_;
+    ShadingVariant variant_;
     std::span<const Light> lights_;
     vec3 eye_world_;
     bool has_highlight_;
