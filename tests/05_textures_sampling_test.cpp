@@ -87,12 +87,14 @@ real of_place(float coordinate, int side, bool is_v, real place) {
     return side * ((coordinate < 0 ? eps / 2 : 0) + (is_v ? eps / 4 : 0)) + eps / 2 * place;
 }
 
-/// Whether rounding may move the place across a border. Whole coordinates are wrapped exactly.
+/// Whether rounding may move the place from texel to texel. It never leaves the picture, so only
+/// borders inside count; and whole coordinates are wrapped exactly.
 bool is_near_a_border(float coordinate, int side, Wrap wrap, bool is_v) {
     real place = exactly_wrapped(coordinate, side, wrap);
     if (is_v) place = side - place;
-    return coordinate != std::floor(coordinate) &&
-           std::abs(place - std::round(place)) < of_place(coordinate, side, is_v, place);
+    const real border = std::round(place);
+    return border > 0 && border < side && coordinate != std::floor(coordinate) &&
+           std::abs(place - border) < of_place(coordinate, side, is_v, place);
 }
 
 /// Any whole number as the texel that it stands for beyond the picture.
@@ -238,7 +240,7 @@ TEST(Textures, Eq5_4_EqualsTheExactOracleForAllSizes) {
             }
         }
     }
-    EXPECT_LT(left_out, cases / 4);
+    EXPECT_LT(left_out, cases / 10);
 }
 
 TEST(Textures, Eq5_4_WithSidesThatArePowersOfTwoNoCaseIsLeftOut) {
@@ -658,9 +660,10 @@ TEST(Textures, HardCase_SpecialNumbersAtTheCornersSeeAColour) {
 TEST(Textures, HardCase_TextureOfMillionsOfColumns) {
     look_up("Eq. 5.6: beyond 2^23 a float has no half texel");
     constexpr int columns = (1 << 23) + 1;
-    const TextureLevel level = with_border(Image<vec4>({columns, 1}, vec4(0.5f)), Wrap::clamp);
-    for (const float x : {0.0f, 0.5f, 1 - feps / 2, 1.0f}) {
-        EXPECT_EQ(sample_bilinear(level, {x, 1}), vec4(0.5f)) << x;
-        EXPECT_EQ(sample_nearest(level, {x, 1}), vec4(0.5f)) << x;
+    TextureLevel level{{columns, 1}, Image<vec4>({columns + 2, 2}, vec4(0.5f))};
+    level.texels[{0, 1}] = vec4(not_a_number);  // what one would read beyond the upper row
+    for (const float x : {0.5f, 1 - feps / 2, 1.0f}) {
+        EXPECT_EQ(sample_bilinear(level, {x, 0}), vec4(0.5f)) << x;
+        EXPECT_EQ(sample_nearest(level, {x, 0}), vec4(0.5f)) << x;
     }
 }
