@@ -50,8 +50,11 @@ Image<vec4> noise(ivec2 size, unsigned seed) {
     return picture;
 }
 
+/// The texel's column and row; (-1, -1) when the place is not in the picture.
 ivec2 texel_at(const TextureLevel& level, vec2 uv, Wrap wrap) {
-    return ivec2(vec2(sample_nearest(level, place_from_uv(uv, wrap))));
+    const vec2 place = place_from_uv(uv, wrap);
+    const bool is_inside = place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1;
+    return is_inside ? ivec2(vec2(sample_nearest(level, place))) : ivec2(-1);
 }
 
 /// The oracle for Eq. 5.4, in texels from the border where the coordinate is 0. Every step is
