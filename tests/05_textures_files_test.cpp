@@ -24,8 +24,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-const char* const read_pictures = "Eq. 5.11, and how pictures are found";
-
 constexpr u8vec3 red(255, 0, 0), green(0, 255, 0), blue(0, 0, 255), white(255);
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -91,7 +89,7 @@ const std::string plain = "newmtl m\nKd 1 1 1\n";
 }  // namespace
 
 TEST(Textures, PictureThatCannotBeReadIsAnErrorThatNamesWhoAsksForIt) {
-    look_up(read_pictures);
+    look_up("Eq. 5.11, and how pictures are found");
     Model model(plain + "map_Kd bad.png\n");
     const std::string red_png = read_text(model.folder / "red.png");
     struct Case {
@@ -117,7 +115,7 @@ TEST(Textures, PictureThatCannotBeReadIsAnErrorThatNamesWhoAsksForIt) {
 }
 
 TEST(Textures, WithKeepGoingAChessboardTakesThePlaceOfABrokenPicture) {
-    look_up(read_pictures);
+    look_up("Eq. 5.11, and how pictures are found");
     const Model model(plain + "map_Kd bad.png\n");
     for (const bool is_there : {false, true}) {
         if (is_there) write_text(model.folder / "bad.png", "not a picture\n");
@@ -127,7 +125,8 @@ TEST(Textures, WithKeepGoingAChessboardTakesThePlaceOfABrokenPicture) {
                                            ":3: map_Kd: " + (model.folder / "bad.png").string()))
             << result.err;
         int dark = 0, magenta = 0;
-        for (const u8vec4 color : read_image(model.out).pixels())
+        const Image<u8vec4> drawn = read_image(model.out);
+        for (const u8vec4 color : drawn.pixels())
             dark += hue(color) == u8vec3(0), magenta += hue(color) == u8vec3(255, 0, 255);
         EXPECT_EQ(dark + magenta, 48 * 48);
         EXPECT_NEAR(dark, magenta, 48 * 48 / 5);
@@ -136,7 +135,7 @@ TEST(Textures, WithKeepGoingAChessboardTakesThePlaceOfABrokenPicture) {
 }
 
 TEST(Textures, PicturesAreFoundAsExportersNameThem) {
-    look_up(read_pictures);
+    look_up("Eq. 5.11, and how pictures are found");
     EXPECT_TRUE(is_all(Model(plain).drawn(), white)) << "without a picture";
     for (const char* statement :
          {"map_Kd red.png\n", "map_kd red.png\n", "\tmap_Kd   red.png   \r\n", "map_Kd ./red.png\n",
@@ -157,7 +156,7 @@ TEST(Textures, PicturesAreFoundAsExportersNameThem) {
 }
 
 TEST(Textures, PathsAreThoseBesideTheLibrary) {
-    look_up(read_pictures);
+    look_up("Eq. 5.11, and how pictures are found");
     const Model model("", square_with_uv, "mtllib materials\\square.mtl\n");
     write_text(model.folder / "materials/square.mtl", plain + "map_Kd ../pictures/green.png\n");
     write_picture(model.folder / "pictures/green.png", {1, 1}, {green});
@@ -165,7 +164,7 @@ TEST(Textures, PathsAreThoseBesideTheLibrary) {
 }
 
 TEST(Textures, MaterialsMayComeFromSeveralLibraries) {
-    look_up(read_pictures);
+    look_up("Eq. 5.11, and how pictures are found");
     for (const char* header :
          {"mtllib square.mtl\nmtllib other.mtl\n", "mtllib other.mtl square.mtl\n"}) {
         const Model model("newmtl another\nKd 1 1 1\nmap_Kd red.png\n", square_with_uv, header);
@@ -176,7 +175,7 @@ TEST(Textures, MaterialsMayComeFromSeveralLibraries) {
 }
 
 TEST(Textures, MaterialThatDoesNotExistIsAWarningAndHasNoPicture) {
-    look_up(read_pictures);
+    look_up("Eq. 5.11, and how pictures are found");
     const Model model("newmtl another\nmap_Kd red.png\n");
     const ProcessResult result = model.run({"--stats"});
     EXPECT_EQ(result.exit_status, 0);
@@ -331,6 +330,6 @@ TEST(Textures, PictureOfFourTexelsMean) {
     EXPECT_TRUE(horizon_equals_golden("05_textures_bilinear", {"--filter", "bilinear"}));
 }
 
-TEST(Textures, PictureWithoutPerspective) {
+TEST(Textures, PictureOfTheAffineMapping) {
     EXPECT_TRUE(horizon_equals_golden("05_textures_affine", {"--mapping", "affine"}));
 }
