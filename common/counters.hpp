@@ -20,6 +20,8 @@ enum class Counter {
     fragments_tested,  ///< Compared with the depth buffer.
     fragments_shaded,  ///< Written into the picture.
     texture_samples,
+    fragments_lit,
+    highlights,  ///< Fragments for which highlights are computed.
     count
 };
 
@@ -33,7 +35,9 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "triangles_culled_by_facing",
     "fragments_tested",
     "fragments_shaded",
-    "texture_samples"};
+    "texture_samples",
+    "fragments_lit",
+    "highlights"};
 
 /// Counts.
 struct Counters {

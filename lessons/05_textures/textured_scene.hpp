@@ -28,37 +28,52 @@ inline Image<u8vec4> placeholder_picture() {
     return picture;
 }
 
-/// A model and the textures of its materials, each picture read once.
-struct TexturedScene : Scene {
-    /// For each material its map_Kd; null without one.
-    std::vector<std::shared_ptr<const Texture>> diffuse_textures;
+/// For each material a texture; null where it names none.
+using MaterialTextures = std::vector<std::shared_ptr<const Texture>>;
 
+/// A model and the textures of its materials.
+struct TexturedScene : Scene {
+    MaterialTextures diffuse_textures;  ///< map_Kd
+
+    /// @param options  Has TextureOptions `texture`.
     /// @throws InputError  When a picture cannot be read: names the statement of the material
-    ///                     library that asks for it, and the picture. With variant.keep_going that
+    ///                     library that asks for it, and the picture. With texture.keep_going that
     ///                     is a warning, and a placeholder takes the picture's place.
     template <typename Options>
     TexturedScene(Scene scene, const Options& options) : Scene(std::move(scene)) {
-        const TextureVariant& variant = options.texture;
+        diffuse_textures = load_textures(
+            &Material::diffuse_map, "map_Kd", options.texture,
+            [&](const Image<u8vec4>& picture) { return options.texture.decoded(picture); });
+    }
+
+  protected:
+    /// The textures that materials name by one statement, each picture read once.
+    ///
+    /// @param decode  Called as decode(Image<u8vec4>); gives an Image<vec4>.
+    template <typename Decode>
+    MaterialTextures load_textures(TextureMap Material::* map_of, const char* statement,
+                                   const TextureOptions& texture_options, Decode&& decode) {
         std::map<std::pair<std::filesystem::path, bool>, std::shared_ptr<const Texture>> loaded;
+        MaterialTextures textures;
         for (const Material& material : materials) {
-            const TextureMap& map = material.diffuse_map;
-            std::shared_ptr<const Texture>& texture = diffuse_textures.emplace_back();
-            if (map.file.empty()) continue;
-            std::shared_ptr<const Texture>& known = loaded[{map.file, map.clamp}];
-            if (!known)
-                known = std::make_shared<Texture>(
-                    make_texture(variant.decoded(read_picture(map, variant.keep_going)),
-                                 map.clamp ? Wrap::clamp : variant.wrap));
-            texture = known;
+            const TextureMap& map = material.*map_of;
+            std::shared_ptr<const Texture>& texture = loaded[{map.file, map.clamp}];
+            if (!texture && !map.file.empty())
+                texture = std::make_shared<Texture>(
+                    make_texture(decode(read_picture(map, statement, texture_options.keep_going)),
+                                 map.clamp ? Wrap::clamp : texture_options.wrap));
+            textures.push_back(texture);
         }
+        return textures;
     }
 
   private:
-    Image<u8vec4> read_picture(const TextureMap& map, bool keep_going) {
+    Image<u8vec4> read_picture(const TextureMap& map, const char* statement, bool keep_going) {
         try {
             return read_image(map.file);
         } catch (const InputError& error) {
-            const InputError named(map.library, map.line, std::string("map_Kd: ") + error.what());
+            const InputError named(map.library, map.line,
+                                   statement + std::string(": ") + error.what());
             if (!keep_going) throw named;
             warnings.push_back(named.what());
             return placeholder_picture();

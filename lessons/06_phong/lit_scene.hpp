@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A scene with lights and all that its materials ask for. Introduced in lesson 06.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "05_textures/textured_scene.hpp"
+#include "06_phong/light.hpp"
+#include "06_phong/normals.hpp"
+#include "06_phong/phong.hpp"
+
+namespace rasterbook {
+
+/// What a material calls for; nothing else is computed for it.
+struct Effects {
+    bool light, highlight, diffuse_map, specular_map;
+};
+
+/// A model whose every corner has a normal, and the textures and effects of its materials.
+struct LitScene : TexturedScene {
+    MaterialTextures specular_textures;  ///< map_Ks, plain numbers.
+    std::vector<Effects> effects;        ///< For each material.
+
+    /// @param options  Has TextureOptions `texture`; with shading.all_effects, a lit material has
+    /// all
+    ///                 effects: a white texture where it has none, a black highlight where it has
+    ///                 none.
+    template <typename Options>
+    LitScene(Scene scene, const Options& options) : TexturedScene(std::move(scene), options) {
+        for (Mesh& mesh : meshes) complete_normals(mesh);
+        specular_textures =
+            load_textures(&Material::specular_map, "map_Ks", options.texture, plain_numbers);
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            const bool light = materials[i].illumination >= 1;
+            const bool highlight =
+                materials[i].illumination >= 2 && materials[i].specular != vec3(0);
+            effects.push_back({light, highlight, diffuse_textures[i] != nullptr,
+                               highlight && specular_textures[i] != nullptr});
+            if (options.shading.all_effects) add_neutral_effects(i);
+        }
+    }
+
+  private:
+    void add_neutral_effects(std::size_t i) {
+        const auto white =
+            std::make_shared<Texture>(make_texture(Image<vec4>({1, 1}, vec4(1)), Wrap::repeat));
+        if (!effects[i].diffuse_map) diffuse_textures[i] = white;
+        if (!effects[i].specular_map) specular_textures[i] = white;
+        if (!effects[i].highlight) materials[i].specular = vec3(0);
+        effects[i] = {effects[i].light, effects[i].light, true, effects[i].light};
+    }
+};
+
+/// What a triangle's material makes of it.
+struct TriangleSurface {
+    const Material& material;
+    Effects effects;
+    const Texture *texture, *specular_texture;  ///< Null where the material names none.
+    std::array<vec2, 3> uvs, specular_uvs;
+    SurfaceColor own_color;
+
+    TriangleSurface(const LitScene& scene, const Mesh& mesh, const Triangle& triangle)
+        : material(scene.materials[triangle.material]),
+          effects(scene.effects[triangle.material]),
+          texture(scene.diffuse_textures[triangle.material].get()),
+          specular_texture(scene.specular_textures[triangle.material].get()),
+          uvs(uvs_of(mesh, triangle, material.diffuse_map)),
+          specular_uvs(uvs_of(mesh, triangle, material.specular_map)),
+          own_color(surface_color(material)) {}
+
+    /// The colours of a fragment, of which textures are read as the effects say.
+    template <typename CounterPolicy>
+    SurfaceColor color(const FragmentWeights& weights, Filter filter,
+                       CounterPolicy& counters) const {
+        SurfaceColor color = own_color;
+        if (effects.diffuse_map) {
+            counters.add(Counter::texture_samples);
+            color.tint(vec3(sample(*texture, filter, fragment_uv(uvs, weights))));
+        }
+        if (effects.specular_map) {
+            counters.add(Counter::texture_samples);
+            color.specular *=
+                vec3(sample(*specular_texture, filter, fragment_uv(specular_uvs, weights)));
+        }
+        return color;
+    }
+};
+
+/// A warm key light from the upper left, and a cool one from behind that draws the rims.
+///
+/// @param key     The key light's kind.
+/// @param bounds  Of the scene, world space.
+inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds) {
+    const vec3 center = bounds.center();
+    // In double, where the squares of lengths neither overflow nor underflow.
+    const double half_diagonal = 0.5 * glm::length(dvec3(bounds.max) - dvec3(bounds.min));
+    const float radius = half_diagonal > 0 ? static_cast<float>(half_diagonal) : 1.0f;
+    const vec3 toward_key = unit_or(vec3(-1.2f, 0.5f, 0.6f), vec3(0, 1, 0));
+    const vec3 toward_rim = unit_or(vec3(0.95f, 0.38f, -0.55f), vec3(0, 1, 0));
+    Light light{key, vec3(1.0f, 0.92f, 0.8f), toward_key};
+    if (key != LightKind::directional) {
+        light.position_world = center + 0.9f * radius * toward_key;
+        light.half_distance = std::max(radius, std::numeric_limits<float>::min());
+        light.color *= 2.4f;
+    }
+    if (key == LightKind::spot) {
+        light.direction_world = -toward_key;
+        light.cos_full = std::cos(glm::radians(18.0f));
+        light.cos_none = std::cos(glm::radians(32.0f));
+    }
+    return {light, Light{LightKind::directional, vec3(0.6f, 0.82f, 1.15f), toward_rim}};
+}
+
+constexpr vec3 ambient_light(0.04f, 0.05f, 0.07f);  ///< From all around; linear.
+
+}  // namespace rasterbook

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How much light a surface sends to the eye. Introduced in lesson 06;
+/// derivation: docs/derivations/06_phong.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "06_phong/light.hpp"
+#include "common/math/types.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// The direction into which a mirror sends light that comes from `toward_light` (Eq. 6.2).
+///
+/// @param normal,toward_light  Length 1.
+inline vec3 reflected(vec3 normal, vec3 toward_light) {
+    return 2 * glm::dot(normal, toward_light) * normal - toward_light;
+}
+
+/// How a highlight falls off: by the angle between mirror direction and eye, or between the normal
+/// and the direction halfway from light to eye.
+enum class Highlight { phong, blinn };
+
+/// The cosine that a highlight is a power of: not negative (Eq. 6.3 and 6.4).
+///
+/// @param normal,toward_light,toward_eye  Length 1.
+inline float highlight_cosine(Highlight highlight, vec3 normal, vec3 toward_light,
+                              vec3 toward_eye) {
+    if (highlight == Highlight::phong)
+        return std::max(0.0f, glm::dot(reflected(normal, toward_light), toward_eye));
+    // Light and eye opposite: there is no halfway, and no highlight either.
+    const vec3 halfway = unit_or(toward_light + toward_eye, vec3(0));
+    return std::max(0.0f, glm::dot(normal, halfway));
+}
+
+/// What a surface sends to the eye, before it is coloured by the material.
+struct ReflectedLight {
+    vec3 diffuse{0};
+    vec3 specular{0};
+};
+
+/// A point of a surface, and who looks at it.
+struct SurfacePoint {
+    vec3 position_world;
+    vec3 normal_world;  ///< Length 1.
+    vec3 toward_eye;    ///< Length 1; of no meaning where there is no highlight.
+};
+
+/// The light of all lights, evenly reflected (Eq. 6.1) and as highlights (Eq. 6.3). None of it
+/// comes from behind.
+///
+/// @param power  Called as power(cosine), a cosine from 0 to about 1; not called if !has_highlight.
+template <typename Power>
+ReflectedLight reflected_light(std::span<const Light> lights, const SurfacePoint& point,
+                               bool has_highlight, Highlight highlight, Power&& power) {
+    ReflectedLight sum;
+    for (const Light& light : lights) {
+        const Incoming incoming = incoming_light(light, point.position_world);
+        const float cosine = glm::dot(point.normal_world, incoming.toward);
+        if (!(cosine > 0)) continue;
+        sum.diffuse += cosine * incoming.color;  // Eq. 6.1
+        if (!has_highlight) continue;
+        sum.specular += power(highlight_cosine(highlight, point.normal_world, incoming.toward,
+                                               point.toward_eye)) *
+                        incoming.color;
+    }
+    return sum;
+}
+
+/// The colours of a surface in one fragment; linear.
+struct SurfaceColor {
+    vec3 ambient, diffuse, specular, emission;
+
+    /// Colours what is reflected evenly: the same surface for light from lamps and from all around.
+    void tint(vec3 color) { ambient *= color, diffuse *= color; }
+};
+
+/// A material's own colours. Of the light from all around it reflects at most as much as of a
+/// lamp's: many exporters write Ka = 1 for everything.
+inline SurfaceColor surface_color(const Material& material) {
+    return {glm::min(material.ambient, material.diffuse), material.diffuse, material.specular,
+            material.emission};
+}
+
+/// What a fragment of illum 0 sends to the eye: its colour, whatever the light.
+inline vec3 unlit(const SurfaceColor& color) { return color.emission + color.diffuse; }
+
+/// All the light that a fragment sends to the eye (Eq. 6.5); it may exceed 1.
+inline vec3 phong(const SurfaceColor& color, vec3 ambient_light, const ReflectedLight& light) {
+    return color.emission + color.ambient * ambient_light + color.diffuse * light.diffuse +
+           color.specular * light.specular;
+}
+
+}  // namespace rasterbook
