@@ -419,14 +419,31 @@ TEST(Textures, HardCase_FootprintsThatAreNotNumbers) {
     for (const vec2 across : {nan, step, none})
         for (const vec2 down : {nan, step, none})
             EXPECT_GE(level_of_detail(across, down, size), 0) << "NaN is not";
+    // One of four is not a number, in turn, and the others have levels of their own.
+    for (const float other : {0.0f, 0.625f, infinity})
+        for (int special = 0; special < 4; ++special) {
+            vec4 steps(other);
+            steps[special] = not_a_number;
+            EXPECT_EQ(level_of_detail({steps.x, steps.y}, {steps.z, steps.w}, size), 0)
+                << testing::PrintToString(steps);
+            steps = vec4(0.625f);
+            for (const float infinite : {infinity, -infinity}) {
+                steps[special] = infinite;
+                EXPECT_EQ(level_of_detail({steps.x, steps.y}, {steps.z, steps.w}, size), infinity)
+                    << testing::PrintToString(steps);
+            }
+        }
     EXPECT_EQ(level_of_detail(vec2(infinity), none, size), infinity);
     const Texture texture = make_texture(noise(size, 7), Wrap::repeat);
     const vec4 last = texture.levels.back().texels[ivec2(1)];
     for (const float beyond : {3.0f, 3.5f, 100.0f, FLT_MAX, infinity})
         EXPECT_EQ(sample_trilinear(texture, {0.3f, 0.8f}, beyond), last) << beyond;
     EXPECT_EQ(sample(texture, Filter::trilinear, {vec2(0.2f), vec2(1e30f), vec2(0)}), last);
-    EXPECT_EQ(sample(texture, Filter::trilinear, {vec2(0.2f), nan, nan}),
-              sample(texture, Filter::bilinear, {vec2(0.2f), none, none}));
+    EXPECT_EQ(sample(texture, Filter::trilinear, {vec2(0.2f), {infinity, 0}, none}), last);
+    EXPECT_EQ(sample(texture, Filter::trilinear, {vec2(0.2f), none, {0, -infinity}}), last);
+    for (const vec2 across : {nan, vec2(5)})
+        EXPECT_EQ(sample(texture, Filter::trilinear, {vec2(0.2f), across, nan}),
+                  sample(texture, Filter::bilinear, {vec2(0.2f), none, none}));
 }
 
 TEST(Textures, Eq5_9_MeansOfTheWorkedExample) {
@@ -439,8 +456,8 @@ TEST(Textures, Eq5_9_MeansOfTheWorkedExample) {
     for (int x = 0; x < 5; ++x) five[{x, 0}] = vec4(static_cast<float>(10 * x));
     const Image<vec4> two = halved(five);
     ASSERT_EQ(two.size(), ivec2(2, 1));
-    EXPECT_EQ((two[{0, 0}]), vec4(8)) << "(0 + 10 + 20/2) / 2.5";
-    EXPECT_EQ((two[{1, 0}]), vec4(32)) << "(20/2 + 30 + 40) / 2.5";
+    EXPECT_EQ((two[{0, 0}]), vec4(8)) << "(2 * 0 + 2 * 10 + 20) / 5";
+    EXPECT_EQ((two[{1, 0}]), vec4(32)) << "(20 + 2 * 30 + 2 * 40) / 5";
 }
 
 TEST(Textures, Eq5_9_LevelsHaveHalvedSizes) {
@@ -459,7 +476,9 @@ TEST(Textures, Eq5_9_LevelsHaveHalvedSizes) {
 }
 
 TEST(Textures, Eq5_9_HardCase_OddSizesAreMeansOfWhatTexelsCover) {
-    for (const ivec2 from : {ivec2(3, 5), ivec2(1, 7), ivec2(9, 1), ivec2(2, 3), ivec2(31, 17)}) {
+    // In double, 13 times 27/13 is more than 27.
+    for (const ivec2 from : {ivec2(3, 5), ivec2(1, 7), ivec2(9, 1), ivec2(2, 3), ivec2(31, 17),
+                             ivec2(27, 1), ivec2(1, 27)}) {
         const Image<vec4> picture = noise(from, 8), half = halved(picture);
         const ivec2 to = half.size();
         // In whole numbers: a texel of the picture is to.x wide and one of its half from.x.

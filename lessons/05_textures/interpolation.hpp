@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/clip.hpp"
@@ -20,9 +21,9 @@ Attribute interpolate(const std::array<Attribute, 3>& corners, vec3 weights) {
 
 /// The shares that a triangle's corners have in a fragment.
 struct FragmentWeights {
-    vec3 here;    ///< At the pixel's centre, >= 0 but for rounding; their sum is 1.
+    vec3 here;    ///< At the pixel's centre; their sum is 1 but for rounding.
     vec3 step_x;  ///< How fast they change here, a pixel to the right.
-    vec3 step_y;  ///< The same a pixel down.
+    vec3 step_y;  ///< The same, a pixel down.
 };
 
 /// A corner whose w is more than 2^80 times the least one counts as that far away: on the side
@@ -34,7 +35,9 @@ constexpr float least_nearness = 0x1p-80f;
 class PerspectiveWeights {
   public:
     /// @param on_screen  The piece on the screen.
-    /// @param clipped    The same piece in clip space, w > 0.
+    /// @param clipped    The same piece in clip space, w > 0 (a corner with a w of 0 has no place
+    /// on
+    ///                   the screen, and the piece no area).
     PerspectiveWeights(const ScreenTriangle& on_screen, const ClippedTriangle& clipped) {
         // Only the proportions of the w count; those to the least one do not overflow.
         const float least_w = std::min(
@@ -55,8 +58,9 @@ class PerspectiveWeights {
     }
 
     /// @param screen_weights  Of the piece's corners, as fill_triangle gives them.
-    /// @return                Each weight within 16 ulp of its exact value, but for what clipping
-    ///                        rounds.
+    /// @return                Weights >= 0. Each is within 16 ulp of its exact value; in a piece
+    /// that
+    ///                        was cut, 22 ulp, the weights of its corners being taken as they are.
     FragmentWeights at(vec3 screen_weights) const {
         // Eq. 5.3; the matrix is diagonal for a triangle that is not clipped, and nearly all are.
         const vec3 shares = is_whole_ ? nearness_ * screen_weights : shares_ * screen_weights;

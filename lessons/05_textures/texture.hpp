@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -78,19 +79,23 @@ inline vec4 sample_bilinear(const TextureLevel& level, vec2 place) {
 
 /// The level at which a pixel's footprint is one texel long, by its longer side (Eq. 5.8).
 ///
-/// @param step_x,step_y  Change of uv from a pixel to its right and to its lower neighbour.
+/// @param step_x,step_y  How fast uv changes here, a pixel to the right and a pixel down.
 /// @param size           Of level 0, in texels.
-/// @return               0 where the footprint is a texel or less, and for NaN.
+/// @return               0 where the footprint is a texel or less, and where any of the four
+///                       numbers is NaN; else it may be infinite.
 inline float level_of_detail(vec2 step_x, vec2 step_y, ivec2 size) {
     const vec2 across = step_x * vec2(size), down = step_y * vec2(size);
-    const float longer_squared = std::max(glm::dot(across, across), glm::dot(down, down));
+    const float across_squared = glm::dot(across, across), down_squared = glm::dot(down, down);
+    // std::max(25, NaN) is 25; a sum is NaN where either is.
+    if (std::isnan(across_squared + down_squared)) return 0;
+    const float longer_squared = std::max(across_squared, down_squared);
     return longer_squared > 1 ? 0.5f * std::log2(longer_squared) : 0.0f;
 }
 
 /// The mean of what two levels have at a place, by how near they are to `level` (Eq. 5.10).
 ///
 /// @param place  0 to 1.
-/// @param level  >= 0; beyond the last level it is the last one.
+/// @param level  >= 0, infinite too; beyond the last level it is the last one.
 inline vec4 sample_trilinear(const Texture& texture, vec2 place, float level) {
     const auto last = static_cast<float>(texture.levels.size() - 1);
     level = std::min(level, last);
@@ -123,25 +128,26 @@ inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) 
 }
 
 /// A picture half as wide and high, rounded down, but at least 1: each texel is the mean of what it
-/// covers (Eq. 5.9). A picture of one colour keeps it exactly.
+/// covers (Eq. 5.9). A picture of one colour keeps it exactly: what double rounds is far below half
+/// a step of float.
 inline Image<vec4> halved(const Image<vec4>& picture) {
-    const ivec2 from = picture.size(), to = glm::max(from / 2, ivec2(1));
-    const dvec2 side = dvec2(from) / dvec2(to);  // of what a texel covers: 1 to 3
-    Image<vec4> half(to);
-    for (int y = 0; y < to.y; ++y)
-        for (int x = 0; x < to.x; ++x) {
-            const dvec2 low = dvec2(x, y) * side, high = dvec2(x + 1, y + 1) * side;
-            const ivec2 first(low), last = glm::min(ivec2(glm::ceil(high)), from) - 1;
+    using lengths = glm::vec<2, std::int64_t>;
+    // In whole numbers: a texel of the picture is `to` long, one of its half `from`.
+    const lengths from(picture.size()), to = glm::max(from / lengths(2), lengths(1));
+    Image<vec4> half{ivec2(to)};
+    for (int y = 0; y < half.size().y; ++y)
+        for (int x = 0; x < half.size().x; ++x) {
+            const lengths low = lengths(x, y) * from, high = low + from;
+            const ivec2 first(low / to), last((high - lengths(1)) / to);
             dvec4 sum(0);
-            double area = 0;
             for (int row = first.y; row <= last.y; ++row)
                 for (int column = first.x; column <= last.x; ++column) {
-                    const dvec2 covered = glm::min(high, dvec2(column + 1, row + 1)) -
-                                          glm::max(low, dvec2(column, row));
+                    const lengths begin = lengths(column, row) * to;
+                    const dvec2 covered(glm::min(high, begin + to) - glm::max(low, begin));
                     sum += covered.x * covered.y * dvec4(picture[{column, row}]);
-                    area += covered.x * covered.y;
                 }
-            half[{x, y}] = vec4(sum / area);
+            const dvec2 whole(from);
+            half[{x, y}] = vec4(sum / (whole.x * whole.y));
         }
     return half;
 }

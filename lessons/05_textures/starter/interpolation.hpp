@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/clip.hpp"
@@ -21,9 +22,9 @@ Attribute interpolate(const std::array<Attribute, 3>& corners, vec3 weights) {
 
 /// The shares that a triangle's corners have in a fragment.
 struct FragmentWeights {
-    vec3 here;    ///< At the pixel's centre, >= 0 but for rounding; their sum is 1.
+    vec3 here;    ///< At the pixel's centre; their sum is 1 but for rounding.
     vec3 step_x;  ///< How fast they change here, a pixel to the right.
-    vec3 step_y;  ///< The same a pixel down.
+    vec3 step_y;  ///< The same, a pixel down.
 };
 
 /// A corner whose w is more than 2^80 times the least one counts as that far away: on the side
@@ -35,7 +36,9 @@ constexpr float least_nearness = 0x1p-80f;
 class PerspectiveWeights {
   public:
     /// @param on_screen  The piece on the screen.
-    /// @param clipped    The same piece in clip space, w > 0.
+    /// @param clipped    The same piece in clip space, w > 0 (a corner with a w of 0 has no place
+    /// on
+    ///                   the screen, and the piece no area).
     PerspectiveWeights(const ScreenTriangle& on_screen, const ClippedTriangle& clipped) {
         // TODO: what all pixels of the piece have in common, so that it is computed once: the
         // proportions of the w, the columns of Eq. 5.3, and how fast the weights on the screen
@@ -43,8 +46,9 @@ class PerspectiveWeights {
     }
 
     /// @param screen_weights  Of the piece's corners, as fill_triangle gives them.
-    /// @return                Each weight within 16 ulp of its exact value, but for what clipping
-    ///                        rounds.
+    /// @return                Weights >= 0. Each is within 16 ulp of its exact value; in a piece
+    /// that
+    ///                        was cut, 22 ulp, the weights of its corners being taken as they are.
     FragmentWeights at(vec3 screen_weights) const {
         // TODO: Eq. 5.2 and 5.3, and 5.7 for the steps.
         return {screen_weights, vec3(0), vec3(0)};

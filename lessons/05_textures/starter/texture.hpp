@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -69,20 +70,21 @@ inline vec4 sample_bilinear(const TextureLevel& level, vec2 place) {
 
 /// The level at which a pixel's footprint is one texel long, by its longer side (Eq. 5.8).
 ///
-/// @param step_x,step_y  Change of uv from a pixel to its right and to its lower neighbour.
+/// @param step_x,step_y  How fast uv changes here, a pixel to the right and a pixel down.
 /// @param size           Of level 0, in texels.
-/// @return               0 where the footprint is a texel or less, and for NaN.
+/// @return               0 where the footprint is a texel or less, and where any of the four
+///                       numbers is NaN; else it may be infinite.
 inline float level_of_detail(vec2 step_x, vec2 step_y, ivec2 size) {
-    // TODO: Eq. 5.8.
+    // TODO: Eq. 5.8; mind what is not a number.
     return 0;
 }
 
 /// The mean of what two levels have at a place, by how near they are to `level` (Eq. 5.10).
 ///
 /// @param place  0 to 1.
-/// @param level  >= 0; beyond the last level it is the last one.
+/// @param level  >= 0, infinite too; beyond the last level it is the last one.
 inline vec4 sample_trilinear(const Texture& texture, vec2 place, float level) {
-    // TODO: Eq. 5.10; mind the last level.
+    // TODO: Eq. 5.10; mind the last level, before the level becomes a whole number.
     return vec4(0);
 }
 
@@ -107,9 +109,11 @@ inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) 
 }
 
 /// A picture half as wide and high, rounded down, but at least 1: each texel is the mean of what it
-/// covers (Eq. 5.9). A picture of one colour keeps it exactly.
+/// covers (Eq. 5.9). A picture of one colour keeps it exactly: what double rounds is far below half
+/// a step of float.
 inline Image<vec4> halved(const Image<vec4>& picture) {
-    // TODO: the size, and Eq. 5.9 in both directions, summed in double.
+    // TODO: the size, and Eq. 5.9 in both directions: lengths in whole numbers (64 bits hold the
+    // largest), the sum in double.
     return Image<vec4>(ivec2(1));
 }
 
