@@ -35,9 +35,8 @@ constexpr float least_nearness = 0x1p-80f;
 class PerspectiveWeights {
   public:
     /// @param on_screen  The piece on the screen.
-    /// @param clipped    The same piece in clip space, w > 0 (a corner with a w of 0 has no place
-    /// on
-    ///                   the screen, and the piece no area).
+    /// @param clipped    The same piece in clip space, w > 0: with a w of 0 it has no area on the
+    ///                   screen, and no fragments.
     PerspectiveWeights(const ScreenTriangle& on_screen, const ClippedTriangle& clipped) {
         // Only the proportions of the w count; those to the least one do not overflow.
         const float least_w = std::min(
@@ -58,9 +57,8 @@ class PerspectiveWeights {
     }
 
     /// @param screen_weights  Of the piece's corners, as fill_triangle gives them.
-    /// @return                Weights >= 0. Each is within 16 ulp of its exact value; in a piece
-    /// that
-    ///                        was cut, 22 ulp, the weights of its corners being taken as they are.
+    /// @return                Weights >= 0, each within 16 ulp of its exact value; 22 ulp in a
+    ///                        piece that was cut, taking its corners' weights as they are.
     FragmentWeights at(vec3 screen_weights) const {
         // Eq. 5.3; the matrix is diagonal for a triangle that is not clipped, and nearly all are.
         const vec3 shares = is_whole_ ? nearness_ * screen_weights : shares_ * screen_weights;

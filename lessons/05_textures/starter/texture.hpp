@@ -137,4 +137,12 @@ inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
     return Image<vec4>(picture.size());
 }
 
+/// The same of a picture whose codes are plain numbers.
+inline Image<vec4> plain_numbers(const Image<u8vec4>& picture) {
+    Image<vec4> numbers(picture.size());
+    for (std::size_t i = 0; i < numbers.pixels().size(); ++i)
+        numbers.pixels()[i] = vec4(picture.pixels()[i]) / 255.0f;
+    return numbers;
+}
+
 }  // namespace rasterbook
