@@ -14,7 +14,7 @@ namespace rasterbook {
 
 /// v scaled to length 1, or `fallback` when it has no direction.
 ///
-/// @return  Each component within 3 ulp of its exact value.
+/// @return  Each component within 2.3 * 2^-23 of its size of its exact value.
 inline vec3 unit_or(vec3 v, vec3 fallback) {
     const float squared = glm::dot(v, v);
     constexpr float least = 1e-30f, most = 1e30f;  // beyond, squares lose digits or overflow
@@ -56,7 +56,9 @@ inline float spot_share(float cosine, float cos_full, float cos_none) {
     return t * t * (3 - 2 * t);
 }
 
-/// @param position_world  Where a lamp stands at this very point, its light comes from above.
+/// @param light           Finite numbers.
+/// @param position_world  Not NaN. Where a lamp stands at this very point, or infinitely far away,
+///                        its light comes from above.
 inline Incoming incoming_light(const Light& light, vec3 position_world) {
     if (light.kind == LightKind::directional) return {light.direction_world, light.color};
     const vec3 way = (light.position_world - position_world) / light.half_distance;
