@@ -57,9 +57,9 @@ Image<vec3> picture_of(const Scene& scene, const lesson::Options& options) {
     return lesson::render(options, LitScene(scene, options), none);
 }
 
-Counters counters_of(const Scene& scene, const lesson::Options& options) {
+Counters counters_of(const LitScene& scene, const lesson::Options& options) {
     Counters counters;
-    lesson::render(options, LitScene(scene, options), counters);
+    lesson::render(options, scene, counters);
     return counters;
 }
 
@@ -152,11 +152,14 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
           Row{square_of("illum 1\nKs 1 1 1\n"), true, false, false},
           Row{square_of("illum 2\nKs 1 1 1\n"), true, true, false},
           Row{square_of("illum 2\nKs 0 0 0\n"), true, false, false},
-          Row{square_of("illum 2\nKs 0 0 1e-30\n"), true, true, false}})
+          Row{square_of("illum 2\nKs 0 0 1e-30\n"), true, true, false}}) {
+        lesson::Options options = small_picture();
+        const LitScene as_called_for(scene, options);
+        options.shading.all_effects = true;
+        const LitScene with_all(scene, options);
         for (const Shading shading : all_shadings) {
-            lesson::Options options = small_picture();
             options.shading.shading = shading;
-            const Counters counters = counters_of(scene, options);
+            const Counters counters = counters_of(as_called_for, options);
             const auto shaded = count(counters, Counter::fragments_shaded);
             EXPECT_GT(shaded, 1000u);
             EXPECT_EQ(count(counters, Counter::fragments_lit), has_light ? shaded : 0);
@@ -165,12 +168,12 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
             EXPECT_EQ(count(counters, Counter::texture_samples) > 0, has_textures);
             EXPECT_LE(count(counters, Counter::texture_samples), shaded);
 
-            options.shading.all_effects = true;
-            const Counters all = counters_of(scene, options);
+            const Counters all = counters_of(with_all, options);
             EXPECT_EQ(count(all, Counter::fragments_lit), has_light ? shaded : 0);
             EXPECT_EQ(count(all, Counter::highlights), has_light ? shaded : 0);
             EXPECT_EQ(count(all, Counter::texture_samples), has_light ? 2 * shaded : shaded);
         }
+    }
 }
 
 TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
@@ -181,18 +184,22 @@ TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
         {"teapot", load_obj(models / "teapot.obj")},
         {"scene_bumpy", load_obj(models / "scene_bumpy.obj")},
         {"illum", squares_of_illum_0_1_2("", "")}};
-    for (const auto& [name, scene] : scenes)
+    NoCounters none;
+    for (const auto& [name, scene] : scenes) {
+        lesson::Options options = small_picture();
+        const LitScene as_called_for(scene, options);
+        options.shading.all_effects = true;
+        const LitScene with_all(scene, options);
         for (const Shading shading : all_shadings)
             for (const Highlight highlight : {Highlight::phong, Highlight::blinn}) {
-                lesson::Options options = small_picture();
                 options.shading.shading = shading;
                 options.shading.highlight = highlight;
-                const Image<vec3> as_called_for = picture_of(scene, options);
-                options.shading.all_effects = true;
-                EXPECT_TRUE(are_the_same_bits(as_called_for, picture_of(scene, options)))
+                const Image<vec3> picture = lesson::render(options, as_called_for, none);
+                EXPECT_TRUE(are_the_same_bits(picture, lesson::render(options, with_all, none)))
                     << name << ", shading " << static_cast<int>(shading);
-                EXPECT_FALSE(is_backdrop(as_called_for)) << name;
+                EXPECT_FALSE(is_backdrop(picture)) << name;
             }
+    }
 }
 
 TEST(Phong, HardCase_IllumDecides) {
@@ -310,10 +317,9 @@ TEST(Phong, HardCase_BacksOfFaces) {
 
 TEST(Phong, HardCase_MoreLightThanAFileHolds) {
     look_up("Eq. 6.5");
-    for (const auto& [material, least] :
-         {std::pair{"Kd 9 9 9\nKs 9 9 9\nKe 9 9 9\n", 27.0f},
-          {"Kd 1e37 0 0\nKs 0 1e37 0\n", 1e36f},
-          {"Kd 1 1 1\nKs 1 1 1\nNs 1e38\n", 0.1f}}) {
+    for (const auto& [material, least] : {std::pair{"Kd 9 9 9\nKs 9 9 9\nKe 9 9 9\n", 27.0f},
+                                          {"Kd 1e37 0 0\nKs 0 1e37 0\n", 1e36f},
+                                          {"Kd 1 1 1\nKs 1 1 1\nNs 1e38\n", 0.1f}}) {
         const Image<vec3> picture = picture_of(square_of(material), before_the_square());
         EXPECT_TRUE(is_finite(picture)) << material;
         EXPECT_GT(brightest(picture), least) << material;

@@ -505,9 +505,8 @@ TEST(Phong, HardCase_BacksAreLitAsFrontsWithEverythingMirrored) {
         variant.highlight = static_cast<Highlight>(i % 2);
         const auto leaning = [&] { return unit_or(up + 0.3f * any.vector(), up); };
         OneTriangle floor(corners_of_floor, {leaning(), leaning(), leaning()}, shining(9), variant);
-        std::array<vec3, 3> normals_below;
-        for (std::size_t k = 0; k < 3; ++k) normals_below[k] = -mirrored(floor.mesh().normals[k]);
-        const OneTriangle below(corners_of_floor, normals_below, shining(9), variant);
+        OneTriangle below = floor;
+        for (vec3& normal : below.mesh().normals) normal = -mirrored(normal);
         Light light = any.light();
         vec3 eye = any.vector();
         eye.y = 1 + std::abs(eye.y);
