@@ -41,6 +41,7 @@ def lesson_pages(lesson: str) -> list[Page]:
 COURSE = [lesson_pages(lesson) for lesson in LESSONS]
 OTHERS = [
     Page("index", "Start", ROOT / "README.md"),
+    Page("side_by_side", "Side by side", ROOT / "docs/side_by_side.md"),
     Page("conventions", "Conventions", ROOT / "docs/conventions.md"),
     Page("assets", "Assets", ROOT / "assets/README.md"),
 ]
@@ -176,7 +177,7 @@ def steps(lesson: int, current: Page) -> str:
 
 def neighbours(lesson: int, current: Page) -> str:
     """Links to the pages before and after, through the whole course."""
-    start, conventions, _ = OTHERS
+    start, _, conventions, _ = OTHERS
     order = [start, *sum(COURSE, []), conventions]
     at = order.index(current)
     before, after = order[at - 1], order[at + 1]

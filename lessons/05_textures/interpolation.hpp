@@ -44,8 +44,7 @@ class PerspectiveWeights {
         // How weights change on the screen: Eq. 2.5 over the area, as in Eq. 2.4.
         const dvec2 a(on_screen.corners[0]), b(on_screen.corners[1]), c(on_screen.corners[2]);
         const double per_area = subpixels / static_cast<double>(on_screen.twice_area);
-        screen_step_x_ = per_area * dvec3(c.y - b.y, a.y - c.y, b.y - a.y);
-        shares_step_x_ = shares_ * screen_step_x_;
+        shares_step_x_ = shares_ * vec3(per_area * dvec3(c.y - b.y, a.y - c.y, b.y - a.y));
         shares_step_y_ = shares_ * vec3(per_area * dvec3(b.x - c.x, c.x - a.x, a.x - b.x));
     }
 
@@ -62,16 +61,13 @@ class PerspectiveWeights {
                 (shares_step_y_ - here * sum(shares_step_y_)) * per_sum};
     }
 
-    /// How fast the weights on the screen change, a pixel to the right.
-    vec3 screen_step_x() const { return screen_step_x_; }
-
   private:
     static float sum(vec3 v) { return v.x + v.y + v.z; }
 
     vec3 nearness_;  ///< 1/w of the piece's corners, times the least w.
     mat3 shares_;    ///< Columns: the weights of the piece's corners, times their nearness.
     bool is_whole_;
-    vec3 screen_step_x_, shares_step_x_, shares_step_y_;
+    vec3 shares_step_x_, shares_step_y_;
 };
 
 }  // namespace rasterbook

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Cheaper ways to map a texture, to be seen with `--mapping`, `--filter`, `--wrap` and `--srgb`,
-/// and measured in docs/accuracy/05_textures.md.
+/// Other ways to map a texture, filter and decode it. Most are seen with `--mapping`, `--filter`,
+/// `--wrap` and `--srgb`; all are measured in docs/accuracy/05_textures.md.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 
 #include "05_textures/texture.hpp"
@@ -15,25 +19,14 @@ namespace rasterbook {
 /// What the codes in a picture are taken for: sRGB, or amounts of light.
 enum class Decoding { srgb, ignored };
 
-constexpr int affine = 0;  ///< For TextureVariant::mapping: no division at all.
-
-struct TextureVariant {
-    int mapping = 1;  ///< Perspective is divided out every so many pixels of a row, or `affine`.
+/// How textures are read, in this lesson and all later ones.
+struct TextureOptions {
     Filter filter = Filter::trilinear;
     Wrap wrap = Wrap::repeat;  ///< Of maps that do not ask for -clamp.
     Decoding decoding = Decoding::srgb;
     bool keep_going = false;  ///< A picture that cannot be read is replaced.
 
     void declare(Knobs& knobs) {
-        knobs.choice("--mapping", mapping,
-                     {{"affine", affine},
-                      {"64", 64},
-                      {"32", 32},
-                      {"16", 16},
-                      {"8", 8},
-                      {"4", 4},
-                      {"perspective", 1}},
-                     "Textures in perspective: not at all, every so many pixels, or everywhere");
         knobs.choice("--filter", filter,
                      {{"nearest", Filter::nearest},
                       {"bilinear", Filter::bilinear},
@@ -49,14 +42,33 @@ struct TextureVariant {
                    "A texture that cannot be read is a warning, and a chessboard takes its place");
     }
 
-    /// A picture's colours as the variant has it.
+    /// A picture's colours as the options have it.
     Image<vec4> decoded(const Image<u8vec4>& picture) const {
         return decoding == Decoding::srgb ? linear_from_srgb8(picture) : plain_numbers(picture);
     }
 };
 
-/// PerspectiveWeights, or what the variant puts in its place: a division only every so many pixels,
-/// and straight lines between.
+constexpr int affine = 0;  ///< For TextureVariant::mapping: no division at all.
+
+struct TextureVariant : TextureOptions {
+    int mapping = 1;  ///< Perspective is divided out every so many pixels of a row, or `affine`.
+
+    void declare(Knobs& knobs) {
+        TextureOptions::declare(knobs);
+        knobs.choice("--mapping", mapping,
+                     {{"affine", affine},
+                      {"64", 64},
+                      {"32", 32},
+                      {"16", 16},
+                      {"8", 8},
+                      {"4", 4},
+                      {"perspective", 1}},
+                     "Textures in perspective: not at all, every so many pixels, or everywhere");
+    }
+};
+
+/// PerspectiveWeights, or what the variant puts in its place: the weights on the screen, or a
+/// division only every so many pixels of a row, and straight lines between.
 ///
 /// @see Abrash, "Michael Abrash's Graphics Programming Black Book", 1997, chapter 63: every 16.
 class MappedWeights {
@@ -64,61 +76,159 @@ class MappedWeights {
     MappedWeights(const TextureVariant& variant, const ScreenTriangle& on_screen,
                   const ClippedTriangle& clipped)
         : mapping_(variant.mapping),
-          on_screen_(on_screen),
-          exact_(on_screen, variant.mapping == affine ? without_perspective(clipped) : clipped) {}
+          whole_from_piece_(clipped[0].weights, clipped[1].weights, clipped[2].weights),
+          is_whole_(whole_from_piece_ == mat3(1)),
+          exact_(on_screen, variant.mapping == affine ? without_perspective(clipped) : clipped),
+          edges_(edges_of(on_screen)),
+          row_edges_(edges_),
+          per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(on_screen.twice_area)))) {
+        if (mapping_ == affine) begin_ = exact_.at({1, 0, 0});  // for the steps: all are the same
+    }
 
-    /// @param pixel           As fill_triangle gives them, all of a triangle's, in its order.
+    /// @param pixel           As fill_triangle gives them, in its order; some may be left out.
     /// @param screen_weights  The same.
     FragmentWeights at(ivec2 pixel, vec3 screen_weights) {
-        return mapping_ <= 1 ? exact_.at(screen_weights) : in_span(pixel, screen_weights);
+        if (mapping_ == 1) return exact_.at(screen_weights);
+        if (mapping_ == affine)
+            return {is_whole_ ? screen_weights : whole_from_piece_ * screen_weights, begin_.step_x,
+                    begin_.step_y};
+        if (pixel.y != row_) begin_row(pixel.y);
+        if (pixel.x >= span_end_) begin_span(pixel.x, screen_weights);
+        const auto from_begin = static_cast<float>(pixel.x - span_begin_);
+        return {begin_.here + from_begin * span_step_, begin_.step_x, begin_.step_y};
     }
 
   private:
-    FragmentWeights in_span(ivec2 pixel, vec3 screen_weights) {
-        if (pixel.y != row_) {
-            row_ = pixel.y, span_end_ = pixel.x;
-            row_end_ = pixel.x + pixels_right_of(pixel);
-        }
-        if (pixel.x >= span_end_) begin_span(pixel.x, screen_weights);
-        FragmentWeights weights = at_begin_;
-        weights.here += static_cast<float>(pixel.x - span_begin_) * span_step_;
-        return weights;
-    }
-
     static ClippedTriangle without_perspective(ClippedTriangle clipped) {
         for (ClippedCorner& corner : clipped) corner.position_clip.w = 1;
         return clipped;
     }
 
-    /// How many more pixels of its row the triangle covers.
-    int pixels_right_of(ivec2 pixel) const {
-        std::int64_t first = 0, last = coordinate_limit;
-        const auto [a, b, c] = on_screen_.corners;
-        const int winding = on_screen_.twice_area > 0 ? 1 : -1;
-        for (const EdgeWalk& edge : {EdgeWalk(b, c, winding, pixel), EdgeWalk(c, a, winding, pixel),
-                                     EdgeWalk(a, b, winding, pixel)})
-            edge.narrow(first, last);
-        return static_cast<int>(last);
+    static std::array<EdgeWalk, 3> edges_of(const ScreenTriangle& triangle) {
+        const auto [a, b, c] = triangle.corners;
+        const int winding = is_front_facing(triangle) ? 1 : -1;
+        return {EdgeWalk(b, c, winding, {0, 0}), EdgeWalk(c, a, winding, {0, 0}),
+                EdgeWalk(a, b, winding, {0, 0})};
     }
 
-    void begin_span(int x, vec3 screen_weights) {
-        const int length = std::clamp(row_end_ - x, 1, mapping_);
-        const auto pixels = static_cast<float>(length);
-        at_begin_ = exact_.at(screen_weights);
-        const vec3 at_end = row_end_ == x
-                                ? at_begin_.here
-                                : exact_.at(screen_weights + pixels * exact_.screen_step_x()).here;
-        span_begin_ = x, span_end_ = x + length;
-        span_step_ = (at_end - at_begin_.here) / pixels;
+    void begin_row(int y) {
+        row_ = y, span_end_ = none;
+        row_edges_ = edges_;
+        std::int64_t first = 0, last = static_cast<std::int64_t>(coordinate_limit);
+        for (EdgeWalk& edge : row_edges_) {
+            edge.value += y * edge.step_y;
+            edge.narrow(first, last);
+        }
+        row_last_ = static_cast<int>(last);
     }
+
+    /// From x to mapping_ pixels further, but not beyond the row's last one: w may be anything
+    /// there.
+    void begin_span(int x, vec3 screen_weights) {
+        // One span begins where another ended, but for pixels that were left out.
+        begin_ = x == span_end_ ? end_ : exact_.at(screen_weights);
+        const int length = std::min(mapping_, row_last_ - x);
+        span_begin_ = x, span_end_ = x + std::max(length, 1);
+        span_step_ = vec3(0);
+        if (length < 1) return;
+        end_ = exact_.at(screen_weights_at(span_end_));
+        span_step_ = (end_.here - begin_.here) / static_cast<float>(length);
+    }
+
+    /// What fill_triangle gives in the row's pixel x, bit for bit.
+    vec3 screen_weights_at(int x) const {
+        const auto share = [&](const EdgeWalk& edge) { return edge.value + x * edge.step_x; };
+        return vec3(share(row_edges_[0]), share(row_edges_[1]), share(row_edges_[2])) * per_area_;
+    }
+
+    static constexpr int none = -1;
 
     int mapping_;
-    const ScreenTriangle& on_screen_;
+    mat3 whole_from_piece_;
+    bool is_whole_;
     PerspectiveWeights exact_;
-    int row_ = -1, row_end_ = 0;  ///< The row's last pixel.
-    int span_begin_ = 0, span_end_ = 0;
-    FragmentWeights at_begin_{};
+    std::array<EdgeWalk, 3> edges_, row_edges_;  ///< From column 0, of row 0 and of this row.
+    float per_area_;
+    int row_ = none, row_last_ = none;  ///< The row, and its last pixel.
+    int span_begin_ = none, span_end_ = none;
+    FragmentWeights begin_{}, end_{};  ///< Of the span; `end_` at span_end_.
     vec3 span_step_{0};
 };
+
+/// A picture whose texels stay the codes of its file: four bytes each, a quarter of TextureLevel's.
+struct CodedLevel {
+    ivec2 size;           ///< In texels, without the border.
+    Image<u8vec4> codes;  ///< With a border, as TextureLevel has.
+};
+
+inline CodedLevel make_coded_level(const Image<u8vec4>& picture, Wrap wrap) {
+    const ivec2 size = picture.size();
+    CodedLevel level{size, Image<u8vec4>(size + 2)};
+    for (int y = 0; y < size.y + 2; ++y)
+        for (int x = 0; x < size.x + 2; ++x) {
+            const ivec2 texel = ivec2(x, y) - 1;
+            level.codes[{x, y}] =
+                picture[wrap == Wrap::repeat ? (texel + size) % size
+                                             : glm::clamp(texel, ivec2(0), size - 1)];
+        }
+    return level;
+}
+
+/// As sample_bilinear of TextureLevel (Eq. 5.6).
+///
+/// @param read  Called as read(u8vec4 code): what the mean is taken of.
+template <std::invocable<u8vec4> Read>
+vec4 sample_bilinear(const CodedLevel& level, vec2 place, Read&& read) {
+    const vec2 from_first_center = place * vec2(level.size) + 0.5f;
+    const ivec2 first(from_first_center);
+    const vec2 share = from_first_center - vec2(first);
+    const u8vec4* const upper = &level.codes[first];
+    const u8vec4* const lower = upper + level.codes.size().x;
+    const vec4 left = read(upper[0]), left_below = read(lower[0]);
+    const vec4 in_upper = left + share.x * (read(upper[1]) - left);
+    const vec4 in_lower = left_below + share.x * (read(lower[1]) - left_below);
+    return in_upper + share.y * (in_lower - in_upper);
+}
+
+/// A code taken for amounts of light.
+inline vec4 undecoded(u8vec4 code) { return vec4(code) / 255.0f; }
+
+/// Colour decoded from sRGB (Eq. 5.11), each channel 0 to 1; opacity is not encoded.
+inline vec4 decoded_exactly(vec4 color) {
+    return {linear_from_srgb(color.r), linear_from_srgb(color.g), linear_from_srgb(color.b),
+            color.a};
+}
+
+/// The 256 amounts of light that a code may stand for, computed once.
+class DecodingTable {
+  public:
+    DecodingTable() {
+        for (std::size_t code = 0; code < linear_.size(); ++code)
+            linear_[code] = linear_from_srgb(static_cast<float>(code) / 255.0f);
+    }
+
+    vec4 operator()(u8vec4 code) const {
+        return {linear_[code.r], linear_[code.g], linear_[code.b],
+                static_cast<float>(code.a) / 255.0f};
+    }
+
+  private:
+    std::array<float, 256> linear_;
+};
+
+/// Each of the four texels is looked up in a table.
+inline vec4 sample_by_table(const CodedLevel& level, vec2 place, const DecodingTable& table) {
+    return sample_bilinear(level, place, table);
+}
+
+/// Each of the four texels is decoded with its power.
+inline vec4 sample_by_power(const CodedLevel& level, vec2 place) {
+    return sample_bilinear(level, place, [](u8vec4 c) { return decoded_exactly(undecoded(c)); });
+}
+
+/// The codes' mean is decoded, which is not the mean of what they stand for.
+inline vec4 sample_then_decode(const CodedLevel& level, vec2 place) {
+    return decoded_exactly(sample_bilinear(level, place, undecoded));
+}
 
 }  // namespace rasterbook

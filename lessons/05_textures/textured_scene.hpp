@@ -35,7 +35,7 @@ using MaterialTextures = std::vector<std::shared_ptr<const Texture>>;
 struct TexturedScene : Scene {
     MaterialTextures diffuse_textures;  ///< map_Kd
 
-    /// @param options  Has a TextureVariant `texture`.
+    /// @param options  Has TextureOptions `texture`.
     /// @throws InputError  When a picture cannot be read: names the statement of the material
     ///                     library that asks for it, and the picture. With texture.keep_going that
     ///                     is a warning, and a placeholder takes the picture's place.
@@ -52,7 +52,7 @@ struct TexturedScene : Scene {
     /// @param decode  Called as decode(Image<u8vec4>); gives an Image<vec4>.
     template <typename Decode>
     MaterialTextures load_textures(TextureMap Material::* map_of, const char* statement,
-                                   const TextureVariant& variant, Decode&& decode) {
+                                   const TextureOptions& texture_options, Decode&& decode) {
         std::map<std::pair<std::filesystem::path, bool>, std::shared_ptr<const Texture>> loaded;
         MaterialTextures textures;
         for (const Material& material : materials) {
@@ -60,8 +60,8 @@ struct TexturedScene : Scene {
             std::shared_ptr<const Texture>& texture = loaded[{map.file, map.clamp}];
             if (!texture && !map.file.empty())
                 texture = std::make_shared<Texture>(
-                    make_texture(decode(read_picture(map, statement, variant.keep_going)),
-                                 map.clamp ? Wrap::clamp : variant.wrap));
+                    make_texture(decode(read_picture(map, statement, texture_options.keep_going)),
+                                 map.clamp ? Wrap::clamp : texture_options.wrap));
             textures.push_back(texture);
         }
         return textures;

@@ -61,7 +61,7 @@ inline float spot_share(float cosine, float cos_full, float cos_none) {
 ///                        its light comes from above.
 inline Incoming incoming_light(const Light& light, vec3 position_world) {
     if (light.kind == LightKind::directional) return {light.direction_world, light.color};
-    const vec3 way = (light.position_world - position_world) / light.half_distance;
+    const vec3 way = (light.position_world - position_world) * (1 / light.half_distance);
     const vec3 toward = unit_or(way, vec3(0, 1, 0));
     float share = attenuation(way);
     if (light.kind == LightKind::spot)

@@ -3,9 +3,11 @@
 /// A scene with lights and all that its materials ask for. Introduced in lesson 06.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,7 +29,7 @@ struct LitScene : TexturedScene {
     MaterialTextures specular_textures;  ///< map_Ks, plain numbers.
     std::vector<Effects> effects;        ///< For each material.
 
-    /// @param options  Has a TextureVariant `texture`; with shading.all_effects, a lit material has
+    /// @param options  Has TextureOptions `texture`; with shading.all_effects, a lit material has
     /// all
     ///                 effects: a white texture where it has none, a black highlight where it has
     ///                 none.
@@ -63,6 +65,7 @@ struct TriangleSurface {
     Effects effects;
     const Texture *texture, *specular_texture;  ///< Null where the material names none.
     std::array<vec2, 3> uvs, specular_uvs;
+    SurfaceColor own_color;
 
     TriangleSurface(const LitScene& scene, const Mesh& mesh, const Triangle& triangle)
         : material(scene.materials[triangle.material]),
@@ -70,13 +73,14 @@ struct TriangleSurface {
           texture(scene.diffuse_textures[triangle.material].get()),
           specular_texture(scene.specular_textures[triangle.material].get()),
           uvs(uvs_of(mesh, triangle, material.diffuse_map)),
-          specular_uvs(uvs_of(mesh, triangle, material.specular_map)) {}
+          specular_uvs(uvs_of(mesh, triangle, material.specular_map)),
+          own_color(surface_color(material)) {}
 
     /// The colours of a fragment, of which textures are read as the effects say.
     template <typename CounterPolicy>
     SurfaceColor color(const FragmentWeights& weights, Filter filter,
                        CounterPolicy& counters) const {
-        SurfaceColor color = surface_color(material);
+        SurfaceColor color = own_color;
         if (effects.diffuse_map) {
             counters.add(Counter::texture_samples);
             color.tint(vec3(sample(*texture, filter, fragment_uv(uvs, weights))));
@@ -104,7 +108,7 @@ inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds) {
     Light light{key, vec3(1.0f, 0.92f, 0.8f), toward_key};
     if (key != LightKind::directional) {
         light.position_world = center + 0.9f * radius * toward_key;
-        light.half_distance = radius;
+        light.half_distance = std::max(radius, std::numeric_limits<float>::min());
         light.color *= 2.4f;
     }
     if (key == LightKind::spot) {

@@ -18,7 +18,7 @@ namespace {
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
-    TextureVariant texture;
+    TextureOptions texture;
     ShadingVariant shading;
 
     Options() { model = "scene.obj"; }
@@ -60,14 +60,14 @@ Image<vec3> render(const Options& options, const LitScene& scene, CounterPolicy&
                     continue;
                 }
                 const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                MappedWeights mapped(options.texture, on_screen, clipped);
+                const PerspectiveWeights perspective(on_screen, clipped);
                 const TriangleLight light(options.shading, lights, camera.position_world, mesh,
                                           triangle, is_back, surface);
                 fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
                     counters.add(Counter::fragments_tested);
                     if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
                     counters.add(Counter::fragments_shaded);
-                    const FragmentWeights weights = mapped.at(pixel, screen_weights);
+                    const FragmentWeights weights = perspective.at(screen_weights);
                     const SurfaceColor own =
                         surface.color(weights, options.texture.filter, counters);
                     color[pixel] = surface.effects.light

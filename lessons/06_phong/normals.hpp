@@ -26,16 +26,23 @@ inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle, vec3 fallbac
     return vec3(normalize_or(glm::cross(b - a, c - a), dvec3(fallback)));
 }
 
-/// The angle between the two sides at a triangle's corner, 0 to pi.
+/// The angle between the two sides at a triangle's corner, 0 to pi; 0 for a triangle of no area.
 inline float corner_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t corner) {
     const dvec3 here = mesh.positions[triangle.corners[corner].position];
     const dvec3 u = dvec3(mesh.positions[triangle.corners[(corner + 1) % 3].position]) - here;
     const dvec3 v = dvec3(mesh.positions[triangle.corners[(corner + 2) % 3].position]) - here;
-    return static_cast<float>(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
+    const double twice_area = glm::length(glm::cross(u, v));
+    return twice_area > 0 ? static_cast<float>(std::atan2(twice_area, glm::dot(u, v))) : 0.0f;
 }
 
 /// Faces that meet at a greater angle than 60 degrees meet in a sharp edge.
 constexpr float cos_sharp = 0.5f;
+
+/// One of the faces that meet in a position.
+struct FaceAround {
+    vec3 normal;          ///< Length 1.
+    float angle_radians;  ///< Between the face's sides there.
+};
 
 /// The normal of a triangle's corner, before it is scaled, from the faces around it (Eq. 6.9).
 class SmoothNormals {
@@ -63,10 +70,6 @@ class SmoothNormals {
     }
 
   private:
-    struct FaceAround {
-        vec3 normal;
-        float angle_radians;
-    };
     std::vector<std::size_t>
         begin_;  ///< Of each position's faces in around_, and one more: the end.
     std::vector<FaceAround> around_;

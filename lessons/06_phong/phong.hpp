@@ -48,7 +48,7 @@ struct ReflectedLight {
 struct SurfacePoint {
     vec3 position_world;
     vec3 normal_world;  ///< Length 1.
-    vec3 toward_eye;    ///< Length 1.
+    vec3 toward_eye;    ///< Length 1; of no meaning where there is no highlight.
 };
 
 /// The light of all lights, evenly reflected (Eq. 6.1) and as highlights (Eq. 6.3). None of it

@@ -111,6 +111,9 @@ inline vec3 unit_approximate(vec3 v) {
     return v * (guess * (1.5f - 0.5f * squared * guess * guess));
 }
 
+/// A highlight below 2 to the power of minus this is none: no power is computed for it.
+constexpr float unseen_bits = 26;
+
 /// The light on a triangle: computed for each fragment, or before, for its corners or once.
 class TriangleLight {
   public:
@@ -123,7 +126,8 @@ class TriangleLight {
           lights_(lights),
           eye_world_(eye_world),
           has_highlight_(surface.effects.highlight),
-          shininess_(surface.material.shininess) {
+          shininess_(surface.material.shininess),
+          least_cosine_(std::exp2(-unseen_bits / shininess_)) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Corner corner = triangle.corners[i];
             positions_[i] = mesh.positions[corner.position];
@@ -163,10 +167,12 @@ class TriangleLight {
     }
 
     ReflectedLight reflected(vec3 position, vec3 normal) const {
-        const SurfacePoint point{position, normal, unit_or(eye_world_ - position, normal)};
+        const vec3 toward_eye = has_highlight_ ? unit_or(eye_world_ - position, normal) : vec3(0);
+        const SurfacePoint point{position, normal, toward_eye};
         return reflected_light(
-            lights_, point, has_highlight_, variant_.highlight,
-            [&](float cosine) { return power_as(variant_.power, cosine, shininess_); });
+            lights_, point, has_highlight_, variant_.highlight, [&](float cosine) {
+                return cosine < least_cosine_ ? 0.0f : power_as(variant_.power, cosine, shininess_);
+            });
     }
 
     const ShadingVariant& variant_;
@@ -174,6 +180,7 @@ class TriangleLight {
     vec3 eye_world_;
     bool has_highlight_;
     float shininess_;
+    float least_cosine_;  ///< Of a highlight that can be seen.
     std::array<vec3, 3> positions_, normals_;
     std::array<ReflectedLight, 3> at_corners_;
 };

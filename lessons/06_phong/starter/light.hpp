@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Where light comes from, and how much of it arrives. Introduced in lesson 06;
+/// derivation: docs/derivations/06_phong.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/math/numerics.hpp"
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+/// v scaled to length 1, or `fallback` when it has no direction.
+///
+/// @return  Each component within 3 ulp of its exact value.
+inline vec3 unit_or(vec3 v, vec3 fallback) {
+    const float squared = glm::dot(v, v);
+    constexpr float least = 1e-30f, most = 1e30f;  // beyond, squares lose digits or overflow
+    if (squared > least && squared < most) return v * (1 / std::sqrt(squared));
+    return normalize_or(v, fallback);
+}
+
+/// As from the sun, from a lamp, or from a lamp with a shade.
+enum class LightKind { directional, point, spot };
+
+struct Light {
+    LightKind kind;
+    vec3 color;               ///< Linear; what arrives from a directional light, or at the lamp.
+    vec3 direction_world;     ///< Length 1: towards a directional light; where a spot shines.
+    vec3 position_world{0};   ///< Of a point light or spot.
+    float half_distance = 1;  ///< Where half of a lamp's light arrives, > 0; world space.
+    float cos_full = 1;       ///< Cosine of the angle up to which a spot shines fully.
+    float cos_none = 0;       ///< Of the angle from which on it does not shine, < cos_full.
+};
+
+/// The light that arrives at a point.
+struct Incoming {
+    vec3 toward;  ///< Direction to the light, length 1.
+    vec3 color;   ///< Linear.
+};
+
+/// The share of a lamp's light that arrives over a distance: 1 at the lamp (Eq. 6.6).
+///
+/// @param in_half_distances  The way to the lamp, in units of the lamp's half_distance.
+inline float attenuation(vec3 in_half_distances) {
+    // TODO: Eq. 6.6.
+    return 0;
+}
+
+/// The share of a spot's light that it sends into a direction: 0 to 1 (Eq. 6.7).
+///
+/// @param cosine  Of the angle to where it shines.
+inline float spot_share(float cosine, float cos_full, float cos_none) {
+    // TODO: Eq. 6.7.
+    return 0;
+}
+
+/// @param position_world  Where a lamp stands at this very point, its light comes from above.
+inline Incoming incoming_light(const Light& light, vec3 position_world) {
+    // TODO: a directional light as it is; of a lamp the way in half distances, its direction, and
+    // the share by Eq. 6.6; of a spot also Eq. 6.7.
+    return {vec3(0, 1, 0), vec3(0)};
+}
+
+}  // namespace rasterbook

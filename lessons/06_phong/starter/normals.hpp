@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Normals for models that come without. Introduced in lesson 06;
+/// derivation: docs/derivations/06_phong.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/math/numerics.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// The direction out of a triangle's front, length 1; up for a triangle of no area.
+inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle) {
+    // TODO: the cross product of two sides, in double, since products of floats may overflow or
+    // vanish.
+    return {0, 1, 0};
+}
+
+/// The angle between the two sides at a triangle's corner, 0 to pi; 0 for a triangle of no area.
+inline float corner_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t corner) {
+    // TODO: what the text says behind Eq. 6.9; in double, too.
+    return 0;
+}
+
+/// Faces that meet at a greater angle than 60 degrees meet in a sharp edge.
+constexpr float cos_sharp = 0.5f;
+
+/// One of the faces that meet in a position.
+struct FaceAround {
+    vec3 normal;          ///< Length 1.
+    float angle_radians;  ///< Between the face's sides there.
+};
+
+/// The normal of a triangle's corner, before it is scaled, from the faces around it (Eq. 6.9).
+class SmoothNormals {
+  public:
+    explicit SmoothNormals(const Mesh& mesh) : begin_(mesh.positions.size() + 1, 0) {
+        for (const Triangle& triangle : mesh.triangles)
+            for (const Corner& corner : triangle.corners) ++begin_[corner.position + 1];
+        for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+        around_.resize(begin_.back());
+        std::vector<std::size_t> next = begin_;
+        for (const Triangle& triangle : mesh.triangles)
+            for (std::size_t i = 0; i < 3; ++i)
+                around_[next[triangle.corners[i].position]++] = {
+                    face_normal(mesh, triangle), corner_angle_radians(mesh, triangle, i)};
+    }
+
+    /// The mean of the normals of the faces around a position, weighted by their angles there;
+    /// faces beyond a sharp edge do not count.
+    vec3 at(std::uint32_t position, vec3 normal_of_face) const {
+        // TODO: Eq. 6.9. The faces around the position are around_[i], where i runs from
+        // begin_[position] up to, and without, begin_[position + 1].
+        return normal_of_face;
+    }
+
+  private:
+    std::vector<std::size_t>
+        begin_;  ///< Of each position's faces in around_, and one more: the end.
+    std::vector<FaceAround> around_;
+};
+
+/// Gives each corner a normal of length 1: the one of the file, or else the one that the faces
+/// around it have. Where there is no direction, it is that of the face.
+///
+/// @see Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", 1998
+inline void complete_normals(Mesh& mesh) {
+    const auto misses_one = [](const Triangle& triangle) {
+        return std::ranges::any_of(triangle.corners,
+                                   [](const Corner& corner) { return corner.normal == no_index; });
+    };
+    std::optional<SmoothNormals> smooth;
+    if (std::ranges::any_of(mesh.triangles, misses_one)) smooth.emplace(mesh);
+
+    std::vector<vec3> normals;  // one for each corner of each triangle
+    normals.reserve(3 * mesh.triangles.size());
+    for (Triangle& triangle : mesh.triangles) {
+        const vec3 of_face = face_normal(mesh, triangle);
+        for (Corner& corner : triangle.corners) {
+            // TODO: the file's normal, mesh.normals[corner.normal], if the corner has one; else the
+            // one that `smooth` has for it.
+            const vec3 normal = of_face;
+            corner.normal = static_cast<std::uint32_t>(normals.size());
+            normals.push_back(normalize_or(normal, of_face));
+        }
+    }
+    mesh.normals = std::move(normals);
+}
+
+}  // namespace rasterbook

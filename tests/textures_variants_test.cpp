@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+// The variants of lesson 05 that docs/accuracy/05_textures.md measures: each keeps what its comment
+// says.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "05_textures/texture_variants.hpp"
+#include "common/image_io.hpp"
+#include "support/lesson_process.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr ivec2 size(256, 128);
+constexpr float ulp = 0x1p-24f;  // of a number between 1/2 and 1
+/// Begin, step and sum are rounded, and the step's rounding counts once for each of 64 pixels.
+constexpr float in_span_tolerance = 64 * ulp;
+
+/// A triangle in clip space and on the screen.
+struct Case {
+    ClippedTriangle clipped;
+    ScreenTriangle on_screen;
+
+    explicit Case(const ClippedTriangle& triangle) : clipped(triangle) {
+        const auto place = [&](std::size_t i) {
+            return screen_from_clip(clipped[i].position_clip, size);
+        };
+        on_screen = snap_triangle(place(0), place(1), place(2));
+    }
+};
+
+ClippedTriangle whole(const std::array<vec4, 3>& corners) {
+    return {{{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
+}
+
+/// Triangles of both windings, with w from 1 to `greatest_w`; every second one a piece of another.
+std::vector<Case> random_cases(int count, float greatest_w) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> ndc(-1, 1), share(0, 1), log_w(0, std::log(greatest_w));
+    std::vector<Case> cases;
+    while (static_cast<int>(cases.size()) < count) {
+        ClippedTriangle triangle = whole({});
+        for (ClippedCorner& corner : triangle) {
+            corner.position_clip = vec4(ndc(random), ndc(random), 0, 1) * std::exp(log_w(random));
+            if (cases.size() % 2 == 0) continue;
+            corner.weights = {share(random), share(random), share(random)};
+            corner.weights /= corner.weights.x + corner.weights.y + corner.weights.z;
+        }
+        cases.emplace_back(triangle);
+    }
+    return cases;
+}
+
+/// A fragment as fill_triangle gives it.
+struct Fragment {
+    ivec2 pixel;
+    vec3 screen_weights;
+};
+
+/// Row by row.
+std::vector<std::vector<Fragment>> rows_of(const ScreenTriangle& triangle) {
+    std::vector<std::vector<Fragment>> rows;
+    fill_triangle(triangle, size, [&](ivec2 pixel, vec3 screen_weights) {
+        if (rows.empty() || rows.back().front().pixel.y != pixel.y) rows.emplace_back();
+        rows.back().push_back({pixel, screen_weights});
+    });
+    return rows;
+}
+
+void expect_same(const FragmentWeights& a, const FragmentWeights& b) {
+    EXPECT_EQ(a.here, b.here);
+    EXPECT_EQ(a.step_x, b.step_x);
+    EXPECT_EQ(a.step_y, b.step_y);
+}
+
+float greatest(vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+constexpr int spans[] = {64, 32, 16, 8, 4};
+
+/// Draws a case's rows with a division every so many pixels, and checks each fragment: spans begin
+/// with the exact weights and are straight from there to the exact ones at their end.
+///
+/// @param is_left_out  Called as is_left_out() for each pixel: whether something hides it.
+/// @return             How many pixels lay within spans.
+template <typename IsLeftOut>
+int expect_straight_spans(const Case& c, int every, IsLeftOut&& is_left_out) {
+    const PerspectiveWeights exact(c.on_screen, c.clipped);
+    MappedWeights mapped({{}, every}, c.on_screen, c.clipped);
+    const auto length = static_cast<std::size_t>(every);
+    int within = 0;
+    for (const std::vector<Fragment>& row : rows_of(c.on_screen)) {
+        std::size_t begin = 0, end = 0;  // of a span, the first pixel and the one behind it
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (is_left_out()) continue;
+            const FragmentWeights here = mapped.at(row[i].pixel, row[i].screen_weights);
+            if (i >= end) {
+                begin = i, end = std::max(std::min(i + length, row.size() - 1), i + 1);
+                expect_same(here, exact.at(row[i].screen_weights));
+                continue;
+            }
+            const vec3 at_begin = exact.at(row[begin].screen_weights).here;
+            const vec3 at_end = exact.at(row[end].screen_weights).here;
+            const float share = static_cast<float>(i - begin) / static_cast<float>(end - begin);
+            const vec3 between = at_begin + share * (at_end - at_begin);
+            EXPECT_LT(greatest(here.here - between), in_span_tolerance)
+                << every << ": pixel " << i << " of " << row.size();
+            ++within;
+        }
+    }
+    return within;
+}
+
+/// Codes without order, as hard for a filter as can be.
+Image<u8vec4> random_picture(ivec2 picture_size) {
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> code(0, 255);
+    Image<u8vec4> picture(picture_size);
+    for (u8vec4& texel : picture.pixels())
+        texel = {code(random), code(random), code(random), code(random)};
+    return picture;
+}
+
+Image<u8vec4> picture(std::vector<std::string> arguments) {
+    const std::string out = (fresh_folder("texture_knobs") / "picture.bmp").string();
+    arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
+    const ProcessResult run = run_program("05_textures", arguments);
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    return read_image(out);
+}
+
+/// The sum of what all codes differ by.
+long difference(const Image<u8vec4>& a, const Image<u8vec4>& b) {
+    long sum = 0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            sum += std::abs(a.pixels()[i][channel] - b.pixels()[i][channel]);
+    return sum;
+}
+
+}  // namespace
+
+TEST(TextureVariants, PerspectiveIsPerspectiveWeights) {
+    for (const Case& c : random_cases(100, 50)) {
+        MappedWeights mapped({}, c.on_screen, c.clipped);
+        const PerspectiveWeights exact(c.on_screen, c.clipped);
+        fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+            expect_same(mapped.at(pixel, screen_weights), exact.at(screen_weights));
+        });
+    }
+}
+
+TEST(TextureVariants, AffineIsWhatTheScreenHas) {
+    for (const Case& c : random_cases(100, 50)) {
+        MappedWeights mapped({{}, affine}, c.on_screen, c.clipped);
+        const mat3 weights(c.clipped[0].weights, c.clipped[1].weights, c.clipped[2].weights);
+        for (const auto& row : rows_of(c.on_screen))
+            for (std::size_t i = 0; i < row.size(); ++i) {
+                const FragmentWeights here = mapped.at(row[i].pixel, row[i].screen_weights);
+                ASSERT_EQ(here.here, weights * row[i].screen_weights);
+                if (weights == mat3(1)) { ASSERT_EQ(here.here, row[i].screen_weights); }
+                if (i == 0) continue;
+                // Screen weights are within 2 ulp each; so is their difference, twice.
+                const vec3 step =
+                    here.here - mapped.at(row[i - 1].pixel, row[i - 1].screen_weights).here;
+                ASSERT_LT(greatest(here.step_x - step), 8 * ulp);
+            }
+    }
+}
+
+TEST(TextureVariants, SpansAreExactAtTheirEndsAndStraightBetween) {
+    int within = 0;
+    for (const Case& c : random_cases(200, 50))
+        for (const int every : spans) {
+            within += expect_straight_spans(c, every, [] { return false; });
+            ASSERT_FALSE(HasFailure());
+        }
+    EXPECT_GT(within, 100'000);
+}
+
+TEST(TextureVariants, SpansBeginWherePixelsWereLeftOut) {
+    std::mt19937 random(1);
+    std::bernoulli_distribution is_left_out(0.9);  // often more of them than a span is long
+    int within = 0;
+    for (const Case& c : random_cases(200, 50))
+        for (const int every : spans) {
+            within += expect_straight_spans(c, every, [&] { return is_left_out(random); });
+            ASSERT_FALSE(HasFailure());
+        }
+    EXPECT_GT(within, 10'000);
+}
+
+TEST(TextureVariants, WeightsStaySharesHoweverDeepATriangleIs) {
+    for (const float greatest_w : {1e3f, 1e12f})
+        for (const Case& c : random_cases(100, greatest_w))
+            for (const int every : spans) {
+                MappedWeights mapped({{}, every}, c.on_screen, c.clipped);
+                fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+                    const vec3 here = mapped.at(pixel, screen_weights).here;
+                    ASSERT_GE(std::min({here.x, here.y, here.z}), -in_span_tolerance);
+                    ASSERT_NEAR(here.x + here.y + here.z, 1, in_span_tolerance);
+                });
+            }
+}
+
+TEST(TextureVariants, AffineIsWrongByNineElevenths) {
+    // Where w runs from 1 to 100, u = x / (100 - 99x), and x - u is greatest at x = 10/11.
+    const Case c(whole({vec4(-1, -1, 0, 1), vec4(100, -100, 0, 100), vec4(-1, 1, 0, 1)}));
+    std::vector<float> worst;
+    for (const int mapping : {affine, 64, 32, 16, 8, 4, 1}) {
+        MappedWeights mapped({{}, mapping}, c.on_screen, c.clipped);
+        worst.push_back(0);
+        fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+            const float x = (static_cast<float>(pixel.x) + 0.5f) / static_cast<float>(size.x);
+            const float u = mapped.at(pixel, screen_weights).here.y;
+            worst.back() = std::max(worst.back(), std::abs(u - x / (100 - 99 * x)));
+        });
+    }
+    EXPECT_NEAR(worst[0], 9.0f / 11, 1e-3f);  // no centre lies at 10/11
+    for (std::size_t i = 1; i < worst.size(); ++i) EXPECT_LT(worst[i], 0.9f * worst[i - 1]);
+    EXPECT_LT(worst.back(), 32 * ulp);  // of x and u
+}
+
+TEST(TextureVariants, BytesDecodedWhenReadGiveWhatDecodingAtOnceGives) {
+    const DecodingTable table;
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
+        const Image<u8vec4> codes = random_picture({7, 5});
+        const CodedLevel coded = make_coded_level(codes, wrap);
+        const TextureLevel decoded = with_border(linear_from_srgb8(codes), wrap);
+        for (int y = 0; y <= 64; ++y)
+            for (int x = 0; x <= 64; ++x) {
+                const vec2 place = vec2(x, y) / 64.0f;
+                const vec4 expected = sample_bilinear(decoded, place);
+                ASSERT_EQ(sample_by_table(coded, place, table), expected);
+                ASSERT_EQ(sample_by_power(coded, place), expected);
+            }
+    }
+}
+
+TEST(TextureVariants, DecodingTheMeanIsExactInCentresAndTooDarkBetween) {
+    constexpr float tolerance = 8 * ulp;  // of a power of 2.4 and its argument
+    const Image<u8vec4> codes = random_picture({7, 5});
+    const CodedLevel coded = make_coded_level(codes, Wrap::repeat);
+    const TextureLevel decoded = with_border(linear_from_srgb8(codes), Wrap::repeat);
+    const Image<vec4> ignored = TextureOptions{.decoding = Decoding::ignored}.decoded(codes);
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 7; ++x) {
+            const vec2 center = (vec2(x, y) + 0.5f) / vec2(7, 5);
+            const vec4 right = sample_bilinear(decoded, center);
+            // From a centre to its right neighbour codes differ by 1 at most; the place's rounding
+            // moves by 4 ulp of 7 texels, and the decoding's slope is 2.3 at most.
+            ASSERT_LT(glm::length(sample_then_decode(coded, center) - right), 128 * ulp);
+            ASSERT_EQ((ignored[{x, y}]), undecoded(codes[{x, y}]));
+        }
+    for (int y = 0; y <= 64; ++y)
+        for (int x = 0; x <= 64; ++x) {
+            const vec2 place = vec2(x, y) / 64.0f;
+            const vec4 mean = sample_bilinear(decoded, place);
+            const vec4 dark = sample_then_decode(coded, place);
+            for (int channel = 0; channel < 3; ++channel)
+                ASSERT_LE(dark[channel], mean[channel] + tolerance);
+            ASSERT_EQ(dark.a, mean.a);  // opacity is light's share in either case
+        }
+    // Black and white: the mean code 0.5 stands for ((0.5 + 0.055) / 1.055)^2.4.
+    Image<u8vec4> two({2, 1}, u8vec4(255));
+    two[{0, 0}] = {0, 0, 0, 255};
+    const vec4 gray = sample_then_decode(make_coded_level(two, Wrap::clamp), {0.5f, 0.5f});
+    EXPECT_NEAR(gray.r, 0.21404f, 1e-5f);
+}
+
+TEST(TextureVariants, EveryKnobDraws) {
+    const Image<u8vec4> usual = picture({});
+    EXPECT_EQ(difference(usual, picture({"--mapping", "perspective", "--filter", "trilinear",
+                                         "--wrap", "repeat", "--srgb", "decoded"})),
+              0);
+    for (const std::string filter : {"nearest", "bilinear"})
+        EXPECT_GT(difference(usual, picture({"--filter", filter})), 10'000) << filter;
+    EXPECT_GT(difference(picture({"--filter", "nearest"}), picture({"--filter", "bilinear"})),
+              10'000);
+    for (const std::string wrap : {"mirror", "clamp"})
+        EXPECT_GT(difference(usual, picture({"--wrap", wrap})), 10'000) << wrap;
+    EXPECT_GT(difference(picture({"--wrap", "mirror"}), picture({"--wrap", "clamp"})), 10'000);
+    EXPECT_GT(difference(usual, picture({"--srgb", "ignored"})), 100'000);
+
+    // The fewer divisions, the farther from the exact picture.
+    const std::string model = std::string(RASTERBOOK_ASSETS) + "/models/horizon.obj";
+    const Image<u8vec4> exact = picture({"--model", model});
+    std::vector<long> differences;
+    for (const std::string mapping : {"affine", "64", "32", "16", "8", "4", "perspective"})
+        differences.push_back(difference(exact, picture({"--model", model, "--mapping", mapping})));
+    EXPECT_TRUE(std::is_sorted(differences.rbegin(), differences.rend()))
+        << testing::PrintToString(differences);
+    EXPECT_EQ(std::adjacent_find(differences.begin(), differences.end()), differences.end());
+    EXPECT_EQ(differences.back(), 0);
+}
