@@ -63,12 +63,13 @@ std::pair<real, real> exact_spot_share(real t, real of_t) {
 
 ExactIncoming exact_incoming(const Light& light, vec3 position) {
     if (light.kind == LightKind::directional) return {lvec3(light.direction_world), lvec3(0), 1, 0};
-    // A difference and a quotient; scaling adds the length's 2 u, then 4.5 as in unit_or.
+    // A difference and a product; scaling adds the length's 2 u, then 4.5 as in unit_or. What the
+    // factor itself is off turns nothing.
     const lvec3 way = (lvec3(light.position_world) - lvec3(position)) / real{light.half_distance};
     const lvec3 toward = unit(way), of_toward = (2 + 2 + 4.5L) * u * sizes(toward);
-    // The square: twice 2 u, and 3 of its sum. Then the sum with 1, and the quotient.
+    // The square: twice 3 u, and 3 of its sum. Then the sum with 1, and the quotient.
     const real square = glm::dot(way, way), share = 1 / (1 + square);
-    const real of_share = u * share * (2 + 7 * square * share);
+    const real of_share = u * share * (2 + 9 * square * share);
     if (light.kind == LightKind::point) return {toward, of_toward, share, of_share};
     const lvec3 shines = light.direction_world;
     const real width = real{light.cos_full} - light.cos_none;

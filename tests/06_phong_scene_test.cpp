@@ -140,6 +140,8 @@ constexpr std::array all_shadings = {Shading::flat, Shading::gouraud, Shading::p
 
 TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
     look_up("Eq. 6.5");
+    const std::string map_of_highlights =
+        "Ks 1 1 1\nmap_Ks " + (models / "../textures/brick_specular.png").string() + "\n";
     struct Row {
         Scene scene;
         bool has_light, has_highlights, has_textures;
@@ -152,6 +154,10 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
           Row{square_of("illum 1\nKs 1 1 1\n"), true, false, false},
           Row{square_of("illum 2\nKs 1 1 1\n"), true, true, false},
           Row{square_of("illum 2\nKs 0 0 0\n"), true, false, false},
+          Row{square_of("illum 0\n" + map_of_highlights), false, false, false},
+          Row{square_of("illum 1\n" + map_of_highlights), true, false, false},
+          Row{square_of("illum 2\n" + map_of_highlights), true, true, true},
+          Row{square_of(map_of_highlights + "Ks 0 0 0\n"), true, false, false},
           Row{square_of("illum 2\nKs 0 0 1e-30\n"), true, true, false}}) {
         lesson::Options options = small_picture();
         const LitScene as_called_for(scene, options);

@@ -34,9 +34,10 @@ class Mix {
     unsigned below(unsigned count) { return static_cast<unsigned>(random_()) % count; }
     /// Any number, finite or not.
     float any() {
-        const float sign = random_() & 1 ? 1.0f : -1.0f;
-        if (random_() & 1) return sign * special[below(std::size(special))];
-        return 2 * sign * static_cast<float>(random_() >> 8) * 0x1p-24f;
+        const auto bits = static_cast<unsigned>(random_());
+        const float sign = bits & 1 ? 1.0f : -1.0f;
+        if (bits & 2) return sign * special[(bits >> 2) % std::size(special)];
+        return 2 * sign * static_cast<float>(bits >> 8) * 0x1p-24f;
     }
     float finite() {
         for (;;)
@@ -62,7 +63,7 @@ class Mix {
                 color,
                 toward,
                 where,
-                std::max(amount(), tiny),
+                std::max(amount(), FLT_MIN),
                 cos_full,
                 std::max(-1.0f, cos_full - std::max(up_to(1), FLT_EPSILON))};
     }

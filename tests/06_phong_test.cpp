@@ -376,6 +376,31 @@ TEST(Phong, Eq6_8_LightOnceAFaceAtItsCornersOrAtEachPixel) {
     EXPECT_NEAR(at_middle(Shading::flat).specular.x, 1, 90 * 4 * FLT_EPSILON);
 }
 
+TEST(Phong, Eq6_8_GouraudMixesTheLightOfTheCorners) {
+    Directions any(10);
+    for (int i = 0; i < 1000; ++i) {
+        const std::array<vec3, 3> normals = {any.direction(), any.direction(), any.direction()};
+        ShadingVariant gouraud;
+        gouraud.shading = Shading::gouraud;
+        const OneTriangle mixed(corners_of_floor, normals, shining(5), gouraud);
+        const OneTriangle exact(corners_of_floor, normals, shining(5));
+        const std::array lights = {any.light(), any.light()};
+        const vec3 eye = 3.0f * any.vector(), weights(0.5f, 0.375f, 0.125f);
+        ReflectedLight sum;
+        for (int k = 0; k < 3; ++k) {
+            const ReflectedLight at_corner = exact.light_at(mat3(1)[k], lights, eye);
+            sum.diffuse += weights[k] * at_corner.diffuse;
+            sum.specular += weights[k] * at_corner.specular;
+        }
+        // Normals are scaled once more at each pixel, which may round; to the power of 5. The eye
+        // sees the corner from the same place.
+        constexpr float tolerance = 2 * 5 * 4 * FLT_EPSILON;
+        const ReflectedLight actual = mixed.light_at(weights, lights, eye);
+        ASSERT_LE(difference(actual.diffuse, sum.diffuse), tolerance) << "seed 10, case " << i;
+        ASSERT_LE(difference(actual.specular, sum.specular), tolerance) << "seed 10, case " << i;
+    }
+}
+
 TEST(Phong, HardCase_LightAlongTheSurfaceOrFromBehind) {
     look_up("Eq. 6.3");
     // The eye is where the mirror sends the light: were it not from behind, it would shine.

@@ -30,7 +30,7 @@ struct Light {
     vec3 color;               ///< Linear; what arrives from a directional light, or at the lamp.
     vec3 direction_world;     ///< Length 1: towards a directional light; where a spot shines.
     vec3 position_world{0};   ///< Of a point light or spot.
-    float half_distance = 1;  ///< Where half of a lamp's light arrives, > 0; world space.
+    float half_distance = 1;  ///< Where half of a lamp's light arrives, >= FLT_MIN; world space.
     float cos_full = 1;       ///< Cosine of the angle up to which a spot shines fully.
     float cos_none = 0;       ///< Of the angle from which on it does not shine, < cos_full.
 };

@@ -17,13 +17,13 @@
 
 namespace rasterbook {
 
-/// The direction out of a triangle's front, length 1; `fallback` for a triangle of no area.
-inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle, vec3 fallback = vec3(0, 1, 0)) {
+/// The direction out of a triangle's front, length 1; up for a triangle of no area.
+inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle) {
     // double: products of floats may overflow or vanish
     const dvec3 a = mesh.positions[triangle.corners[0].position];
     const dvec3 b = mesh.positions[triangle.corners[1].position];
     const dvec3 c = mesh.positions[triangle.corners[2].position];
-    return vec3(normalize_or(glm::cross(b - a, c - a), dvec3(fallback)));
+    return vec3(normalize_or(glm::cross(b - a, c - a), dvec3(0, 1, 0)));
 }
 
 /// The angle between the two sides at a triangle's corner, 0 to pi; 0 for a triangle of no area.
@@ -56,11 +56,11 @@ class SmoothNormals {
         for (const Triangle& triangle : mesh.triangles)
             for (std::size_t i = 0; i < 3; ++i)
                 around_[next[triangle.corners[i].position]++] = {
-                    face_normal(mesh, triangle, vec3(0)), corner_angle_radians(mesh, triangle, i)};
+                    face_normal(mesh, triangle), corner_angle_radians(mesh, triangle, i)};
     }
 
     /// The mean of the normals of the faces around a position, weighted by their angles there;
-    /// faces beyond a sharp edge do not count, nor do triangles of no area.
+    /// faces beyond a sharp edge do not count.
     vec3 at(std::uint32_t position, vec3 normal_of_face) const {
         vec3 sum(0);
         for (std::size_t i = begin_[position]; i < begin_[position + 1]; ++i)

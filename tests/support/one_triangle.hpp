@@ -53,7 +53,7 @@ class OneTriangle {
 
   private:
     struct Options {
-        TextureVariant texture;
+        TextureOptions texture;
         ShadingVariant shading;
     };
 
