@@ -160,6 +160,7 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
           Row{square_of(map_of_highlights + "Ks 0 0 0\n"), true, false, false},
           Row{square_of("illum 2\nKs 0 0 1e-30\n"), true, true, false}}) {
         lesson::Options options = small_picture();
+        options.size /= 2;
         const LitScene as_called_for(scene, options);
         options.shading.all_effects = true;
         const LitScene with_all(scene, options);

@@ -25,6 +25,10 @@ struct FragmentWeights {
     vec3 step_y;  ///< The same a pixel down.
 };
 
+/// A corner whose w is more than 2^80 times the least one counts as that far away: on the side
+/// between two such corners all shares would become 0, and there is a division by their sum.
+constexpr float least_nearness = 0x1p-80f;
+
 /// From weights on the screen, of a clipped piece's corners, to weights on the surface, of the
 /// whole triangle's.
 class PerspectiveWeights {
@@ -35,7 +39,9 @@ class PerspectiveWeights {
         // Only the proportions of the w count; those to the least one do not overflow.
         const float least_w = std::min(
             {clipped[0].position_clip.w, clipped[1].position_clip.w, clipped[2].position_clip.w});
-        const auto nearness = [&](std::size_t i) { return least_w / clipped[i].position_clip.w; };
+        const auto nearness = [&](std::size_t i) {
+            return std::max(least_w / clipped[i].position_clip.w, least_nearness);
+        };
         nearness_ = {nearness(0), nearness(1), nearness(2)};
         const mat3 weights(clipped[0].weights, clipped[1].weights, clipped[2].weights);
         is_whole_ = weights == mat3(1);

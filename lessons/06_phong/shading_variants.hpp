@@ -67,9 +67,11 @@ struct ShadingVariant {
     }
 };
 
-/// x * x * ... as often as `exponent` says, rounded to a whole number of at least 1.
+/// x * x * ... as often as `exponent` says, rounded to a whole number.
+///
+/// @return  Within `exponent` half ulps of the power, relative to it, where it is not subnormal.
 inline float power_by_squarings(float x, float exponent) {
-    auto bits = static_cast<unsigned>(std::clamp(exponent, 1.0f, 1e6f) + 0.5f);
+    auto bits = static_cast<unsigned>(std::clamp(exponent, 0.0f, 1e6f) + 0.5f);
     float result = bits & 1 ? x : 1.0f;
     while (bits >>= 1) {
         x *= x;
@@ -78,11 +80,14 @@ inline float power_by_squarings(float x, float exponent) {
     return result;
 }
 
-/// A curve that looks like a power.
+/// A curve that looks like a power: also 0 at 0 and 1 at 1, and as steep there.
 ///
+/// @return  For an exponent of 1 and above at least the power, and at most .204 more.
 /// @see Schlick, "A fast alternative to Phong's specular model", Graphics Gems IV, 1994
 inline float power_by_schlick(float x, float exponent) {
-    return exponent == 0 ? 1.0f : x / (exponent - exponent * x + x);
+    if (exponent == 0) return 1;
+    x = std::min(x, 1.0f);  // beyond 1, what it is divided by may vanish
+    return x / (exponent - exponent * x + x);
 }
 
 /// x to the power of `exponent`; 1 for an exponent of 0.
@@ -114,6 +119,12 @@ inline vec3 unit_approximate(vec3 v) {
 /// A highlight below 2 to the power of minus this is none: no power is computed for it.
 constexpr float unseen_bits = 26;
 
+/// The least cosine of a highlight that can be seen. Schlick's curve has no such end: it is still
+/// .05 where the power of 90 is unseen.
+inline float least_seen_cosine(Power power, float exponent) {
+    return power == Power::schlick ? 0.0f : std::exp2(-unseen_bits / exponent);
+}
+
 /// The light on a triangle: computed for each fragment, or before, for its corners or once.
 class TriangleLight {
   public:
@@ -127,7 +138,7 @@ class TriangleLight {
           eye_world_(eye_world),
           has_highlight_(surface.effects.highlight),
           shininess_(surface.material.shininess),
-          least_cosine_(std::exp2(-unseen_bits / shininess_)) {
+          least_cosine_(least_seen_cosine(variant.power, shininess_)) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Corner corner = triangle.corners[i];
             positions_[i] = mesh.positions[corner.position];
@@ -136,10 +147,10 @@ class TriangleLight {
         if (!surface.effects.light || variant.shading == Shading::phong) return;
         if (variant.shading == Shading::gouraud)
             for (std::size_t i = 0; i < 3; ++i)
-                at_corners_[i] = reflected(positions_[i], normals_[i]);
+                set_corner(i, reflected(positions_[i], normals_[i]));
         else
-            at_corners_[0] = reflected(interpolate(positions_, vec3(1.0f / 3)),
-                                       face_normal(mesh, triangle) * (is_back ? -1.0f : 1.0f));
+            set_corner(0, reflected(interpolate(positions_, vec3(1.0f / 3)),
+                                    face_normal(mesh, triangle) * (is_back ? -1.0f : 1.0f)));
     }
 
     /// @param weights  Of the corners.
@@ -147,19 +158,18 @@ class TriangleLight {
     ReflectedLight at(vec3 weights, CounterPolicy& counters) const {
         counters.add(Counter::fragments_lit);
         if (has_highlight_) counters.add(Counter::highlights);
-        if (variant_.shading == Shading::flat) return at_corners_[0];
+        if (variant_.shading == Shading::flat) return {diffuse_[0], specular_[0]};
         if (variant_.shading == Shading::gouraud)
-            return {interpolate<vec3>(
-                        {at_corners_[0].diffuse, at_corners_[1].diffuse, at_corners_[2].diffuse},
-                        weights),
-                    interpolate<vec3>(
-                        {at_corners_[0].specular, at_corners_[1].specular, at_corners_[2].specular},
-                        weights)};
+            return {interpolate(diffuse_, weights), interpolate(specular_, weights)};
         const vec3 normal = interpolate(normals_, weights);
         return reflected(interpolate(positions_, weights), scaled(normal));
     }
 
   private:
+    void set_corner(std::size_t i, const ReflectedLight& light) {
+        diffuse_[i] = light.diffuse, specular_[i] = light.specular;
+    }
+
     vec3 scaled(vec3 normal) const {
         if (variant_.normals == NormalScaling::none) return normal;
         if (variant_.normals == NormalScaling::approximate) return unit_approximate(normal);
@@ -175,14 +185,14 @@ class TriangleLight {
             });
     }
 
-    const ShadingVariant& variant_;
+    ShadingVariant variant_;
     std::span<const Light> lights_;
     vec3 eye_world_;
     bool has_highlight_;
     float shininess_;
     float least_cosine_;  ///< Of a highlight that can be seen.
     std::array<vec3, 3> positions_, normals_;
-    std::array<ReflectedLight, 3> at_corners_;
+    std::array<vec3, 3> diffuse_, specular_;  ///< For Gouraud at the corners; for flat the first.
 };
 
 }  // namespace rasterbook

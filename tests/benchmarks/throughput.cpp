@@ -5,6 +5,7 @@
 /// The picture has the course's default size; the inputs are random but the same in each run.
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +19,9 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "06_phong/lit_scene.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "common/counters.hpp"
 #include "common/obj.hpp"
 #include "common/triangulate.hpp"
 
@@ -156,6 +160,118 @@ void triangles_through_the_camera(benchmark::State& state) {
     state.counters["triangles"] = per_second(static_cast<double>(mesh.size()));
 }
 
+/// What lessons 05 and 06 are told on the command line.
+struct PictureKnobs {
+    TextureOptions texture;
+    ShadingVariant shading;
+    Orbit orbit;
+};
+
+constexpr int large = 0, scene_obj = 1;  ///< What a picture of textured triangles shows.
+
+/// Two triangles that reach beyond the picture's borders, with tiles about as fine as its pixels;
+/// or the lessons' own scene, as they show it.
+LitScene scene_to_draw(int what, PictureKnobs& knobs) {
+    const std::filesystem::path models = RASTERBOOK_ASSETS "/models";
+    if (what == scene_obj) return {load_obj(models / "scene.obj"), knobs};
+    Scene scene;
+    Material tiles;
+    tiles.specular = vec3(0.2f), tiles.shininess = 60;
+    tiles.diffuse_map.file = models / "../textures/tiles.png";
+    tiles.diffuse_map.scale = vec3(20);
+    scene.materials.push_back(tiles);
+    Mesh quad;
+    quad.uvs = {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)};
+    for (const vec2 uv : quad.uvs) quad.positions.emplace_back(2 * uv.x - 1, 0, 1 - 2 * uv.y);
+    for (const vec3 position : quad.positions) quad.bounds.add(position);
+    const Corner a{0, 0}, b{1, 1}, c{2, 2}, d{3, 3};
+    quad.triangles = {{{a, b, c}, 0}, {{a, c, d}, 0}};
+    scene.meshes.push_back(quad);
+    knobs.orbit = {.pitch_degrees = 60, .distance = 0.35f};
+    return {scene, knobs};
+}
+
+/// Textured fragments, or such in the light of two lamps, drawn as lessons 05 and 06 do. Arguments:
+/// what is drawn, and the filter.
+template <bool with_light>
+void textured_and_lit(benchmark::State& state) {
+    constexpr ivec2 size(1920, 1080);
+    PictureKnobs knobs;
+    knobs.texture.filter = state.range(1) ? Filter::trilinear : Filter::bilinear;
+    const LitScene scene = scene_to_draw(static_cast<int>(state.range(0)), knobs);
+    const Camera camera = orbit_camera(knobs.orbit, scene.bounds());
+    const std::array lights = studio_lights(knobs.shading.key_light, scene.bounds());
+    Image<vec3> color(size);
+    DepthBuffer depth(size);
+
+    const auto draw = [&](auto& counters) {
+        const mat4 clip_from_world = camera.clip_from_world(size);
+        for (const Mesh& mesh : scene.meshes) {
+            const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
+            for (const Triangle& triangle : mesh.triangles) {
+                const TriangleSurface surface(scene, mesh, triangle);
+                for (const ClippedTriangle& clipped :
+                     clip_triangle(corners_of(triangle, positions_clip))) {
+                    const vec3 a = screen_from_clip(clipped[0].position_clip, size);
+                    const vec3 b = screen_from_clip(clipped[1].position_clip, size);
+                    const vec3 c = screen_from_clip(clipped[2].position_clip, size);
+                    const ScreenTriangle on_screen = snap_triangle(a, b, c);
+                    if (!is_front_facing(on_screen)) continue;
+                    const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
+                    const PerspectiveWeights perspective(on_screen, clipped);
+                    const auto fill = [&](auto&& shade) {
+                        fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+                            if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights)))
+                                return;
+                            counters.add(Counter::fragments_shaded);
+                            color[pixel] = shade(perspective.at(screen_weights));
+                        });
+                    };
+                    if (!with_light) {
+                        fill([&](const FragmentWeights& weights) {
+                            if (surface.texture == nullptr) return surface.material.diffuse;
+                            return surface.material.diffuse *
+                                   vec3(sample(*surface.texture, knobs.texture.filter,
+                                               fragment_uv(surface.uvs, weights)));
+                        });
+                        continue;
+                    }
+                    const TriangleLight light(knobs.shading, lights, camera.position_world, mesh,
+                                              triangle, false, surface);
+                    fill([&](const FragmentWeights& weights) {
+                        const SurfaceColor own =
+                            surface.color(weights, knobs.texture.filter, counters);
+                        return phong(own, ambient_light, light.at(weights.here, counters));
+                    });
+                }
+            }
+        }
+    };
+
+    Counters once;
+    draw(once);
+    NoCounters nothing;
+    for (auto _ : state) {
+        state.PauseTiming();
+        depth = DepthBuffer(size);
+        state.ResumeTiming();
+        draw(nothing);
+        benchmark::ClobberMemory();
+    }
+    const auto fragments = once.values[static_cast<std::size_t>(Counter::fragments_shaded)];
+    state.counters["fragments"] = per_second(static_cast<double>(fragments));
+    state.counters["fragments_per_picture"] = static_cast<double>(fragments);
+}
+
+/// What is drawn, and how it is filtered.
+void textured_and_lit_arguments(benchmark::internal::Benchmark* benchmark) {
+    benchmark->ArgNames({"scene.obj", "trilinear"});
+    for (const int what : {large, scene_obj})
+        for (const Filter filter : {Filter::bilinear, Filter::trilinear})
+            benchmark->Args({what, filter == Filter::trilinear});
+    benchmark->Unit(benchmark::kMillisecond);
+}
+
 /// A comb: a polygon of which every second corner is a dent. Argument: the number of its corners.
 void concave_polygon(benchmark::State& state) {
     std::vector<vec3> comb;
@@ -210,6 +326,12 @@ BENCHMARK_TEMPLATE(triangles, true)
     ->Arg(10)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(triangles_through_the_camera)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(textured_and_lit, false)
+    ->Name("textured_triangles")
+    ->Apply(textured_and_lit_arguments);
+BENCHMARK_TEMPLATE(textured_and_lit, true)
+    ->Name("phong_triangles")
+    ->Apply(textured_and_lit_arguments);
 BENCHMARK(concave_polygon)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
 BENCHMARK(obj_file)->Unit(benchmark::kMillisecond);
 BENCHMARK_MAIN();

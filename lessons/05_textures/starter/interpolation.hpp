@@ -26,6 +26,10 @@ struct FragmentWeights {
     vec3 step_y;  ///< The same a pixel down.
 };
 
+/// A corner whose w is more than 2^80 times the least one counts as that far away: on the side
+/// between two such corners all shares would become 0, and there is a division by their sum.
+constexpr float least_nearness = 0x1p-80f;
+
 /// From weights on the screen, of a clipped piece's corners, to weights on the surface, of the
 /// whole triangle's.
 class PerspectiveWeights {
