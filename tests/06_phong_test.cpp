@@ -472,6 +472,29 @@ TEST(Phong, HardCase_NoHighlightIsBrighterThanItsLight) {
     }
 }
 
+TEST(Phong, HardCase_HighlightsEndWhereTheyCannotBeSeen) {
+    look_up("Eq. 6.3");
+    const std::array light = {sun(up)};
+    const float unseen = std::exp2(-unseen_bits);
+    for (const float shininess : {0.0f, 0.1f, 1.0f, 10.0f, 90.0f, 1e4f})
+        for (int i = 0; i <= 10'000; ++i) {
+            // From straight above down to the horizon.
+            const double degrees = 90 * std::pow(0.999, i);
+            const OneTriangle triangle(corners_of_floor, {up, up, up}, shining(shininess));
+            const vec3 toward_eye = from_up(degrees);
+            const float share = triangle.light_at({1, 0, 0}, light, toward_eye).specular.x;
+            const double exact = std::pow(std::max(0.0, double{toward_eye.y}), double{shininess});
+            // What a cosine is off counts as often as the exponent says; the eye is rounded twice.
+            const double tolerance = 2 * FLT_EPSILON * (1 + shininess) * exact;
+            if (share == 0) {
+                ASSERT_LE(exact, unseen * (1 + 2 * FLT_EPSILON * (1 + shininess)))
+                    << degrees << " degrees, n = " << shininess;
+            } else {
+                ASSERT_NEAR(share, exact, tolerance) << degrees << " degrees, n = " << shininess;
+            }
+        }
+}
+
 TEST(Phong, HardCase_NormalsThatCancel) {
     look_up("Eq. 6.8");
     for (const NormalScaling scaling :
