@@ -12,7 +12,7 @@
 
 namespace rasterbook {
 
-/// v scaled to length 1, or `fallback` when it has no direction.
+/// v scaled to length 1, or `fallback` when it has no direction. Faster than normalize_or().
 ///
 /// @return  Each component within 3 ulp of its exact value.
 inline vec3 unit_or(vec3 v, vec3 fallback) {
@@ -57,7 +57,8 @@ inline float spot_share(float cosine, float cos_full, float cos_none) {
     return 0;
 }
 
-/// @param position_world  Where a lamp stands at this very point, its light comes from above.
+/// @param position_world  Where a lamp or spot stands at this very point, its light comes from
+///                        above.
 inline Incoming incoming_light(const Light& light, vec3 position_world) {
     // TODO: a directional light as it is; of a lamp the way in half distances, its direction, and
     // the share by Eq. 6.6; of a spot also Eq. 6.7.
