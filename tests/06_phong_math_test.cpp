@@ -365,15 +365,15 @@ TEST(Phong, Eq6_9_MeansOfNormalsAroundPositionsOfAllSizes) {
         for (const ExactFace& face : exact) {
             // Two directions in float, each off by u and its own error; their dot product by 3 u.
             const real cosine = glm::dot(face.normal, lvec3(of_face));
-            is_sure = is_sure && std::abs(cosine - 0.5L) > 10 * u + 2 * face.of_normal;
-            if (cosine <= 0.5L) continue;
+            is_sure = is_sure && std::abs(cosine - cos_sharp) > 10 * u + 2 * face.of_normal;
+            if (cosine <= cos_sharp) continue;
             sum += face.angles[0] * face.normal;
             // Normal, product and at most six sums; the angle; the normal's own error.
             of_sum += 8 * u * face.angles[0] * sizes(face.normal) +
                       of_angle(face.angles[0]) * sizes(face.normal) +
                       face.angles[0] * face.of_normal;
         }
-        if (!is_sure) continue;  // an edge of just 60 degrees
+        if (!is_sure) continue;  // an edge that is just sharp
         ++sure;
         const vec3 actual = smooth.at(0, of_face);
         ASSERT_TRUE(are_near(actual, sum, of_sum)) << "seed 10, case " << i;

@@ -102,9 +102,9 @@ TEST(Phong, Eq6_9_AnglesOfATriangle) {
                     degrees * degree, 2 * FLT_EPSILON);
 }
 
-TEST(Phong, Eq6_9_FacesBeyondSixtyDegreesDoNotCount) {
+TEST(Phong, Eq6_9_FacesBeyondASharpEdgeDoNotCount) {
     // Two squares that meet along z, the second one bent down by so many degrees.
-    for (const int bend : {1, 30, 59, 61, 90, 120, 179}) {
+    for (const int bend : {1, 30, 49, 51, 60, 90, 120, 179}) {
         const auto down = static_cast<float>(-std::sin(glm::radians(static_cast<double>(bend))));
         const auto across = static_cast<float>(std::cos(glm::radians(static_cast<double>(bend))));
         Mesh mesh =
@@ -113,13 +113,13 @@ TEST(Phong, Eq6_9_FacesBeyondSixtyDegreesDoNotCount) {
         complete_normals(mesh);
         const vec3 at_edge = mesh.normals[mesh.triangles[0].corners[0].normal];
         const vec3 apart = mesh.normals[mesh.triangles[0].corners[1].normal];
-        EXPECT_NEAR(degrees_between(at_edge, up), bend < 60 ? 0.5 * bend : 0, 1e-4) << bend;
+        EXPECT_NEAR(degrees_between(at_edge, up), bend < 50 ? 0.5 * bend : 0, 1e-4) << bend;
         EXPECT_EQ(apart, up) << bend;
     }
 }
 
 TEST(Phong, Eq6_9_AnyCutOfPolygonsGivesTheSameNormals) {
-    // A roof cut off above, all edges below 60 degrees; its sides are even exactly.
+    // A roof cut off above, all edges below 40 degrees; its sides are even exactly.
     const std::vector<vec3> positions = {{1, 1, 1}, {-1, 1, 1}, {-1, 1, -1}, {1, 1, -1},
                                          {3, 0, 3}, {-3, 0, 3}, {-3, 0, -3}, {3, 0, -3}};
     const std::vector<Quad> quads = {

@@ -25,7 +25,8 @@ inline vec3 reflected(vec3 normal, vec3 toward_light) {
 /// and the direction halfway from light to eye.
 enum class Highlight { phong, blinn };
 
-/// The cosine that a highlight is a power of: 0 to 1 (Eq. 6.3 and 6.4).
+/// The cosine that a highlight is a power of: 0 to 1 (Eq. 6.3 and 6.4). Whether light comes
+/// from the front, N.L > 0, is not asked here but by reflected_light().
 ///
 /// @param normal,toward_light,toward_eye  Length 1.
 inline float highlight_cosine(Highlight highlight, vec3 normal, vec3 toward_light,
@@ -52,9 +53,10 @@ struct SurfacePoint {
 };
 
 /// The light of all lights, evenly reflected (Eq. 6.1) and as highlights (Eq. 6.3). None of it
-/// comes from behind.
+/// comes from behind: only lights with N.L > 0 count.
 ///
-/// @param power  Called as power(cosine), a cosine from 0 to 1; not called if !has_highlight.
+/// @param power  Called as power(cosine) for each light that counts, with a cosine from 0 to 1; not
+///               called if !has_highlight. Of TriangleLight, 0 where none is seen.
 template <typename Power>
 ReflectedLight reflected_light(std::span<const Light> lights, const SurfacePoint& point,
                                bool has_highlight, Highlight highlight, Power&& power) {

@@ -169,8 +169,8 @@ struct PictureKnobs {
 
 constexpr int large = 0, scene_obj = 1;  ///< What a picture of textured triangles shows.
 
-/// Two triangles that reach beyond the picture's borders, with tiles about as fine as its pixels;
-/// or the lessons' own scene, as they show it.
+/// Two triangles that reach beyond the picture's borders, with a texture about as fine as its
+/// pixels; or the lessons' own scene, as they show it.
 LitScene scene_to_draw(int what, PictureKnobs& knobs) {
     const std::filesystem::path models = RASTERBOOK_ASSETS "/models";
     if (what == scene_obj) return {load_obj(models / "scene.obj"), knobs};
@@ -178,7 +178,7 @@ LitScene scene_to_draw(int what, PictureKnobs& knobs) {
     Material tiles;
     tiles.specular = vec3(0.2f), tiles.shininess = 60;
     tiles.diffuse_map.file = models / "../textures/tiles.png";
-    tiles.diffuse_map.scale = vec3(20);
+    tiles.diffuse_map.scale = vec3(12);  // a texel is about a pixel
     scene.materials.push_back(tiles);
     Mesh quad;
     quad.uvs = {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)};

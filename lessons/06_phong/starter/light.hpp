@@ -12,7 +12,7 @@
 
 namespace rasterbook {
 
-/// v scaled to length 1, or `fallback` when it has no direction.
+/// v scaled to length 1, or `fallback` when it has no direction. Faster than normalize_or().
 ///
 /// @return  Each component within 2.3 * 2^-23 of its size of its exact value.
 inline vec3 unit_or(vec3 v, vec3 fallback) {
@@ -58,8 +58,8 @@ inline float spot_share(float cosine, float cos_full, float cos_none) {
 }
 
 /// @param light           Finite numbers.
-/// @param position_world  Not NaN. Where a lamp stands at this very point, or infinitely far away,
-///                        its light comes from above.
+/// @param position_world  Not NaN. Where a lamp or spot stands at this very point, or infinitely
+///                        far away, its light comes from above.
 inline Incoming incoming_light(const Light& light, vec3 position_world) {
     // TODO: a directional light as it is; of a lamp the way in half distances, its direction, and
     // the share by Eq. 6.6; of a spot also Eq. 6.7.
