@@ -26,7 +26,8 @@ inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle) {
     return vec3(normalize_or(glm::cross(b - a, c - a), dvec3(0, 1, 0)));
 }
 
-/// The angle between the two sides at a triangle's corner, 0 to pi; 0 for a triangle of no area.
+/// The angle between the two sides at a triangle's corner, 0 to pi; 0 for a triangle of no area,
+/// which would otherwise count with pi for a normal that means nothing.
 inline float corner_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t corner) {
     const dvec3 here = mesh.positions[triangle.corners[corner].position];
     const dvec3 u = dvec3(mesh.positions[triangle.corners[(corner + 1) % 3].position]) - here;
@@ -35,8 +36,9 @@ inline float corner_angle_radians(const Mesh& mesh, const Triangle& triangle, st
     return twice_area > 0 ? static_cast<float>(std::atan2(twice_area, glm::dot(u, v))) : 0.0f;
 }
 
-/// Faces that meet at a greater angle than 60 degrees meet in a sharp edge.
-constexpr float cos_sharp = 0.5f;
+/// Cosine of 50 degrees: faces that meet at a greater angle meet in a sharp edge. Prisms of up to 7
+/// sides keep their edges, those of 8 and more are round; no common solid sits at it.
+constexpr float cos_sharp = 0.6427876f;
 
 /// One of the faces that meet in a position.
 struct FaceAround {
@@ -59,8 +61,12 @@ class SmoothNormals {
                     face_normal(mesh, triangle), corner_angle_radians(mesh, triangle, i)};
     }
 
-    /// The mean of the normals of the faces around a position, weighted by their angles there;
-    /// faces beyond a sharp edge do not count.
+    /// The mean of the normals of the faces around a position, weighted by their angles there.
+    ///
+    /// @param position        Index into the mesh's positions. A place that the file has twice is
+    ///                        two positions, whose faces do not meet.
+    /// @param normal_of_face  Of the face whose corner it is; what lies beyond a sharp edge, as
+    ///                        seen from this face, does not count.
     vec3 at(std::uint32_t position, vec3 normal_of_face) const {
         vec3 sum(0);
         for (std::size_t i = begin_[position]; i < begin_[position + 1]; ++i)
@@ -77,6 +83,9 @@ class SmoothNormals {
 
 /// Gives each corner a normal of length 1: the one of the file, or else the one that the faces
 /// around it have. Where there is no direction, it is that of the face.
+///
+/// A triangle of no area faces up: without normals of the file, its corners get the mean of what
+/// faces nearly up around them, or up.
 ///
 /// @see Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", 1998
 inline void complete_normals(Mesh& mesh) {

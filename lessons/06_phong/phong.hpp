@@ -25,16 +25,18 @@ inline vec3 reflected(vec3 normal, vec3 toward_light) {
 /// and the direction halfway from light to eye.
 enum class Highlight { phong, blinn };
 
-/// The cosine that a highlight is a power of: not negative (Eq. 6.3 and 6.4).
+/// The cosine that a highlight is a power of: 0 to 1 (Eq. 6.3 and 6.4). Whether light comes
+/// from the front, N.L > 0, is not asked here but by reflected_light().
 ///
 /// @param normal,toward_light,toward_eye  Length 1.
 inline float highlight_cosine(Highlight highlight, vec3 normal, vec3 toward_light,
                               vec3 toward_eye) {
-    if (highlight == Highlight::phong)
-        return std::max(0.0f, glm::dot(reflected(normal, toward_light), toward_eye));
     // Light and eye opposite: there is no halfway, and no highlight either.
-    const vec3 halfway = unit_or(toward_light + toward_eye, vec3(0));
-    return std::max(0.0f, glm::dot(normal, halfway));
+    const float cosine = highlight == Highlight::phong
+                             ? glm::dot(reflected(normal, toward_light), toward_eye)
+                             : glm::dot(normal, unit_or(toward_light + toward_eye, vec3(0)));
+    // Not above 1 by rounding: with a great exponent, the power of that would be infinite.
+    return std::min(std::max(0.0f, cosine), 1.0f);
 }
 
 /// What a surface sends to the eye, before it is coloured by the material.
@@ -51,9 +53,10 @@ struct SurfacePoint {
 };
 
 /// The light of all lights, evenly reflected (Eq. 6.1) and as highlights (Eq. 6.3). None of it
-/// comes from behind.
+/// comes from behind: only lights with N.L > 0 count.
 ///
-/// @param power  Called as power(cosine), a cosine from 0 to about 1; not called if !has_highlight.
+/// @param power  Called as power(cosine) for each light that counts, with a cosine from 0 to 1; not
+///               called if !has_highlight. Of TriangleLight, 0 where none is seen.
 template <typename Power>
 ReflectedLight reflected_light(std::span<const Light> lights, const SurfacePoint& point,
                                bool has_highlight, Highlight highlight, Power&& power) {
@@ -90,6 +93,10 @@ inline SurfaceColor surface_color(const Material& material) {
 inline vec3 unlit(const SurfaceColor& color) { return color.emission + color.diffuse; }
 
 /// All the light that a fragment sends to the eye (Eq. 6.5); it may exceed 1.
+///
+/// @param color          Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
+/// @param ambient_light  0 to 1.
+/// @param light          0 to 10.
 inline vec3 phong(const SurfaceColor& color, vec3 ambient_light, const ReflectedLight& light) {
     return color.emission + color.ambient * ambient_light + color.diffuse * light.diffuse +
            color.specular * light.specular;

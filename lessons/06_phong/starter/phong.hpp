@@ -26,7 +26,8 @@ inline vec3 reflected(vec3 normal, vec3 toward_light) {
 /// and the direction halfway from light to eye.
 enum class Highlight { phong, blinn };
 
-/// The cosine that a highlight is a power of: not negative (Eq. 6.3 and 6.4).
+/// The cosine that a highlight is a power of: 0 to 1 (Eq. 6.3 and 6.4). Whether light comes
+/// from the front, N.L > 0, is not asked here but by reflected_light().
 ///
 /// @param normal,toward_light,toward_eye  Length 1.
 inline float highlight_cosine(Highlight highlight, vec3 normal, vec3 toward_light,
@@ -45,13 +46,14 @@ struct ReflectedLight {
 struct SurfacePoint {
     vec3 position_world;
     vec3 normal_world;  ///< Length 1.
-    vec3 toward_eye;    ///< Length 1.
+    vec3 toward_eye;    ///< Length 1; of no meaning where there is no highlight.
 };
 
 /// The light of all lights, evenly reflected (Eq. 6.1) and as highlights (Eq. 6.3). None of it
-/// comes from behind.
+/// comes from behind: only lights with N.L > 0 count.
 ///
-/// @param power  Called as power(cosine), a cosine from 0 to about 1; not called if !has_highlight.
+/// @param power  Called as power(cosine) for each light that counts, with a cosine from 0 to 1; not
+///               called if !has_highlight. Of TriangleLight, 0 where none is seen.
 template <typename Power>
 ReflectedLight reflected_light(std::span<const Light> lights, const SurfacePoint& point,
                                bool has_highlight, Highlight highlight, Power&& power) {
@@ -79,6 +81,10 @@ inline SurfaceColor surface_color(const Material& material) {
 inline vec3 unlit(const SurfaceColor& color) { return color.emission + color.diffuse; }
 
 /// All the light that a fragment sends to the eye (Eq. 6.5); it may exceed 1.
+///
+/// @param color          Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
+/// @param ambient_light  0 to 1.
+/// @param light          0 to 10.
 inline vec3 phong(const SurfaceColor& color, vec3 ambient_light, const ReflectedLight& light) {
     // TODO: Eq. 6.5. Until then, the surface's own colour.
     return unlit(color);

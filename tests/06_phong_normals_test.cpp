@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Normals for models that come without.
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "06_phong/normals.hpp"
+#include "common/obj.hpp"
+#include "support/look_up.hpp"
+#include "support/one_triangle.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+using Quad = std::array<std::uint32_t, 4>;
+
+constexpr vec3 up(0, 1, 0);
+
+/// Quads cut along the diagonal from their first corner, or along the other one where a bit is set.
+Mesh cut(const std::vector<vec3>& positions, const std::vector<Quad>& quads, unsigned other) {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t i = 0; i < quads.size(); ++i) {
+        const auto [a, b, c, d] = quads[i];
+        if (other >> i & 1)
+            triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
+        else
+            triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+    }
+    return mesh_of(positions, triangles);
+}
+
+double degrees_between(vec3 a, vec3 b) {
+    const dvec3 u = a, v = b;
+    return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
+}
+
+/// A ball of radius 1 of so many segments from pole to pole, and twice as many around.
+Mesh ball(std::uint32_t segments) {
+    std::vector<vec3> positions;
+    const std::uint32_t around = 2 * segments;
+    for (std::uint32_t row = 0; row <= segments; ++row)
+        for (std::uint32_t column = 0; column < around; ++column) {
+            const double polar = std::numbers::pi * row / segments;
+            const double azimuth = 2 * std::numbers::pi * column / around;
+            const double radius = row == 0 || row == segments ? 0 : std::sin(polar);
+            positions.push_back(vec3(
+                dvec3(radius * std::sin(azimuth), std::cos(polar), radius * std::cos(azimuth))));
+        }
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t row = 0; row < segments; ++row)
+        for (std::uint32_t column = 0; column < around; ++column) {
+            const std::uint32_t next = (column + 1) % around;
+            // At a pole all columns are its first corner.
+            const auto corner = [&](std::uint32_t r, std::uint32_t c) {
+                return r * around + (r == 0 || r == segments ? 0 : c);
+            };
+            if (row > 0)
+                triangles.push_back(
+                    {corner(row, column), corner(row + 1, next), corner(row, next)});
+            if (row + 1 < segments)
+                triangles.push_back(
+                    {corner(row, column), corner(row + 1, column), corner(row + 1, next)});
+            else
+                triangles.back() = {corner(row, column), corner(row + 1, 0), corner(row, next)};
+        }
+    return mesh_of(positions, triangles);
+}
+
+}  // namespace
+
+TEST(Phong, Eq6_9_AngleCountsAndNotTheNumberOfTriangles) {
+    // The worked example: a square that is cut through the corner at 0, and beyond an edge along z
+    // one that is not, 45 degrees down.
+    const float s = std::sqrt(0.5f);
+    const Mesh mesh = cut({vec3(0), {-1, 0, 0}, {-1, 0, 1}, {0, 0, 1}, {s, -s, 1}, {s, -s, 0}},
+                          {Quad{0, 1, 2, 3}, Quad{3, 4, 5, 0}}, 0);
+    const SmoothNormals smooth(mesh);
+    const vec3 flat(0, 1, 0), slope(s, s, 0);
+    // The angles, their normals and the sum round a dozen times, each by less than 1e-5 degrees.
+    constexpr double tolerance = 1e-4;
+    EXPECT_LT(degrees_between(face_normal(mesh, mesh.triangles[0]), flat), tolerance);
+    EXPECT_LT(degrees_between(face_normal(mesh, mesh.triangles[2]), slope), tolerance);
+    for (const vec3 of_face : {flat, slope}) {
+        EXPECT_NEAR(degrees_between(smooth.at(0, of_face), flat), 22.5, tolerance);
+        EXPECT_NEAR(degrees_between(smooth.at(0, of_face), slope), 22.5, tolerance);
+    }
+}
+
+TEST(Phong, Eq6_9_AnglesOfATriangle) {
+    const Mesh mesh = mesh_of({vec3(0), {1, 0, 0}, {1, std::sqrt(3.0f), 0}}, {{0, 1, 2}});
+    constexpr float degree = std::numbers::pi_v<float> / 180;
+    for (const auto& [corner, degrees] : {std::pair{0, 60.0f}, {1, 90.0f}, {2, 30.0f}})
+        EXPECT_NEAR(corner_angle_radians(mesh, mesh.triangles[0], static_cast<std::size_t>(corner)),
+                    degrees * degree, 2 * FLT_EPSILON);
+}
+
+TEST(Phong, Eq6_9_FacesBeyondASharpEdgeDoNotCount) {
+    // Two squares that meet along z, the second one bent down by so many degrees.
+    for (const int bend : {1, 30, 49, 51, 60, 90, 120, 179}) {
+        const auto down = static_cast<float>(-std::sin(glm::radians(static_cast<double>(bend))));
+        const auto across = static_cast<float>(std::cos(glm::radians(static_cast<double>(bend))));
+        Mesh mesh =
+            cut({vec3(0), {-1, 0, 0}, {-1, 0, 1}, {0, 0, 1}, {across, down, 1}, {across, down, 0}},
+                {Quad{0, 1, 2, 3}, Quad{3, 4, 5, 0}}, 0);
+        complete_normals(mesh);
+        const vec3 at_edge = mesh.normals[mesh.triangles[0].corners[0].normal];
+        const vec3 apart = mesh.normals[mesh.triangles[0].corners[1].normal];
+        EXPECT_NEAR(degrees_between(at_edge, up), bend < 50 ? 0.5 * bend : 0, 1e-4) << bend;
+        EXPECT_EQ(apart, up) << bend;
+    }
+}
+
+TEST(Phong, Eq6_9_AnyCutOfPolygonsGivesTheSameNormals) {
+    // A roof cut off above, all edges below 40 degrees; its sides are even exactly.
+    const std::vector<vec3> positions = {{1, 1, 1}, {-1, 1, 1}, {-1, 1, -1}, {1, 1, -1},
+                                         {3, 0, 3}, {-3, 0, 3}, {-3, 0, -3}, {3, 0, -3}};
+    const std::vector<Quad> quads = {
+        {0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    const Mesh one = cut(positions, quads, 0);
+    const SmoothNormals first(one);
+    for (unsigned way = 1; way < 32; ++way) {
+        const SmoothNormals smooth(cut(positions, quads, way));
+        for (std::uint32_t position = 0; position < 8; ++position)
+            for (const Triangle& triangle : one.triangles) {
+                const vec3 of_face = face_normal(one, triangle);
+                // Six angles of at most pi, each rounded twice or so; the sum's length is above 1.
+                EXPECT_LT(glm::length(first.at(position, of_face) - smooth.at(position, of_face)),
+                          20 * FLT_EPSILON)
+                    << "cut " << way << ", position " << position;
+            }
+    }
+    // And they are the roof's: the upper corners' normals lean out evenly.
+    const vec3 corner = normalize_or(first.at(0, up), up);
+    EXPECT_NEAR(corner.x, corner.z, 2 * FLT_EPSILON);
+    EXPECT_GT(corner.x, 0.1f);
+}
+
+TEST(Phong, Eq6_9_ABallIsRound) {
+    Mesh mesh = ball(24);
+    complete_normals(mesh);
+    double worst = 0, worst_of_face = 0;
+    for (const Triangle& triangle : mesh.triangles)
+        for (const Corner& corner : triangle.corners) {
+            const vec3 exact = mesh.positions[corner.position];
+            worst = std::max(worst, degrees_between(mesh.normals[corner.normal], exact));
+            worst_of_face =
+                std::max(worst_of_face, degrees_between(face_normal(mesh, triangle), exact));
+        }
+    EXPECT_LT(worst, 1);
+    EXPECT_GT(worst_of_face, 5);  // a segment is 7.5 degrees: there was something to do
+}
+
+TEST(Phong, HardCase_ACrateWithoutNormalsStaysSharp) {
+    look_up("Eq. 6.9");
+    Scene crate = load_obj(std::filesystem::path(RASTERBOOK_ASSETS) / "models/crate.obj");
+    for (Mesh& mesh : crate.meshes) {
+        std::vector<vec3> in_file;
+        for (Triangle& triangle : mesh.triangles)
+            for (Corner& corner : triangle.corners) {
+                in_file.push_back(mesh.normals[corner.normal]);
+                corner.normal = no_index;
+            }
+        complete_normals(mesh);
+        ASSERT_EQ(mesh.normals.size(), in_file.size());
+        std::size_t i = 0;
+        for (const Triangle& triangle : mesh.triangles)
+            for (const Corner& corner : triangle.corners) {
+                EXPECT_EQ(mesh.normals[corner.normal], face_normal(mesh, triangle));
+                EXPECT_LT(degrees_between(mesh.normals[corner.normal], in_file[i++]), 1e-3);
+            }
+    }
+}
+
+TEST(Phong, HardCase_SomeCornersWithoutNormals) {
+    look_up("Eq. 6.9");
+    // The file's normals stay, but for their length; the others are those of the faces around.
+    Mesh mesh = mesh_of({vec3(0), {0, 0, 1}, {1, 0, 0}}, {{0, 1, 2}});
+    mesh.normals = {{3, 4, 0}, vec3(0)};
+    mesh.triangles[0].corners[0].normal = 0;
+    mesh.triangles[0].corners[1].normal = 1;
+    complete_normals(mesh);
+    ASSERT_EQ(mesh.normals.size(), 3u);
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].corners[0].normal], vec3(0.6f, 0.8f, 0));
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].corners[1].normal], up);  // of length 0: the face's
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].corners[2].normal], up);
+}
+
+TEST(Phong, HardCase_TrianglesOfNoAreaChangeNoNormals) {
+    look_up("Eq. 6.9");
+    // A slope, and a triangle that is a line through its lower corners, with an angle of 180
+    // degrees at the one in the middle.
+    const std::vector<vec3> positions = {{-1, 0, 1}, {0, 0, 1}, {1, 0, 1}, {1, 1, -1}, {-1, 1, -1}};
+    const Mesh slope = mesh_of(positions, {{0, 1, 4}, {1, 2, 3}, {1, 3, 4}});
+    const Mesh with_line =
+        mesh_of(positions, {{0, 1, 4}, {1, 2, 3}, {1, 3, 4}, {0, 2, 1}, {1, 1, 1}});
+    const vec3 of_face = face_normal(slope, slope.triangles[0]);
+    EXPECT_GT(glm::dot(of_face, up), cos_sharp);
+    for (std::uint32_t position = 0; position < 5; ++position)
+        EXPECT_EQ(SmoothNormals(slope).at(position, of_face),
+                  SmoothNormals(with_line).at(position, of_face))
+            << position;
+    Mesh lone = mesh_of({vec3(1), vec3(2), vec3(3)}, {{0, 1, 2}});
+    complete_normals(lone);
+    for (const vec3 normal : lone.normals) EXPECT_EQ(normal, up);
+}
+
+TEST(Phong, HardCase_FacesThatCancel) {
+    look_up("Eq. 6.9");
+    // Both sides of one sheet: each side keeps its own normal.
+    Mesh sheet = mesh_of({vec3(0), {0, 0, 1}, {1, 0, 0}}, {{0, 1, 2}, {0, 2, 1}});
+    complete_normals(sheet);
+    ASSERT_EQ(sheet.normals.size(), 6u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(sheet.normals[sheet.triangles[0].corners[i].normal], up);
+        EXPECT_EQ(sheet.normals[sheet.triangles[1].corners[i].normal], -up);
+    }
+}
+
+TEST(Phong, HardCase_NormalsOfTinyAndHugeFaces) {
+    look_up("Eq. 6.9");
+    for (const float size : {1e-45f, 1e-40f, 1e-30f, 1e-19f, 1e19f, 1e30f, 3e38f}) {
+        Mesh mesh =
+            mesh_of({vec3(0), {size, 0, 0}, {size, size, 0}, {0, size, 0}}, {{0, 1, 2}, {0, 2, 3}});
+        EXPECT_NEAR(corner_angle_radians(mesh, mesh.triangles[0], 0), std::numbers::pi / 4,
+                    FLT_EPSILON);
+        complete_normals(mesh);
+        for (const vec3 normal : mesh.normals) EXPECT_EQ(normal, vec3(0, 0, 1)) << size;
+    }
+}

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+// What materials call for, files with mistakes, scenes of all sizes, and the lesson's pictures.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+// All that the lesson's main.cpp includes, so that it can be included within a namespace.
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "05_textures/textured_scene.hpp"
+#include "06_phong/lit_scene.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "common/backdrop.hpp"
+#include "common/image_io.hpp"
+#include "common/lesson_app.hpp"
+#include "common/math/color.hpp"
+#include "common/obj.hpp"
+#include "support/golden.hpp"
+#include "support/lesson_process.hpp"
+#include "support/look_up.hpp"
+#include "support/picture_difference.hpp"
+#include "support/printers.hpp"
+
+namespace lesson {
+#define main main_of_lesson
+#include "06_phong/main.cpp"
+#undef main
+}  // namespace lesson
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path models = fs::path(RASTERBOOK_ASSETS) / "models";
+
+lesson::Options small_picture() {
+    lesson::Options options;
+    options.size = {320, 180};
+    return options;
+}
+
+/// The picture before it is written, in light.
+Image<vec3> picture_of(const Scene& scene, const lesson::Options& options) {
+    NoCounters none;
+    return lesson::render(options, LitScene(scene, options), none);
+}
+
+Counters counters_of(const LitScene& scene, const lesson::Options& options) {
+    Counters counters;
+    lesson::render(options, scene, counters);
+    return counters;
+}
+
+std::uint64_t count(const Counters& counters, Counter counter) {
+    return counters.values[static_cast<std::size_t>(counter)];
+}
+
+bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+bool is_finite(const Image<vec3>& picture) {
+    return std::ranges::all_of(picture.pixels(), [](vec3 c) {
+        return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+    });
+}
+
+/// The share of pixels that differ by more than a rounding when they are written.
+double share_that_differs(const Image<vec3>& a, const Image<vec3>& b) {
+    const Image<u8vec3> code_a = srgb8_from_linear(a), code_b = srgb8_from_linear(b);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < code_a.pixels().size(); ++i)
+        differing +=
+            !looks_the_same(u8vec4(code_a.pixels()[i], 255), u8vec4(code_b.pixels()[i], 255));
+    return static_cast<double>(differing) / static_cast<double>(code_a.pixels().size());
+}
+
+fs::path written(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+}
+
+/// A square that stands upright and looks along z, of the material `m`.
+const std::string square =
+    "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n";
+
+Scene square_of(const std::string& material) {
+    const fs::path folder = fresh_folder("square");
+    written(folder / "m.mtl", "newmtl m\n" + material);
+    return load_obj(written(folder / "m.obj", square));
+}
+
+/// Looks at the square from the front, and a little from the side.
+lesson::Options before_the_square() {
+    lesson::Options options = small_picture();
+    options.size = {160, 90};
+    options.orbit.yaw_degrees = -20;
+    return options;
+}
+
+/// Three squares side by side, of illum 0, 1 and 2, each with a diffuse and a highlight's colour.
+Scene squares_of_illum_0_1_2(const std::string& before, const std::string& after) {
+    const fs::path folder = fresh_folder("illum");
+    std::string mtl, obj = "mtllib m.mtl\n";
+    for (int i = 0; i < 3; ++i) {
+        mtl += "newmtl m" + std::to_string(i) + "\nKd 0.3 0.5 0.7\nKs 1 0.5 0.25\nNs 3\n" +
+               "Ke 0.01 0.02 0.03\n" + before + "illum " + std::to_string(i) + "\n" + after;
+        for (const auto& [x, y] : {std::pair{0, 0}, {2, 0}, {2, 2}, {0, 2}})
+            obj += "v " + std::to_string(3 * i + x) + " " + std::to_string(y) + " 0\n";
+        obj += "usemtl m" + std::to_string(i) + "\nf -4 -3 -2 -1\n";
+    }
+    written(folder / "m.mtl", mtl);
+    return load_obj(written(folder / "m.obj", obj));
+}
+
+/// The picture's brightest pixel, by the sum of its colours.
+float brightest(const Image<vec3>& picture) {
+    float most = 0;
+    for (const vec3 c : picture.pixels()) most = std::max(most, c.x + c.y + c.z);
+    return most;
+}
+
+constexpr std::array all_shadings = {Shading::flat, Shading::gouraud, Shading::phong};
+
+}  // namespace
+
+TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
+    look_up("Eq. 6.5");
+    const std::string map_of_highlights =
+        "Ks 1 1 1\nmap_Ks " + (models / "../textures/brick_specular.png").string() + "\n";
+    struct Row {
+        Scene scene;
+        bool has_light, has_highlights, has_textures;
+    };
+    for (const auto& [scene, has_light, has_highlights, has_textures] :
+         {Row{load_obj(models / "scene.obj"), true, true, true},
+          Row{load_obj(models / "crate.obj"), true, false, true},
+          Row{load_obj(models / "teapot.obj"), true, true, false},
+          Row{square_of("illum 0\nKs 1 1 1\n"), false, false, false},
+          Row{square_of("illum 1\nKs 1 1 1\n"), true, false, false},
+          Row{square_of("illum 2\nKs 1 1 1\n"), true, true, false},
+          Row{square_of("illum 2\nKs 0 0 0\n"), true, false, false},
+          Row{square_of("illum 0\n" + map_of_highlights), false, false, false},
+          Row{square_of("illum 1\n" + map_of_highlights), true, false, false},
+          Row{square_of("illum 2\n" + map_of_highlights), true, true, true},
+          Row{square_of(map_of_highlights + "Ks 0 0 0\n"), true, false, false},
+          Row{square_of("illum 2\nKs 0 0 1e-30\n"), true, true, false}}) {
+        lesson::Options options = small_picture();
+        options.size /= 2;
+        const LitScene as_called_for(scene, options);
+        options.shading.all_effects = true;
+        const LitScene with_all(scene, options);
+        for (const Shading shading : all_shadings) {
+            options.shading.shading = shading;
+            const Counters counters = counters_of(as_called_for, options);
+            const auto shaded = count(counters, Counter::fragments_shaded);
+            EXPECT_GT(shaded, 1000u);
+            EXPECT_EQ(count(counters, Counter::fragments_lit), has_light ? shaded : 0);
+            EXPECT_EQ(count(counters, Counter::highlights) > 0, has_highlights);
+            EXPECT_LE(count(counters, Counter::highlights), shaded);
+            EXPECT_EQ(count(counters, Counter::texture_samples) > 0, has_textures);
+            EXPECT_LE(count(counters, Counter::texture_samples), shaded);
+
+            const Counters all = counters_of(with_all, options);
+            EXPECT_EQ(count(all, Counter::fragments_lit), has_light ? shaded : 0);
+            EXPECT_EQ(count(all, Counter::highlights), has_light ? shaded : 0);
+            EXPECT_EQ(count(all, Counter::texture_samples), has_light ? 2 * shaded : shaded);
+        }
+    }
+}
+
+TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
+    look_up("Eq. 6.5");
+    const std::vector<std::pair<const char*, Scene>> scenes = {
+        {"scene", load_obj(models / "scene.obj")},
+        {"crate", load_obj(models / "crate.obj")},
+        {"teapot", load_obj(models / "teapot.obj")},
+        {"scene_bumpy", load_obj(models / "scene_bumpy.obj")},
+        {"illum", squares_of_illum_0_1_2("", "")}};
+    NoCounters none;
+    for (const auto& [name, scene] : scenes) {
+        lesson::Options options = small_picture();
+        const LitScene as_called_for(scene, options);
+        options.shading.all_effects = true;
+        const LitScene with_all(scene, options);
+        for (const Shading shading : all_shadings)
+            for (const Highlight highlight : {Highlight::phong, Highlight::blinn}) {
+                options.shading.shading = shading;
+                options.shading.highlight = highlight;
+                const Image<vec3> picture = lesson::render(options, as_called_for, none);
+                EXPECT_TRUE(are_the_same_bits(picture, lesson::render(options, with_all, none)))
+                    << name << ", shading " << static_cast<int>(shading);
+                EXPECT_FALSE(is_backdrop(picture)) << name;
+            }
+    }
+}
+
+TEST(Phong, HardCase_IllumDecides) {
+    look_up("Eq. 6.5");
+    const std::string plain = "Kd 0.3 0.5 0.7\nKe 0.01 0.02 0.03\n";
+    const auto picture = [&](const std::string& material) {
+        return picture_of(square_of(material), before_the_square());
+    };
+    const Image<vec3> lit = picture(plain + "illum 1\n");
+    // 0: the colour alone, all over the square.
+    const Image<vec3> unlit = picture(plain + "Ks 1 1 1\nillum 0\n");
+    const vec3 middle = unlit[{80, 45}];
+    EXPECT_EQ(middle, vec3(0.3f, 0.5f, 0.7f) + vec3(0.01f, 0.02f, 0.03f));
+    const Image<vec3> empty = backdrop(unlit.size());
+    for (std::size_t i = 0; i < unlit.pixels().size(); ++i)
+        EXPECT_TRUE(unlit.pixels()[i] == middle || unlit.pixels()[i] == empty.pixels()[i]);
+    // 1: no highlight, whatever Ks. 2, and no word, and all above: with one.
+    EXPECT_EQ(picture(plain + "Ks 1 1 1\nillum 1\n"), lit);
+    EXPECT_EQ(picture(plain + "Ks 0 0 0\nillum 2\n"), lit);
+    const Image<vec3> shining = picture(plain + "Ks 1 1 1\nillum 2\n");
+    EXPECT_GT(brightest(shining), brightest(lit) + 0.1f);
+    for (const char* illum : {"", "illum 3\n", "illum 10\n"})
+        EXPECT_EQ(picture(plain + "Ks 1 1 1\n" + illum), shining) << illum;
+}
+
+TEST(Phong, HardCase_AmbientOfOneAsExportersWriteIt) {
+    look_up("Eq. 6.5");
+    for (const char* model : {"scene.obj", "teapot.obj"}) {
+        Scene scene = load_obj(models / model);
+        for (Material& material : scene.materials) material.ambient = material.diffuse;
+        const Image<vec3> as_diffuse = picture_of(scene, small_picture());
+        for (Material& material : scene.materials) material.ambient = vec3(1);
+        EXPECT_EQ(picture_of(scene, small_picture()), as_diffuse) << model;
+        for (Material& material : scene.materials) material.ambient = vec3(0);
+        EXPECT_NE(picture_of(scene, small_picture()), as_diffuse) << model;
+    }
+}
+
+TEST(Phong, HardCase_SpecularMapsArePlainNumbers) {
+    look_up("Eq. 6.5");
+    const fs::path folder = fresh_folder("specular_map");
+    write_image(folder / "gray.png", Image<u8vec3>({4, 4}, {188, 94, 47}));
+    written(folder / "m.obj", square);
+    const auto picture = [&](const std::string& material) {
+        written(folder / "m.mtl", "newmtl m\nKd 0.2 0.2 0.2\nNs 2\n" + material);
+        Scene scene = load_obj(folder / "m.obj");
+        if (scene.materials.back().specular_map.file.empty())
+            scene.materials.back().specular *= vec3(188, 94, 47) / 255.0f;
+        return picture_of(scene, before_the_square());
+    };
+    EXPECT_EQ(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 1 1 1\n"));
+    EXPECT_EQ(picture("Ks 0.5 0.5 0.5\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n"));
+    EXPECT_EQ(picture("Ks 0 0 0\nmap_Ks gray.png\n"), picture("Ks 0 0 0\n"));
+    EXPECT_NE(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n"));
+    // It lies as its own -s and -o say, and it leaves the diffuse colour alone.
+    Image<u8vec3> halves({2, 1}, {255, 255, 255});
+    halves[{1, 0}] = {0, 0, 0};
+    write_image(folder / "halves.png", halves);
+    const Image<vec3> dull = picture("Ks 0 0 0\n");
+    EXPECT_EQ(picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.99 0 0 halves.png\n"), dull);
+    EXPECT_NE(picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.01 0 0 halves.png\n"), dull);
+}
+
+TEST(Phong, HardCase_MissingAndBrokenSpecularMaps) {
+    look_up("Eq. 6.5");
+    const fs::path folder = fresh_folder("broken_map"), out = folder / "out.png";
+    const fs::path model = written(folder / "m.obj", square);
+    written(folder / "broken.png", "\x89PNG and no more");
+    for (const char* name : {"missing.png", "broken.png"}) {
+        written(folder / "m.mtl", std::string("newmtl m\nKs 1 1 1\n\nmap_Ks ") + name + "\n");
+        const std::vector<std::string> arguments = {"--model", model.string(), "--size",
+                                                    "64x36",   "--out",        out.string()};
+        const ProcessResult result = run_program("06_phong", arguments);
+        EXPECT_EQ(result.exit_status, 1);
+        EXPECT_EQ(result.err.rfind("error: " + (folder / "m.mtl").string() + ":4: map_Ks: ", 0), 0u)
+            << result.err;
+        EXPECT_NE(result.err.find(name), std::string::npos) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_FALSE(fs::exists(out));
+
+        std::vector<std::string> keep_going = arguments;
+        keep_going.push_back("--keep-going");
+        const ProcessResult replaced = run_program("06_phong", keep_going);
+        EXPECT_EQ(replaced.exit_status, 0) << replaced.err;
+        EXPECT_EQ(replaced.err.rfind("warning: " + (folder / "m.mtl").string() + ":4: map_Ks: ", 0),
+                  0u)
+            << replaced.err;
+        EXPECT_TRUE(fs::remove(out));
+    }
+}
+
+TEST(Phong, HardCase_BacksOfFaces) {
+    look_up("Eq. 6.8");
+    // A square from behind looks as one that is named the other way round from the front.
+    Scene scene = square_of("Kd 0.8 0.6 0.4\nKs 0.5 0.5 0.5\nNs 20\n"), turned = scene;
+    Mesh& mesh = turned.meshes[0];
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle.corners[1], triangle.corners[2]);
+    lesson::Options options = before_the_square();
+    options.orbit.yaw_degrees = -150;
+    EXPECT_TRUE(is_backdrop(picture_of(scene, options)));
+    for (const Shading shading : all_shadings)
+        for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
+            options.shading.shading = shading;
+            options.shading.key_light = kind;
+            options.shading.two_sided = false;
+            const Image<vec3> front = picture_of(turned, options);
+            options.shading.two_sided = true;
+            const Image<vec3> back = picture_of(scene, options);
+            EXPECT_GT(brightest(back), 0.2f);
+            EXPECT_EQ(share_that_differs(front, back), 0);
+            // The front of what has two sides is as before.
+            EXPECT_EQ(picture_of(turned, options), front);
+        }
+}
+
+TEST(Phong, HardCase_MoreLightThanAFileHolds) {
+    look_up("Eq. 6.5");
+    for (const auto& [material, least] : {std::pair{"Kd 9 9 9\nKs 9 9 9\nKe 9 9 9\n", 27.0f},
+                                          {"Kd 1e37 0 0\nKs 0 1e37 0\n", 1e36f},
+                                          {"Kd 1 1 1\nKs 1 1 1\nNs 1e38\n", 0.1f}}) {
+        const Image<vec3> picture = picture_of(square_of(material), before_the_square());
+        EXPECT_TRUE(is_finite(picture)) << material;
+        EXPECT_GT(brightest(picture), least) << material;
+    }
+    const Image<vec3> bright = picture_of(square_of("Ke 9 9 9\n"), before_the_square());
+    EXPECT_EQ(srgb8_from_linear(bright)[ivec2(80, 45)], u8vec3(255));
+}
+
+TEST(Phong, HardCase_ModelsOfAllSizes) {
+    look_up("Eq. 6.6");
+    const Scene scene = load_obj(models / "teapot.obj");
+    const auto scaled = [&](float factor) {
+        Scene other = scene;
+        for (Mesh& mesh : other.meshes) {
+            mesh.bounds = {};
+            for (vec3& position : mesh.positions) position *= factor, mesh.bounds.add(position);
+        }
+        return other;
+    };
+    for (const Shading shading : all_shadings)
+        for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
+            if (shading == Shading::flat && kind != LightKind::point)
+                continue;  // light is the same
+            lesson::Options options = small_picture();
+            options.size = {160, 90};
+            options.shading.shading = shading;
+            options.shading.key_light = kind;
+            const Image<vec3> expected = picture_of(scene, options);
+            EXPECT_TRUE(is_finite(expected));
+            // Powers of two scale exactly; roots are taken another way for small and great squares.
+            for (const float factor : {0x1p-100f, 0x1p-40f, 0x1p60f, 0x1p120f}) {
+                const Image<vec3> picture = picture_of(scaled(factor), options);
+                EXPECT_TRUE(is_finite(picture)) << factor;
+                EXPECT_EQ(share_that_differs(expected, picture), 0) << factor;
+            }
+            // Others round each position: some pixel's centre changes sides, or its light's.
+            for (const float factor : {1e-30f, 1e-10f, 1e10f, 1e36f}) {
+                const Image<vec3> picture = picture_of(scaled(factor), options);
+                EXPECT_TRUE(is_finite(picture)) << factor;
+                EXPECT_LT(share_that_differs(expected, picture), 0.005) << factor;
+            }
+        }
+}
+
+TEST(Phong, HardCase_NormalsOfTheFileAreTurnedToLengthOne) {
+    look_up("Eq. 6.9");
+    Scene scene = load_obj(models / "teapot.obj");
+    const Image<vec3> expected = picture_of(scene, small_picture());
+    for (Mesh& mesh : scene.meshes)
+        for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+            mesh.normals[i] *= i % 2 ? 0x1p-80f : 0x1p100f;
+    EXPECT_EQ(picture_of(scene, small_picture()), expected);
+}
+
+TEST(Phong, PictureOfTheScene) { EXPECT_TRUE(equals_golden("06_phong", "06_phong")); }
+
+TEST(Phong, PictureOfFlatShading) {
+    EXPECT_TRUE(equals_golden("06_phong", "06_phong_flat", {"--shading", "flat"}));
+}
+
+TEST(Phong, PictureOfGouraudShading) {
+    EXPECT_TRUE(equals_golden("06_phong", "06_phong_gouraud", {"--shading", "gouraud"}));
+}
+
+TEST(Phong, PictureOfBlinnsHighlights) {
+    EXPECT_TRUE(equals_golden("06_phong", "06_phong_blinn", {"--highlight", "blinn"}));
+}
+
+TEST(Phong, PictureOfASpot) {
+    EXPECT_TRUE(equals_golden("06_phong", "06_phong_spot", {"--light", "spot"}));
+}

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Zeros, denormals, infinities and NaN at the entries: no light that is none.
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "06_phong/phong.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "support/look_up.hpp"
+#include "support/one_triangle.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float tiny = std::numeric_limits<float>::denorm_min();
+constexpr int cases = 1'000'000;
+
+/// Ordinary numbers from -2 to 2, and special ones as often.
+class Mix {
+  public:
+    explicit Mix(unsigned seed) : random_(seed) {}
+
+    unsigned below(unsigned count) { return static_cast<unsigned>(random_()) % count; }
+    /// Any number, finite or not.
+    float any() {
+        const auto bits = static_cast<unsigned>(random_());
+        const float sign = bits & 1 ? 1.0f : -1.0f;
+        if (bits & 2) return sign * special[(bits >> 2) % std::size(special)];
+        return 2 * sign * static_cast<float>(bits >> 8) * 0x1p-24f;
+    }
+    float finite() {
+        for (;;)
+            if (const float x = any(); std::isfinite(x)) return x;
+    }
+    /// Any finite number >= 0.
+    float amount() { return std::abs(finite()); }
+    float up_to(float most) { return std::min(amount(), most); }
+    vec3 any_vector() {
+        const float x = any(), y = any(), z = any();
+        return {x, y, z};
+    }
+    vec3 place() {
+        const float x = finite(), y = finite(), z = finite();
+        return {x, y, z};
+    }
+    vec3 direction() { return unit_or(place(), vec3(0, 1, 0)); }
+    /// A light as the lesson makes them: any place, any size.
+    Light light() {
+        const vec3 color(up_to(10), up_to(10), up_to(10)), toward = direction(), where = place();
+        const float cos_full = std::clamp(finite(), -1 + FLT_EPSILON, 1.0f);
+        return {static_cast<LightKind>(below(3)),
+                color,
+                toward,
+                where,
+                std::max(amount(), FLT_MIN),
+                cos_full,
+                std::max(-1.0f, cos_full - std::max(up_to(1), FLT_EPSILON))};
+    }
+
+  private:
+    static constexpr float special[] = {0,           tiny,        1e-40f,  FLT_MIN,  1e-30f,
+                                        FLT_EPSILON, 0.5f,        1,       1e15f,    1e30f,
+                                        1e37f,       FLT_MAX / 2, FLT_MAX, infinity, not_a_number};
+    std::mt19937 random_;
+};
+
+/// A thousand lights, made beforehand: each takes as long as a test of it.
+class Lights {
+  public:
+    explicit Lights(Mix& mix) {
+        for (int i = 0; i < 1000; ++i) lights_.push_back(mix.light());
+    }
+    std::span<const Light> two(Mix& mix) const {
+        return std::span(lights_).subspan(mix.below(999), 2);
+    }
+
+  private:
+    std::vector<Light> lights_;
+};
+
+/// For EXPECT_TRUE: no number but those from `least` to `most`.
+testing::AssertionResult are_within(const char* what, vec3 v, float least, float most) {
+    for (int i = 0; i < 3; ++i)
+        if (!(v[i] >= least && v[i] <= most))  // also for NaN
+            return testing::AssertionFailure() << what << " " << testing::PrintToString(v);
+    return testing::AssertionSuccess();
+}
+
+/// Of length 1, but for a few roundings, and for components below the least normal number.
+testing::AssertionResult is_direction(vec3 v) {
+    if (std::abs(glm::length(dvec3(v)) - 1) <= 4 * FLT_EPSILON) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << testing::PrintToString(v) << " is not of length 1";
+}
+
+}  // namespace
+
+TEST(Phong, HardCase_SpecialNumbersHaveADirectionOrNone) {
+    look_up("Eq. 6.8");
+    Mix mix(1);
+    const vec3 fallback(0, 0, 1);
+    for (int i = 0; i < cases; ++i) {
+        const vec3 v = mix.any_vector();
+        ASSERT_TRUE(is_direction(unit_or(v, fallback))) << "seed 1, case " << i;
+        const bool has_direction = std::isfinite(v.x + 0.0) && std::isfinite(v.y + 0.0) &&
+                                   std::isfinite(v.z + 0.0) && v != vec3(0);
+        if (!has_direction) { ASSERT_EQ(unit_or(v, fallback), fallback) << "seed 1, case " << i; }
+    }
+}
+
+TEST(Phong, HardCase_SpecialNumbersOfLamps) {
+    look_up("Eq. 6.6");
+    Mix mix(2);
+    for (int i = 0; i < cases; ++i) {
+        const Light light = mix.light();
+        vec3 position = mix.any_vector();  // infinite ones, too
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::isnan(position[axis])) position[axis] = 0;
+        const Incoming incoming = incoming_light(light, position);
+        ASSERT_TRUE(is_direction(incoming.toward)) << "seed 2, case " << i;
+        ASSERT_TRUE(are_within("light", incoming.color, 0, 10)) << "seed 2, case " << i;
+    }
+}
+
+TEST(Phong, HardCase_SpecialNumbersOfHighlights) {
+    look_up("Eq. 6.3");
+    Mix mix(3);
+    for (int i = 0; i < cases; ++i) {
+        const auto highlight = static_cast<Highlight>(mix.below(2));
+        // Not even of length 1.
+        const float cosine =
+            highlight_cosine(highlight, mix.any_vector(), mix.any_vector(), mix.any_vector());
+        ASSERT_TRUE(cosine >= 0 && cosine <= 1) << "seed 3, case " << i << ": " << cosine;
+        const auto power = static_cast<Power>(mix.below(4));
+        const float shininess = mix.amount();
+        const float share = power_as(power, cosine, shininess);
+        ASSERT_TRUE(share >= 0 && share <= 1)
+            << "seed 3, case " << i << ": " << cosine << " to the power of " << shininess;
+    }
+}
+
+TEST(Phong, HardCase_SpecialNumbersOfReflectedLight) {
+    look_up("Eq. 6.5");
+    Mix mix(4);
+    const Lights some_lights(mix);
+    for (int i = 0; i < cases; ++i) {
+        const std::span lights = some_lights.two(mix);
+        const float shininess = mix.amount();
+        const SurfacePoint point{mix.place(), mix.direction(), mix.direction()};
+        const ReflectedLight light = reflected_light(
+            lights, point, true, static_cast<Highlight>(mix.below(2)),
+            [&](float cosine) { return power_as(Power::in_float, cosine, shininess); });
+        constexpr float most = 2 * 10 * (1 + 4 * FLT_EPSILON);  // directions may be a bit long
+        ASSERT_TRUE(are_within("diffuse", light.diffuse, 0, most)) << "seed 4, case " << i;
+        ASSERT_TRUE(are_within("specular", light.specular, 0, most)) << "seed 4, case " << i;
+
+        // Colours as MTL may have them, also negative ones.
+        const auto color = [&] { return glm::clamp(mix.place(), -1e37f, 1e37f); };
+        const SurfaceColor surface{color(), color(), color(), color()};
+        const ReflectedLight some{0.5f * light.diffuse, 0.5f * light.specular};
+        ASSERT_TRUE(
+            are_within("sum", phong(surface, glm::abs(mix.direction()), some), -FLT_MAX, FLT_MAX))
+            << "seed 4, case " << i;
+    }
+}
+
+TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
+    look_up("Eq. 6.8");
+    Mix mix(5);
+    const Lights some_lights(mix);
+    Material material;
+    material.specular = vec3(1);
+    OneTriangle triangle({vec3(0), vec3(1), vec3(2)}, {vec3(0), vec3(1), vec3(2)}, material);
+    int lit = 0;
+    for (int i = 0; i < cases; ++i) {
+        Mesh& mesh = triangle.mesh();
+        mesh.positions = {mix.place(), mix.place(), mix.place()};
+        mesh.normals = {mix.any_vector(), mix.any_vector(), mix.any_vector()};
+        for (std::uint32_t k = 0; k < 3; ++k)
+            mesh.triangles[0].corners[k].normal = mix.below(16) == 0 ? no_index : k;
+        complete_normals(mesh);
+        for (const vec3 normal : mesh.normals)
+            ASSERT_TRUE(is_direction(normal)) << "seed 5, case " << i;
+
+        ShadingVariant& variant = triangle.variant();
+        variant.shading = static_cast<Shading>(mix.below(3));
+        variant.highlight = static_cast<Highlight>(mix.below(2));
+        variant.power = static_cast<Power>(mix.below(4));
+        variant.normals = static_cast<NormalScaling>(mix.below(3));
+        triangle.material().shininess = mix.amount();
+        // In the triangle; a pixel's centre, its border, a corner.
+        const float x = mix.up_to(1), y = mix.up_to(1 - x);
+        const std::span lights = some_lights.two(mix);
+        const ReflectedLight light =
+            triangle.light_at({x, y, 1 - x - y}, lights, mix.place(), mix.below(2) == 0);
+        constexpr float most = 2 * 10 * 1.002f;  // approximate normals are .18% too long at most
+        ASSERT_TRUE(are_within("diffuse", light.diffuse, 0, most)) << "seed 5, case " << i;
+        ASSERT_TRUE(are_within("specular", light.specular, 0, most)) << "seed 5, case " << i;
+        lit += light.diffuse.x > 0;
+    }
+    EXPECT_GT(lit, cases / 20);
+}
