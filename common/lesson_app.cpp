@@ -185,7 +185,8 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
     LessonOptions& options = program.options;
     options.out = program.name + ".png";
     CLI::App line(program.title, program.name);
-    line.add_option("--model", options.model, "The OBJ file to draw [" + options.model.string() + " of the course]")
+    line.add_option("--model", options.model,
+                    "The OBJ file to draw [" + options.model.string() + " of the course]")
         ->type_name("FILE.obj");
     line.add_option("--out", options.out,
                     "The picture to write: .png, .bmp or .tga [" + options.out.string() + "]")
