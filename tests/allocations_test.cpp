@@ -20,6 +20,8 @@
 #include "04_mvp/clip.hpp"
 #include "04_mvp/mvp_variants.hpp"
 #include "05_textures/textured_scene.hpp"
+#include "06_phong/lit_scene.hpp"
+#include "06_phong/shading_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 
@@ -30,6 +32,9 @@ namespace lesson_04 {
 }
 namespace lesson_05 {
 #include "05_textures/main.cpp"
+}
+namespace lesson_06 {
+#include "06_phong/main.cpp"
 }
 #undef main
 
@@ -146,4 +151,26 @@ TEST(Allocations, OfLesson05DoNotDependOnTriangles) {
                     return count;
                 }));
         }
+}
+
+TEST(Allocations, OfLesson06DoNotDependOnTriangles) {
+    for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
+        lesson_06::Options knobs;
+        knobs.shading.shading = shading;
+        EXPECT_TRUE(
+            does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
+                Scene shiny = scene;
+                shiny.materials[1].specular = vec3(0.5f), shiny.materials[1].shininess = 10;
+                LitScene lit(shiny, options);
+                lit.diffuse_textures[1] = std::make_shared<const Texture>(
+                    make_texture(Image<vec4>({16, 16}, vec4(0.5f)), Wrap::repeat));
+                lit.effects[1].diffuse_map = true;
+                Counters counters;
+                const std::size_t count =
+                    allocations_of([&] { lesson_06::render(options, lit, counters); });
+                EXPECT_GT(counters.values[std::size_t(Counter::highlights)], 1000u);
+                EXPECT_GT(counters.values[std::size_t(Counter::texture_samples)], 1000u);
+                return count;
+            }));
+    }
 }
