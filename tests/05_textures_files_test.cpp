@@ -114,6 +114,13 @@ TEST(Textures, PictureThatCannotBeReadIsAnErrorThatNamesWhoAsksForIt) {
     EXPECT_EQ(model.run().exit_status, 1) << "a folder";
 }
 
+TEST(Textures, MaterialThatNoTriangleHasReadsNoPicture) {
+    look_up("Eq. 5.11, and how pictures are found");
+    const Model model(plain + "map_Kd red.png\nnewmtl unused\nmap_Kd missing.png\n");
+    EXPECT_TRUE(is_all(model.drawn(), red));
+    EXPECT_EQ(model.run().err, "");
+}
+
 TEST(Textures, WithKeepGoingAChessboardTakesThePlaceOfABrokenPicture) {
     look_up("Eq. 5.11, and how pictures are found");
     const Model model(plain + "map_Kd bad.png\n");
@@ -221,6 +228,8 @@ TEST(Textures, OnePictureMayBeClampedByOneMaterialAndRepeatedByAnother) {
         scene.materials[i].diffuse_map.file = model.folder / "red.png";
         scene.materials[i].diffuse_map.clamp = i % 2;
     }
+    Mesh& mesh = scene.meshes.emplace_back();
+    for (std::uint32_t i = 1; i < 5; ++i) mesh.triangles.push_back({{}, i});
     struct {
         TextureVariant texture;
     } options;

@@ -298,6 +298,19 @@ TEST(Phong, HardCase_MissingAndBrokenSpecularMaps) {
     }
 }
 
+TEST(Phong, HardCase_SpecularMapsWithoutHighlightAreNotRead) {
+    look_up("Eq. 6.5, what is left out");
+    const fs::path folder = fresh_folder("unread_map"), out = folder / "out.png";
+    const fs::path model = written(folder / "m.obj", square);
+    for (const char* material : {"Ks 0 0 0\n", "Ks 1 1 1\nillum 1\n", "Ks 1 1 1\nillum 0\n"}) {
+        written(folder / "m.mtl", std::string("newmtl m\n") + material + "map_Ks missing.png\n");
+        const ProcessResult result = run_program(
+            "06_phong", {"--model", model.string(), "--size", "64x36", "--out", out.string()});
+        EXPECT_EQ(result.exit_status, 0) << material;
+        EXPECT_EQ(result.err, "") << material;
+    }
+}
+
 TEST(Phong, HardCase_BacksOfFaces) {
     look_up("Eq. 6.8");
     // A square from behind looks as one that is named the other way round from the front.

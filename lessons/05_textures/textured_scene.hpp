@@ -43,26 +43,34 @@ struct TexturedScene : Scene {
     TexturedScene(Scene scene, const Options& options) : Scene(std::move(scene)) {
         diffuse_textures = load_textures(
             &Material::diffuse_map, "map_Kd", options.texture,
-            [&](const Image<u8vec4>& picture) { return options.texture.decoded(picture); });
+            [&](const Image<u8vec4>& picture) { return options.texture.decoded(picture); },
+            [](const Material&) { return true; });
     }
 
   protected:
-    /// The textures that materials name by one statement, each picture read once.
+    /// The textures that materials name by one statement, each picture read once; null for
+    /// materials that no triangle has.
     ///
-    /// @param decode  Called as decode(Image<u8vec4>); gives an Image<vec4>.
-    template <typename Decode>
+    /// @param decode     Called as decode(Image<u8vec4>); gives an Image<vec4>.
+    /// @param calls_for  Called as calls_for(Material): whether it needs its texture.
+    template <typename Decode, typename CallsFor>
     MaterialTextures load_textures(TextureMap Material::* map_of, const char* statement,
-                                   const TextureOptions& texture_options, Decode&& decode) {
+                                   const TextureOptions& texture_options, Decode&& decode,
+                                   CallsFor&& calls_for) {
+        std::vector<bool> is_seen(materials.size());
+        for (const Mesh& mesh : meshes)
+            for (const Triangle& triangle : mesh.triangles) is_seen[triangle.material] = true;
         std::map<std::pair<std::filesystem::path, bool>, std::shared_ptr<const Texture>> loaded;
-        MaterialTextures textures;
-        for (const Material& material : materials) {
-            const TextureMap& map = material.*map_of;
+        MaterialTextures textures(materials.size());
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            const TextureMap& map = materials[i].*map_of;
+            if (map.file.empty() || !is_seen[i] || !calls_for(materials[i])) continue;
             std::shared_ptr<const Texture>& texture = loaded[{map.file, map.clamp}];
-            if (!texture && !map.file.empty())
+            if (!texture)
                 texture = std::make_shared<Texture>(
                     make_texture(decode(read_picture(map, statement, texture_options.keep_going)),
                                  map.clamp ? Wrap::clamp : texture_options.wrap));
-            textures.push_back(texture);
+            textures[i] = texture;
         }
         return textures;
     }

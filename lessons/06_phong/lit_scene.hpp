@@ -24,26 +24,26 @@ struct Effects {
     bool light, highlight, diffuse_map, specular_map;
 };
 
+inline bool has_highlight(const Material& material) {
+    return material.illumination >= 2 && material.specular != vec3(0);
+}
+
 /// A model whose every corner has a normal, and the textures and effects of its materials.
 struct LitScene : TexturedScene {
     MaterialTextures specular_textures;  ///< map_Ks, plain numbers.
     std::vector<Effects> effects;        ///< For each material.
 
     /// @param options  Has TextureOptions `texture`; with shading.all_effects, a lit material has
-    /// all
-    ///                 effects: a white texture where it has none, a black highlight where it has
-    ///                 none.
+    ///                 each effect: a white texture or a black highlight where it has none.
     template <typename Options>
     LitScene(Scene scene, const Options& options) : TexturedScene(std::move(scene), options) {
         for (Mesh& mesh : meshes) complete_normals(mesh);
-        specular_textures =
-            load_textures(&Material::specular_map, "map_Ks", options.texture, plain_numbers);
+        specular_textures = load_textures(&Material::specular_map, "map_Ks", options.texture,
+                                          plain_numbers, has_highlight);
         for (std::size_t i = 0; i < materials.size(); ++i) {
             const bool light = materials[i].illumination >= 1;
-            const bool highlight =
-                materials[i].illumination >= 2 && materials[i].specular != vec3(0);
-            effects.push_back({light, highlight, diffuse_textures[i] != nullptr,
-                               highlight && specular_textures[i] != nullptr});
+            effects.push_back({light, has_highlight(materials[i]), diffuse_textures[i] != nullptr,
+                               specular_textures[i] != nullptr});
             if (options.shading.all_effects) add_neutral_effects(i);
         }
     }
