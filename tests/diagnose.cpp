@@ -36,27 +36,34 @@ Drawn draw(const std::string& lesson, std::vector<std::string> arguments, ivec2 
     return drawn;
 }
 
-/// The options of the lesson's further pictures: "gallery: OPTIONS | ..." in its README.
-std::vector<std::string> options_of_other_pictures(const std::string& lesson) {
+/// A picture that a lesson draws with other options, and what those mean.
+struct OtherPicture {
+    std::string options, meaning;
+};
+
+/// Those that the lesson's README names in its comment: lines "MARK: OPTIONS | MEANING".
+std::vector<OtherPicture> other_pictures(const std::string& lesson, const std::string& mark) {
     std::istringstream readme(test::read_text(course / "lessons" / lesson / "README.md"));
-    std::vector<std::string> options;
-    const std::string mark = "gallery: ";
+    std::vector<OtherPicture> others;
     for (std::string line; std::getline(readme, line);)
-        if (line.starts_with(mark))
-            options.push_back(line.substr(mark.size(), line.find(" |") - mark.size()));
-    return options;
+        if (const auto bar = line.find(" | "); line.starts_with(mark) && bar != line.npos)
+            others.push_back({line.substr(mark.size(), bar - mark.size()), line.substr(bar + 3)});
+    return others;
 }
 
-/// The options of the one of the lesson's further pictures that this is, or "".
-std::string recognised(const std::string& lesson, const Image<u8vec4>& actual) {
-    for (const std::string& options : options_of_other_pictures(lesson)) {
-        std::istringstream words(options);
-        const std::vector<std::string> arguments(std::istream_iterator<std::string>(words), {});
-        const Drawn other = draw(lesson, arguments, actual.size());
-        if (other.picture.size() == actual.size() && diagnose(actual, other.picture, {}).empty())
-            return options;
+/// The first of the other pictures that this is; of no options if it is none of them.
+///
+/// @param options  Given besides.
+OtherPicture recognised(const std::string& lesson, const std::vector<std::string>& options,
+                        const std::string& mark, const Image<u8vec4>& actual) {
+    for (const OtherPicture& other : other_pictures(lesson, mark)) {
+        std::vector<std::string> arguments = options;
+        std::istringstream words(other.options);
+        arguments.insert(arguments.end(), std::istream_iterator<std::string>(words), {});
+        const Image<u8vec4> picture = draw(lesson, arguments, actual.size()).picture;
+        if (picture.size() == actual.size() && diagnose(actual, picture, {}).empty()) return other;
     }
-    return "";
+    return {};
 }
 
 /// @return  The exit status.
@@ -75,9 +82,17 @@ int examine(const std::string& file, const std::string& lesson,
         std::cout << file << " looks the same as the course's; the tests see more\n";
         return 0;
     }
+    const OtherPicture mistake = recognised(lesson, options, "diagnose: ", actual);
+    if (!mistake.options.empty()) {
+        std::cout << file << ": looks as with " << mistake.options << ": " << mistake.meaning
+                  << '\n';
+        return 1;
+    }
     std::cout << file << ": " << found << '\n';
-    const std::string other = options.empty() ? recognised(lesson, actual) : "";
-    if (!other.empty()) std::cout << "It is the lesson's picture with " << other << '\n';
+    if (!options.empty()) return 1;
+    const OtherPicture other = recognised(lesson, {}, "gallery: ", actual);
+    if (!other.options.empty())
+        std::cout << "It is the lesson's picture with " << other.options << '\n';
     return 1;
 }
 

@@ -403,6 +403,29 @@ TEST(ImageDoctor, TheCommandSaysWhatItSees) {
         << result.out;
 }
 
+TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAKnobShows) {
+    const std::string file = (fresh_folder("doctor") / "mine.png").string();
+    struct Case {
+        std::string lesson;
+        std::vector<std::string> knob;
+        std::string equation;
+    };
+    for (const auto& [lesson, knob, equation] :
+         {Case{"05_textures", {"--mapping", "affine"}, "Eq. 5.2"},
+          Case{"05_textures", {"--filter", "bilinear"}, "Eq. 5.7 and 5.8"},
+          Case{"06_phong", {"--normals", "none"}, "Eq. 6.8"},
+          Case{"06_phong", {"--highlight", "blinn"}, "Eq. 6.3 and 6.4"}}) {
+        std::vector<std::string> arguments = knob;
+        arguments.insert(arguments.end(), {"--yaw", "10", "--size", "160x90", "--out", file});
+        ASSERT_EQ(run_program(lesson, arguments).exit_status, 0);
+        const ProcessResult result = run_program(program, {file, lesson, "--yaw", "10"});
+        EXPECT_EQ(result.exit_status, 1);
+        const std::string begin = file + ": looks as with " + knob[0] + ' ' + knob[1] + ": ";
+        EXPECT_EQ(result.out.rfind(begin, 0), 0u) << result.out;
+        EXPECT_NE(result.out.find(equation), std::string::npos) << result.out;
+    }
+}
+
 TEST(ImageDoctor, HardCase_BadInputAndUsageOfTheCommand) {
     const auto folder = fresh_folder("doctor");
     const std::string text = (folder / "text.png").string(), picture = (folder / "a.png").string();
