@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "common/math/types.hpp"
 
 namespace rasterbook {
@@ -48,6 +50,13 @@ struct Bounds {
 
     void add(vec3 point) { min = glm::min(min, point), max = glm::max(max, point); }
     vec3 center() const { return 0.5f * min + 0.5f * max; }
+
+    /// Half of the diagonal; 1 for a box of no size or an empty one. Taken in double, where the
+    /// squares of lengths neither overflow nor underflow.
+    float radius() const {
+        const double diagonal = min.x <= max.x ? glm::length(dvec3(max) - dvec3(min)) : 0;
+        return diagonal > 0 ? static_cast<float>(diagonal / 2) : 1.0f;
+    }
 };
 
 /// One group of a model file, with arrays of its own.

@@ -47,9 +47,7 @@ inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
 inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     const bool is_empty = !(bounds.min.x <= bounds.max.x);
     const vec3 center = is_empty ? vec3(0) : bounds.center();
-    // In double, where the squares of lengths neither overflow nor underflow.
-    const double diagonal = is_empty ? 0 : glm::length(dvec3(bounds.max) - dvec3(bounds.min));
-    const float radius = diagonal > 0 ? static_cast<float>(diagonal / 2) : 1.0f;
+    const float radius = bounds.radius();
     const float distance = orbit.distance * radius;
     const float yaw_radians = glm::radians(orbit.yaw_degrees);
     const float pitch_radians = glm::radians(orbit.pitch_degrees);

@@ -100,9 +100,7 @@ struct TriangleSurface {
 /// @param bounds  Of the scene, world space.
 inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds) {
     const vec3 center = bounds.center();
-    // In double, where the squares of lengths neither overflow nor underflow.
-    const double half_diagonal = 0.5 * glm::length(dvec3(bounds.max) - dvec3(bounds.min));
-    const float radius = half_diagonal > 0 ? static_cast<float>(half_diagonal) : 1.0f;
+    const float radius = bounds.radius();
     const vec3 toward_key = unit_or(vec3(-1.2f, 0.5f, 0.6f), vec3(0, 1, 0));
     const vec3 toward_rim = unit_or(vec3(0.95f, 0.38f, -0.55f), vec3(0, 1, 0));
     Light light{key, vec3(1.0f, 0.92f, 0.8f), toward_key};

@@ -44,8 +44,8 @@ inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
 /// @param bounds  Of the scene, world space. Of no size: as if its radius were 1; empty: the same,
 ///                around the origin.
 inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
-    // TODO: the radius, in double; the eye and the up direction by Eq. 4.6; Eq. 4.5; near and far
-    // as the text says after Eq. 4.8.
+    // TODO: bounds.radius() is given; the eye and the up direction by Eq. 4.6; Eq. 4.5; near and
+    // far as the text says after Eq. 4.8.
     return {vec3(0, 0, 1), mat4(1), 1, 1, 2};
 }
 
