@@ -57,6 +57,11 @@ struct ShadingVariant {
                       {"approximate", NormalScaling::approximate},
                       {"none", NormalScaling::none}},
                      "How an interpolated normal is scaled to length 1");
+        declare_light(knobs);
+    }
+
+    /// Those that go on in the lessons behind.
+    void declare_light(Knobs& knobs) {
         knobs.choice("--light", key_light,
                      {{"sun", LightKind::directional},
                       {"lamp", LightKind::point},

@@ -115,7 +115,7 @@ void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera&
 /// From where on a change counts as an edge.
 struct EdgeThresholds {
     float depth = 0.02f;   ///< In units of the distance to what is seen.
-    float normals = 0.6f;  ///< Of unit vectors: 0.6 is a turn of 35 degrees.
+    float normals = 0.5f;  ///< Of unit vectors: 0.5 is a turn of 29 degrees.
 };
 
 /// How near what is seen in a pixel is: 1 / w, which of a plane is linear on the screen (Eq. 7.11).

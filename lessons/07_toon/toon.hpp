@@ -12,6 +12,9 @@ namespace rasterbook {
 
 constexpr int most_bands = 255;
 
+/// From all around: the light of the darkest band; linear.
+constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
+
 /// How bright a coloured light is: its greatest number (Eq. 7.1).
 ///
 /// @return  0 for NaN and for negative numbers.
@@ -51,12 +54,12 @@ constexpr float least_highlight = 0.5f;
 /// band has one colour.
 ///
 /// @param color          Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
-/// @param ambient_light  0 to 1.
+/// @param from_all_around  Light, 0 to 1.
 /// @param level          Of the diffuse light, 0 to 1.
 /// @param is_highlight   Whether the fragment lies in a highlight.
-inline vec3 paint(const SurfaceColor& color, vec3 ambient_light, float level, bool is_highlight) {
+inline vec3 paint(const SurfaceColor& color, vec3 from_all_around, float level, bool is_highlight) {
     if (is_highlight) return vec3(1);
-    return color.emission + color.ambient * ambient_light + color.diffuse * level;
+    return color.emission + color.ambient * from_all_around + color.diffuse * level;
 }
 
 /// Whether a highlight can be seen in a fragment: what Phong's model would add is bright enough.
@@ -67,9 +70,9 @@ inline bool is_highlight(const SurfaceColor& color, const ReflectedLight& light)
 /// What a fragment sends to the eye: in place of phong() (Eq. 7.4).
 ///
 /// @param bands  1 to most_bands.
-inline vec3 toon(const SurfaceColor& color, vec3 ambient_light, const ReflectedLight& light,
+inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const ReflectedLight& light,
                  int bands) {
-    return paint(color, ambient_light, banded(brightness(light.diffuse), bands),
+    return paint(color, from_all_around, banded(brightness(light.diffuse), bands),
                  is_highlight(color, light));
 }
 
