@@ -154,11 +154,11 @@ inline std::vector<Part> figure() {
     };
     std::vector<Part> parts = {
         limb("coat", {0, 1.2, 0}, {0, 1.72, 0}, 0.74, 0.54, 32),
-        ellipsoid("cream", {0, 1.24, 0.46}, {0.5, 0.54, 0.36}, 24),
+        ellipsoid("cream", {0, 1.24, 0.56}, {0.48, 0.52, 0.28}, 24),
         ellipsoid("lamp", {0, 1.3, 0.8}, {0.11, 0.11, 0.09}, 12),
         ring("trim", {0, 2.14, 0}, 0.4, 0.12),
         ellipsoid("cream", {0, 2.78, 0}, {0.92, 0.7, 0.78}, 32),
-        ellipsoid("glass", {0, 2.76, 0.42}, {0.7, 0.44, 0.48}, 24),
+        ellipsoid("glass", {0, 2.76, 0.52}, {0.7, 0.44, 0.39}, 24),
         limb("steel", {0, 3.4, 0}, {0.06, 3.82, 0}, 0.07, 0.07, 8),
         ellipsoid("lamp", {0.08, 3.94, 0}, {0.16, 0.16, 0.16}, 16),
         limb("coat", {-0.6, 1.8, 0}, {-1.0, 1.16, 0.24}, 0.19, 0.16, 16),
@@ -167,7 +167,7 @@ inline std::vector<Part> figure() {
         ellipsoid("trim", {1.42, 2.36, 0.24}, {0.24, 0.24, 0.24}, 16),
     };
     for (const double side : {-1.0, 1.0}) {
-        parts.push_back(ellipsoid("eyes", {0.26 * side, 2.8, 0.83}, {0.12, 0.17, 0.09}, 12));
+        parts.push_back(ellipsoid("eyes", {0.26 * side, 2.8, 0.85}, {0.12, 0.17, 0.09}, 12));
         parts.push_back(ellipsoid("trim", {0.92 * side, 2.78, 0}, {0.16, 0.3, 0.3}, 16));
         parts.push_back(
             limb("steel", {0.34 * side, 0.3, 0}, {0.32 * side, 0.9, 0}, 0.17, 0.17, 12));
@@ -180,7 +180,7 @@ inline std::vector<Part> figure() {
             vertex.position =
                 dvec3(-1.05, 0.25, -0.8) + 0.46 * (vertex.position - dvec3(-2.4, 0.25, -2.2));
     parts.push_back(std::move(box));
-    Part platform = revolved("platform", disc_profile(2.1, 0.25, 0.08, 2), 64, {});
+    Part platform = revolved("platform", disc_profile(2.1, 0.25, 0.08, 2), 48, {});
     platform.group = "platform";
     parts.push_back(std::move(platform));
     return parts;
