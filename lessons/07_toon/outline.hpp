@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "02_triangle_fill/triangle.hpp"
@@ -44,7 +45,8 @@ inline std::vector<vec3> hull_normals(const Mesh& mesh) {
     };
     std::vector<std::size_t> by_place(sums.size());
     std::iota(by_place.begin(), by_place.end(), std::size_t{0});
-    std::ranges::stable_sort(by_place, {}, place);
+    // Sums are rounded: those of one place are taken in their order in the mesh.
+    std::ranges::sort(by_place, {}, [&](std::size_t i) { return std::pair(place(i), i); });
     for (std::size_t begin = 0, end; begin < by_place.size(); begin = end) {
         vec3 sum(0);
         for (end = begin; end < by_place.size() && place(by_place[end]) == place(by_place[begin]);)

@@ -36,14 +36,14 @@ void add_places() {
         {"Gouraud", Shading::gouraud, Points::together},
         {"Phong", Shading::phong, Points::together},
         {"Phong one by one", Shading::phong, Points::one_by_one}};
-    for (const auto& [name, shading, how] : places)
+    for (const auto& [name, shading, place] : places)
         for (const LitSphere* sphere : {&coarse(), &fine()}) {
             const ShadingVariant variant{.shading = shading};
             const LightErrors errors = light_errors(*sphere, variant);
             add_variant(
                 "places", name + std::string(sphere == &fine() ? ", fine" : ", coarse"),
                 errors.fragments, {{"RMS error", errors.rms}, {"greatest error", errors.greatest}},
-                [=, how = how] {
+                [=, how = place] {
                     sphere->draw(
                         variant, [](ivec2 pixel, float light) { picture[pixel] = light; }, how);
                 });

@@ -180,7 +180,9 @@ void add_bands() {
                                                            {"smooth", true, 1},
                                                            {"hard, 4 samples", false, 2},
                                                            {"hard, 16 samples", false, 4}};
-    for (const auto& [name, smooth, samples] : variants) {
+    for (const auto& [name, is_smooth, per_side] : variants) {
+        const bool smooth = is_smooth;
+        const int samples = per_side;
         const Image<float> levels = drawn_levels(scene, smooth, samples);
         double squares = 0, greatest = 0, compared = 0;
         for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -198,10 +200,9 @@ void add_bands() {
                         ivec2(j % zoom, j / zoom)] = seen;
         }
         ++panel;
-        add_variant(
-            "bands", name, double(size.x) * size.y,
-            {{"RMS error", std::sqrt(squares / compared)}, {"greatest error", greatest}},
-            [=, smooth = smooth, samples = samples] { drawn_levels(scene, smooth, samples); });
+        add_variant("bands", name, double(size.x) * size.y,
+                    {{"RMS error", std::sqrt(squares / compared)}, {"greatest error", greatest}},
+                    [=] { drawn_levels(scene, smooth, samples); });
     }
     write_image(RASTERBOOK_ASSETS "/../docs/accuracy/07_toon-bands.png",
                 srgb8_from_linear(picture));
