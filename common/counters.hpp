@@ -21,7 +21,10 @@ enum class Counter {
     fragments_shaded,  ///< Written into the picture.
     texture_samples,
     fragments_lit,
-    highlights,  ///< Fragments for which highlights are computed.
+    highlights,        ///< Fragments for which highlights are computed.
+    shadow_passes,     ///< Depth maps drawn.
+    shadow_fragments,  ///< Compared with a depth map's texel.
+    shadow_lookups,    ///< Points for which a depth map was asked, with all its texels.
     count
 };
 
@@ -37,7 +40,10 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "fragments_shaded",
     "texture_samples",
     "fragments_lit",
-    "highlights"};
+    "highlights",
+    "shadow_passes",
+    "shadow_fragments",
+    "shadow_lookups"};
 
 /// Counts.
 struct Counters {
