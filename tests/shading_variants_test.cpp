@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <limits>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "06_phong/fragments.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/image_io.hpp"
 #include "support/lesson_process.hpp"
@@ -70,7 +72,115 @@ Image<u8vec4> picture(std::vector<std::string> arguments) {
     return read_image(out);
 }
 
+/// Lights `count` fragments together, and says whether each got the very bits that it gets alone.
+void expect_the_same_light(const TriangleLight& light, std::size_t count) {
+    NoCounters counters;
+    const std::vector<vec3> weights = weights_in_triangles(static_cast<int>(count));
+    LitPoints points;
+    for (const vec3 w : weights) light.add(w, points, counters);
+    light.compute(points);
+    ASSERT_EQ(points.count, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(points.light(i).diffuse, light_at(light, weights[i]).diffuse) << i;
+        ASSERT_EQ(points.light(i).specular, light_at(light, weights[i]).specular) << i;
+    }
+}
+
 }  // namespace
+
+TEST(ShadingVariants, ManyFragmentsAreLitAsEachAlone) {
+    LitSphere lit = sphere();
+    Light& light = lit.lights[0];
+    light.direction_world = unit_or(-light.position_world, vec3(0));
+    light.cos_full = 0.95f, light.cos_none = 0.9f;
+    bool is_lit = false, is_dark = false;
+    for (const bool has_highlight : {true, false}) {
+        lit.scene.effects[0].highlight = has_highlight;
+        for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
+            light.kind = kind;
+            for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
+                for (const Highlight highlight : {Highlight::phong, Highlight::blinn})
+                    for (std::size_t i = 0; i < lit.mesh().triangles.size(); ++i) {
+                        const ShadingVariant variant{.shading = shading, .highlight = highlight};
+                        const TriangleLight on = lit.light_on(lit.mesh().triangles[i], variant);
+                        expect_the_same_light(on, 1 + 7 * i % most_points);
+                        (light_at(on, vec3(1.0f / 3)).diffuse.x > 0 ? is_lit : is_dark) = true;
+                    }
+        }
+    }
+    EXPECT_TRUE(is_lit && is_dark);
+}
+
+TEST(ShadingVariants, ManyFragmentsAreLitAsEachAloneWhereSquaresAreOfNoUse) {
+    const LitSphere usual = sphere();
+    const Triangle triangle = usual.mesh().triangles[50];
+    const std::size_t b = triangle.corners[1].normal, c = triangle.corners[2].position;
+    for (const float size : {0.0f, 1e-20f, 1e20f, std::numeric_limits<float>::max()}) {
+        LitSphere lit = usual;
+        for (vec3& normal : lit.scene.meshes[0].normals) normal *= size;
+        expect_the_same_light(lit.light_on(triangle, {}), most_points);
+        lit = usual;
+        lit.scene.meshes[0].normals[b] *= -1;  // somewhere between, there is none
+        lit.scene.meshes[0].positions[c] *= size;
+        expect_the_same_light(lit.light_on(triangle, {}), most_points);
+        lit = usual;
+        lit.lights[0].position_world *= size;
+        expect_the_same_light(lit.light_on(triangle, {}), most_points);
+        lit = usual;
+        for (vec3& position : lit.scene.meshes[0].positions)
+            position = lit.lights[0].position_world;  // the lamp stands on the surface
+        expect_the_same_light(lit.light_on(triangle, {}), most_points);
+        for (vec3& position : lit.scene.meshes[0].positions) position = lit.camera.position_world;
+        expect_the_same_light(lit.light_on(triangle, {}), most_points);
+    }
+}
+
+TEST(ShadingVariants, OfALightArrivesTheShareOfEachPoint) {
+    std::array lights{Light{LightKind::point, vec3(1, 2, 3), vec3(0), vec3(0, 2, 0)},
+                      Light{LightKind::directional, vec3(4), vec3(0, 1, 0)}};
+    LitPoints points;
+    points.count = 3;
+    for (std::size_t i = 0; i < points.count; ++i)
+        points.position_world.set(i, vec3(ivec3(int(i), 0, 0))),
+            points.normal_world.set(i, vec3(0, 1, 0));
+    const auto square = [](float cosine) { return cosine * cosine; };
+    const auto light = [&](std::size_t i, vec2 shares) {
+        EXPECT_TRUE(reflect_light(lights, vec3(1, 1, 1), true, points, square,
+                                  [&](std::size_t l, std::size_t point) {
+                                      return point == i ? shares[static_cast<int>(l)] : 1.0f;
+                                  }));
+        return points.light(i);
+    };
+    for (std::size_t i = 0; i < points.count; ++i) {
+        const ReflectedLight lamp = light(i, {1, 0}), sun = light(i, {0, 1}),
+                             both = light(i, {0.5f, 0.25f});
+        EXPECT_GT(lamp.diffuse.x, 0);
+        EXPECT_GT(sun.specular.x, 0);
+        EXPECT_EQ(both.diffuse, 0.5f * lamp.diffuse + 0.25f * sun.diffuse);
+        EXPECT_EQ(both.specular, 0.5f * lamp.specular + 0.25f * sun.specular);
+        EXPECT_EQ(light(i, {0, 0}).diffuse, vec3(0));
+    }
+}
+
+TEST(ShadingVariants, FragmentsAreHandedOverInTheirOrder) {
+    for (const int count : {0, 1, 63, 64, 65, 128, 200}) {
+        std::vector<int> seen;
+        const auto shade = [&](std::span<const Fragment> fragments) {
+            ASSERT_GT(fragments.size(), 0u);
+            ASSERT_LE(fragments.size(), most_points);
+            for (const Fragment& fragment : fragments) {
+                seen.push_back(fragment.pixel.x);
+                EXPECT_EQ(ivec3(fragment.screen_weights), ivec3(fragment.pixel.x));
+            }
+        };
+        Fragments fragments(shade);
+        for (int i = 0; i < count; ++i) fragments.add({ivec2(i, 0), vec3(ivec3(i))});
+        fragments.finish();
+        fragments.finish();
+        ASSERT_EQ(seen.size(), static_cast<std::size_t>(count));
+        for (int i = 0; i < count; ++i) EXPECT_EQ(seen[static_cast<std::size_t>(i)], i);
+    }
+}
 
 TEST(ShadingVariants, EveryShadingIsThatOfTheSurfaceWhereItIsComputed) {
     // A highlight of 90 makes 90 of each half ulp that its cosine is off, and that has a dozen.

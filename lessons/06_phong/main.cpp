@@ -6,6 +6,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
 #include "05_textures/textured_scene.hpp"
+#include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/backdrop.hpp"
@@ -63,17 +64,28 @@ Image<vec3> render(const Options& options, const LitScene& scene, CounterPolicy&
                 const PerspectiveWeights perspective(on_screen, clipped);
                 const TriangleLight light(options.shading, lights, camera.position_world, mesh,
                                           triangle, is_back, surface);
+                const auto shade = [&](std::span<const Fragment> fragments) {
+                    std::array<SurfaceColor, most_points> own;
+                    LitPoints points;
+                    for (std::size_t i = 0; i < fragments.size(); ++i) {
+                        const FragmentWeights weights = perspective.at(fragments[i].screen_weights);
+                        own[i] = surface.color(weights, options.texture.filter, counters);
+                        if (surface.effects.light) light.add(weights.here, points, counters);
+                    }
+                    light.compute(points);
+                    for (std::size_t i = 0; i < fragments.size(); ++i)
+                        color[fragments[i].pixel] =
+                            surface.effects.light ? phong(own[i], ambient_light, points.light(i))
+                                                  : unlit(own[i]);
+                };
+                Fragments visible(shade);
                 fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
                     counters.add(Counter::fragments_tested);
                     if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
                     counters.add(Counter::fragments_shaded);
-                    const FragmentWeights weights = perspective.at(screen_weights);
-                    const SurfaceColor own =
-                        surface.color(weights, options.texture.filter, counters);
-                    color[pixel] = surface.effects.light
-                                       ? phong(own, ambient_light, light.at(weights.here, counters))
-                                       : unlit(own);
+                    visible.add({pixel, screen_weights});
                 });
+                visible.finish();
             }
         }
     }

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "05_textures/interpolation.hpp"
+#include "06_phong/lit_points.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
@@ -138,7 +139,9 @@ class TriangleLight {
           eye_world_(eye_world),
           has_highlight_(surface.effects.highlight),
           shininess_(surface.material.shininess),
-          least_cosine_(least_seen_cosine(variant.power, shininess_)) {
+          least_cosine_(least_seen_cosine(variant.power, shininess_)),
+          at_once_(variant.shading == Shading::phong && variant.highlight == Highlight::phong &&
+                   variant.normals == NormalScaling::exact) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Corner corner = triangle.corners[i];
             positions_[i] = mesh.positions[corner.position];
@@ -156,8 +159,7 @@ class TriangleLight {
     /// @param weights  Of the corners.
     template <typename CounterPolicy>
     ReflectedLight at(vec3 weights, CounterPolicy& counters) const {
-        counters.add(Counter::fragments_lit);
-        if (has_highlight_) counters.add(Counter::highlights);
+        count(counters);
         if (variant_.shading == Shading::flat) return {diffuse_[0], specular_[0]};
         if (variant_.shading == Shading::gouraud)
             return {interpolate(diffuse_, weights), interpolate(specular_, weights)};
@@ -165,7 +167,39 @@ class TriangleLight {
         return reflected(interpolate(positions_, weights), scaled(normal));
     }
 
+    /// Adds a fragment to those that are lit together.
+    ///
+    /// @param weights  Of the corners.
+    /// @param points   Fewer than most_points.
+    template <typename CounterPolicy>
+    void add(vec3 weights, LitPoints& points, CounterPolicy& counters) const {
+        const std::size_t i = points.count++;
+        if (!at_once_) return points.set_light(i, at(weights, counters));
+        count(counters);
+        points.position_world.set(i, interpolate(positions_, weights));
+        points.normal_world.set(i, interpolate(normals_, weights));
+    }
+
+    /// The light on all of them: the same bits as of at(), sooner.
+    void compute(LitPoints& points) const {
+        if (!at_once_) return;
+        if (reflect_light(
+                lights_, eye_world_, has_highlight_, points,
+                [this](float cosine) { return power(cosine); },
+                [](std::size_t, std::size_t) { return 1.0f; }))
+            return;
+        for (std::size_t i = 0; i < points.count; ++i)
+            points.set_light(i,
+                             reflected(points.position_world[i], scaled(points.normal_world[i])));
+    }
+
   private:
+    template <typename CounterPolicy>
+    void count(CounterPolicy& counters) const {
+        counters.add(Counter::fragments_lit);
+        if (has_highlight_) counters.add(Counter::highlights);
+    }
+
     void set_corner(std::size_t i, const ReflectedLight& light) {
         diffuse_[i] = light.diffuse, specular_[i] = light.specular;
     }
@@ -179,10 +213,12 @@ class TriangleLight {
     ReflectedLight reflected(vec3 position, vec3 normal) const {
         const vec3 toward_eye = has_highlight_ ? unit_or(eye_world_ - position, normal) : vec3(0);
         const SurfacePoint point{position, normal, toward_eye};
-        return reflected_light(
-            lights_, point, has_highlight_, variant_.highlight, [&](float cosine) {
-                return cosine < least_cosine_ ? 0.0f : power_as(variant_.power, cosine, shininess_);
-            });
+        return reflected_light(lights_, point, has_highlight_, variant_.highlight,
+                               [this](float cosine) { return power(cosine); });
+    }
+
+    float power(float cosine) const {
+        return cosine < least_cosine_ ? 0.0f : power_as(variant_.power, cosine, shininess_);
     }
 
     ShadingVariant variant_;
@@ -191,6 +227,7 @@ class TriangleLight {
     bool has_highlight_;
     float shininess_;
     float least_cosine_;  ///< Of a highlight that can be seen.
+    bool at_once_;        ///< Light is the one that reflect_light() computes.
     std::array<vec3, 3> positions_, normals_;
     std::array<vec3, 3> diffuse_, specular_;  ///< For Gouraud at the corners; for flat the first.
 };

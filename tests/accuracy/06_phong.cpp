@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <random>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "06_phong/shading_variants.hpp"
@@ -31,18 +31,22 @@ const LitSphere& fine() {
 
 void add_places() {
     static Image<float> picture(LitSphere::size, 0);
-    const std::pair<const char*, Shading> shadings[] = {
-        {"flat", Shading::flat}, {"Gouraud", Shading::gouraud}, {"Phong", Shading::phong}};
-    for (const auto& [name, shading] : shadings)
+    const std::tuple<const char*, Shading, Points> places[] = {
+        {"flat", Shading::flat, Points::together},
+        {"Gouraud", Shading::gouraud, Points::together},
+        {"Phong", Shading::phong, Points::together},
+        {"Phong one by one", Shading::phong, Points::one_by_one}};
+    for (const auto& [name, shading, how] : places)
         for (const LitSphere* sphere : {&coarse(), &fine()}) {
             const ShadingVariant variant{.shading = shading};
             const LightErrors errors = light_errors(*sphere, variant);
-            add_variant("places", name + std::string(sphere == &fine() ? ", fine" : ", coarse"),
-                        errors.fragments,
-                        {{"RMS error", errors.rms}, {"greatest error", errors.greatest}}, [=] {
-                            sphere->draw(variant,
-                                         [](ivec2 pixel, float light) { picture[pixel] = light; });
-                        });
+            add_variant(
+                "places", name + std::string(sphere == &fine() ? ", fine" : ", coarse"),
+                errors.fragments, {{"RMS error", errors.rms}, {"greatest error", errors.greatest}},
+                [=, how = how] {
+                    sphere->draw(
+                        variant, [](ivec2 pixel, float light) { picture[pixel] = light; }, how);
+                });
         }
 }
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -19,6 +20,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/counters.hpp"
@@ -219,30 +221,45 @@ void textured_and_lit(benchmark::State& state) {
                     if (!is_front_facing(on_screen)) continue;
                     const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
                     const PerspectiveWeights perspective(on_screen, clipped);
-                    const auto fill = [&](auto&& shade) {
+                    const auto fill = [&](auto&& emit) {
                         fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
                             if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights)))
                                 return;
                             counters.add(Counter::fragments_shaded);
-                            color[pixel] = shade(perspective.at(screen_weights));
+                            emit(pixel, screen_weights);
                         });
                     };
                     if (!with_light) {
-                        fill([&](const FragmentWeights& weights) {
-                            if (surface.texture == nullptr) return surface.material.diffuse;
-                            return surface.material.diffuse *
-                                   vec3(sample(*surface.texture, knobs.texture.filter,
-                                               fragment_uv(surface.uvs, weights)));
+                        fill([&](ivec2 pixel, vec3 screen_weights) {
+                            color[pixel] = surface.material.diffuse;
+                            if (surface.texture != nullptr)
+                                color[pixel] *= vec3(sample(
+                                    *surface.texture, knobs.texture.filter,
+                                    fragment_uv(surface.uvs, perspective.at(screen_weights))));
                         });
                         continue;
                     }
                     const TriangleLight light(knobs.shading, lights, camera.position_world, mesh,
                                               triangle, false, surface);
-                    fill([&](const FragmentWeights& weights) {
-                        const SurfaceColor own =
-                            surface.color(weights, knobs.texture.filter, counters);
-                        return phong(own, ambient_light, light.at(weights.here, counters));
+                    const auto shade = [&](std::span<const Fragment> fragments) {
+                        std::array<SurfaceColor, most_points> own;
+                        LitPoints points;
+                        for (std::size_t i = 0; i < fragments.size(); ++i) {
+                            const FragmentWeights weights =
+                                perspective.at(fragments[i].screen_weights);
+                            own[i] = surface.color(weights, knobs.texture.filter, counters);
+                            light.add(weights.here, points, counters);
+                        }
+                        light.compute(points);
+                        for (std::size_t i = 0; i < fragments.size(); ++i)
+                            color[fragments[i].pixel] =
+                                phong(own[i], ambient_light, points.light(i));
+                    };
+                    Fragments visible(shade);
+                    fill([&](ivec2 pixel, vec3 screen_weights) {
+                        visible.add({pixel, screen_weights});
                     });
+                    visible.finish();
                 }
             }
         }

@@ -9,12 +9,14 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
 #include "05_textures/interpolation.hpp"
+#include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/math/types.hpp"
@@ -47,6 +49,9 @@ inline Mesh sphere_mesh(int rows, int columns) {
         }
     return mesh;
 }
+
+/// Whether fragments are lit as the lesson does, or each by itself.
+enum class Points { together, one_by_one };
 
 /// A grey sphere with a highlight, a lamp and a camera that sees both.
 struct LitSphere {
@@ -81,7 +86,7 @@ struct LitSphere {
     /// Draws the sphere as the lesson does, without a depth buffer: of a sphere, no front faces
     /// cover each other. Calls emit(pixel, light) for each fragment.
     template <typename Emit>
-    void draw(const ShadingVariant& variant, Emit&& emit) const {
+    void draw(const ShadingVariant& variant, Emit&& emit, Points how = Points::together) const {
         NoCounters counters;
         const std::vector<vec4> positions_clip =
             transform(camera.clip_from_world(size), mesh().positions);
@@ -98,10 +103,21 @@ struct LitSphere {
                 const PerspectiveWeights perspective(on_screen, clipped);
                 const TriangleLight light(variant, lights, camera.position_world, mesh(), triangle,
                                           false, surface);
+                const auto shade = [&](std::span<const Fragment> fragments) {
+                    LitPoints points;
+                    for (const Fragment& fragment : fragments)
+                        light.add(perspective.at(fragment.screen_weights).here, points, counters);
+                    light.compute(points);
+                    for (std::size_t i = 0; i < fragments.size(); ++i)
+                        emit(fragments[i].pixel, phong(color, vec3(0), points.light(i)).x);
+                };
+                Fragments visible(shade);
                 fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+                    if (how == Points::together) return visible.add({pixel, screen_weights});
                     const vec3 weights = perspective.at(screen_weights).here;
                     emit(pixel, phong(color, vec3(0), light.at(weights, counters)).x);
                 });
+                visible.finish();
             }
         }
     }
