@@ -29,14 +29,29 @@ enum class Power { in_float, in_double, squarings, schlick };
 /// root, or nothing.
 enum class NormalScaling { exact, approximate, none };
 
-struct ShadingVariant {
+/// What every scene with lights can be asked for, in this lesson and all later ones.
+struct LightOptions {
+    LightKind key_light = LightKind::point;
+    bool two_sided = false;
+    bool all_effects = false;
+
+    void declare(Knobs& knobs) {
+        knobs.choice("--light", key_light,
+                     {{"sun", LightKind::directional},
+                      {"lamp", LightKind::point},
+                      {"spot", LightKind::spot}},
+                     "What the scene is lit by");
+        knobs.flag("--two-sided", two_sided, "Draw the backs of faces, too");
+        knobs.flag("--all-effects", all_effects,
+                   "Compute each effect also where it can change nothing");
+    }
+};
+
+struct ShadingVariant : LightOptions {
     Shading shading = Shading::phong;
     Highlight highlight = Highlight::phong;
     Power power = Power::in_float;
     NormalScaling normals = NormalScaling::exact;
-    LightKind key_light = LightKind::point;
-    bool two_sided = false;
-    bool all_effects = false;
 
     void declare(Knobs& knobs) {
         knobs.choice(
@@ -57,14 +72,7 @@ struct ShadingVariant {
                       {"approximate", NormalScaling::approximate},
                       {"none", NormalScaling::none}},
                      "How an interpolated normal is scaled to length 1");
-        knobs.choice("--light", key_light,
-                     {{"sun", LightKind::directional},
-                      {"lamp", LightKind::point},
-                      {"spot", LightKind::spot}},
-                     "What the scene is lit by");
-        knobs.flag("--two-sided", two_sided, "Draw the backs of faces, too");
-        knobs.flag("--all-effects", all_effects,
-                   "Compute each effect also where it can change nothing");
+        LightOptions::declare(knobs);
     }
 };
 
