@@ -22,6 +22,8 @@ enum class Counter {
     texture_samples,
     fragments_lit,
     highlights,  ///< Fragments for which highlights are computed.
+    normal_map_samples,
+    meshes_with_tangents,
     count
 };
 
@@ -37,7 +39,9 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "fragments_shaded",
     "texture_samples",
     "fragments_lit",
-    "highlights"};
+    "highlights",
+    "normal_map_samples",
+    "meshes_with_tangents"};
 
 /// Counts.
 struct Counters {
