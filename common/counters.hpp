@@ -21,7 +21,9 @@ enum class Counter {
     fragments_shaded,  ///< Written into the picture.
     texture_samples,
     fragments_lit,
-    highlights,        ///< Fragments for which highlights are computed.
+    highlights,  ///< Fragments for which highlights are computed.
+    normal_map_samples,
+    meshes_with_tangents,
     shadow_passes,     ///< Depth maps drawn.
     shadow_fragments,  ///< Compared with a depth map's texel.
     shadow_lookups,    ///< Points for which a depth map was asked, with all its texels.
@@ -41,6 +43,8 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "texture_samples",
     "fragments_lit",
     "highlights",
+    "normal_map_samples",
+    "meshes_with_tangents",
     "shadow_passes",
     "shadow_fragments",
     "shadow_lookups"};

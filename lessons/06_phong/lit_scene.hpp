@@ -38,8 +38,10 @@ struct LitScene : TexturedScene {
     template <typename Options>
     LitScene(Scene scene, const Options& options) : TexturedScene(std::move(scene), options) {
         for (Mesh& mesh : meshes) complete_normals(mesh);
-        specular_textures = load_textures(&Material::specular_map, "map_Ks", options.texture,
-                                          plain_numbers, has_highlight);
+        specular_textures = load_textures(
+            &Material::specular_map, "map_Ks", options.texture,
+            [](const Image<u8vec4>& picture, Wrap) { return plain_numbers(picture); },
+            has_highlight);
         for (std::size_t i = 0; i < materials.size(); ++i) {
             const bool light = materials[i].illumination >= 1;
             effects.push_back({light, has_highlight(materials[i]), diffuse_textures[i] != nullptr,

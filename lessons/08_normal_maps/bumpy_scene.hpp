@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A scene with lights and normal maps. Introduced in lesson 08.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "06_phong/lit_points.hpp"
+#include "06_phong/lit_scene.hpp"
+#include "08_normal_maps/normal_map.hpp"
+#include "08_normal_maps/normal_map_variants.hpp"
+#include "08_normal_maps/tangent_frame.hpp"
+
+namespace rasterbook {
+
+/// A model with lights, the normal maps of its materials, and tangents where those call for them.
+struct BumpyScene : LitScene {
+    MaterialTextures normal_textures;     ///< `norm`, or else `map_Bump`; null for what is not lit.
+    std::vector<MapSpace> normal_spaces;  ///< For each material.
+    std::vector<std::vector<vec4>> tangents;  ///< For each mesh as of vertex_tangents(), or none.
+
+    /// @param options  Has TextureOptions `texture`, LightOptions `shading` and NormalMapVariant
+    ///                 `normal_map`; with shading.all_effects, a lit material without a map is
+    ///                 given one that tilts nothing.
+    template <typename Options>
+    BumpyScene(Scene scene, const Options& options) : LitScene(std::move(scene), options) {
+        const NormalMapVariant& variant = options.normal_map;
+        normal_textures = load_textures(
+            &Material::normal_map, "norm", options.texture,
+            [&](const Image<u8vec4>& picture, Wrap) { return variant.normals(picture); },
+            [](const Material& material) { return material.illumination >= 1; });
+        const MaterialTextures bumps = load_textures(
+            &Material::bump_map, "map_Bump", options.texture,
+            [&](const Image<u8vec4>& picture, Wrap wrap) {
+                return variant.normals_of_bumps(picture, wrap);
+            },
+            [](const Material& material) {
+                return material.illumination >= 1 && material.normal_map.file.empty();
+            });
+        normal_spaces.assign(materials.size(), MapSpace::tangent);
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            if (normal_textures[i]) normal_spaces[i] = variant.space;
+            if (bumps[i]) normal_textures[i] = bumps[i];
+            if (!normal_textures[i] && effects[i].light && options.shading.all_effects)
+                normal_textures[i] = std::make_shared<Texture>(
+                    make_texture(Image<vec4>({1, 1}, vec4(0, 0, 1, 1)), Wrap::repeat));
+        }
+        tangents.resize(meshes.size());
+        if (variant.frame != FrameOf::vertex) return;
+        for (std::size_t i = 0; i < meshes.size(); ++i)
+            if (calls_for_tangents(meshes[i]))
+                tangents[i] = vertex_tangents(meshes[i], [&](const Triangle& triangle) {
+                    return normal_map_uvs(meshes[i], triangle);
+                });
+    }
+
+    /// @param mesh  One of the scene's own.
+    const std::vector<vec4>& tangents_of(const Mesh& mesh) const {
+        return tangents[static_cast<std::size_t>(&mesh - meshes.data())];
+    }
+
+    /// The map of a material that its normals come from.
+    const TextureMap& normal_map_of(const Material& material) const {
+        return material.normal_map.file.empty() ? material.bump_map : material.normal_map;
+    }
+
+    std::array<vec2, 3> normal_map_uvs(const Mesh& mesh, const Triangle& triangle) const {
+        return uvs_of(mesh, triangle, normal_map_of(materials[triangle.material]));
+    }
+
+  private:
+    bool calls_for_tangents(const Mesh& mesh) const {
+        return std::ranges::any_of(mesh.triangles, [&](const Triangle& triangle) {
+            return normal_textures[triangle.material] &&
+                   normal_spaces[triangle.material] == MapSpace::tangent;
+        });
+    }
+};
+
+/// What a triangle's normal map makes of its normals.
+class TriangleRelief {
+  public:
+    /// @param mesh     One of the scene's own.
+    /// @param is_back  The triangle is seen from behind: what stands out there is a dent here.
+    TriangleRelief(const NormalMapVariant& variant, const BumpyScene& scene, const Mesh& mesh,
+                   const Triangle& triangle, bool is_back)
+        : texture_(scene.normal_textures[triangle.material].get()) {
+        if (!texture_) return;
+        const Material& material = scene.materials[triangle.material];
+        variant_ = variant;
+        space_ = scene.normal_spaces[triangle.material];
+        side_ = is_back ? -1.0f : 1.0f;
+        steepness_ = scene.normal_map_of(material).bump_multiplier;
+        uvs_ = scene.normal_map_uvs(mesh, triangle);
+        if (space_ == MapSpace::object) return;
+        if (variant.frame == FrameOf::vertex) {
+            const std::vector<vec4>& tangents = scene.tangents_of(mesh);
+            for (std::size_t i = 0; i < 3; ++i)
+                tangents_[i] = side_ * vec3(tangents[triangle.corners[i].normal]);
+            handedness_ = side_ * tangents[triangle.corners[0].normal].w;
+            return;
+        }
+        const std::array positions{mesh.positions[triangle.corners[0].position],
+                                   mesh.positions[triangle.corners[1].position],
+                                   mesh.positions[triangle.corners[2].position]};
+        const UvDirections directions = uv_directions(positions, uvs_);
+        handedness_ = directions.handedness < 0 ? -side_ : side_;
+        const vec3 normal = side_ * face_normal(mesh, triangle);
+        frame_ = tangent_frame(side_ * directions.tangent, normal, handedness_);
+    }
+
+    /// Tilts the normal of the point that was added last.
+    template <typename CounterPolicy>
+    void tilt(const FragmentWeights& weights, Filter filter, LitPoints& points,
+              CounterPolicy& counters) const {
+        if (!texture_) return;
+        counters.add(Counter::normal_map_samples);
+        vec3 in_map = sample_normal(*texture_, filter, fragment_uv(uvs_, weights));
+        if (variant_.channels == Channels::xy) in_map = with_z(vec2(in_map));
+        const std::size_t last = points.count - 1;
+        if (space_ == MapSpace::object) return points.normal_world.set(last, side_ * in_map);
+        if (in_map.x == 0 && in_map.y == 0) return;  // flat: not even a rounding
+        in_map.x *= steepness_, in_map.y *= steepness_;
+        const vec3 mixed = points.normal_world[last];
+        points.normal_world.set(last, tilted(frame_at(weights.here, mixed), in_map));
+    }
+
+  private:
+    TangentFrame frame_at(vec3 weights, vec3 mixed_normal) const {
+        if (variant_.frame == FrameOf::face)
+            return {frame_.tangent, frame_.bitangent, unit_or(mixed_normal, frame_.normal)};
+        if (variant_.frame == FrameOf::pixel)
+            return tangent_frame(frame_.tangent, mixed_normal, handedness_);
+        const vec3 tangent = interpolate(tangents_, weights);
+        if (variant_.orthonormal == Orthonormal::at_corners)
+            return {tangent, handedness_ * glm::cross(mixed_normal, tangent), mixed_normal};
+        return tangent_frame(tangent, mixed_normal, handedness_);
+    }
+
+    const Texture* texture_;  ///< Null where there is no map; then the rest means nothing.
+    NormalMapVariant variant_;
+    MapSpace space_ = MapSpace::tangent;
+    float side_ = 1;       ///< -1 as seen from behind.
+    float steepness_ = 1;  ///< -bm
+    std::array<vec2, 3> uvs_;
+    std::array<vec3, 3> tangents_;  ///< Of the corners, for FrameOf::vertex.
+    float handedness_ = 1;
+    TangentFrame frame_;  ///< Of the face, for the others.
+};
+
+}  // namespace rasterbook
