@@ -77,7 +77,7 @@ Image<vec3> render(const Options& options, const ShadowedScene& scene, CounterPo
                 const TriangleRelief relief(options.normal_map, scene, mesh, triangle, is_back);
                 const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
                                           triangle, is_back, surface);
-                TriangleShadows triangle_shadows(shadows, mesh, triangle);
+                TriangleShadows shadow(shadows, mesh, triangle);
                 const auto shade = [&](std::span<const Fragment> fragments) {
                     std::array<SurfaceColor, most_points> own;
                     LitPoints points;
@@ -86,9 +86,10 @@ Image<vec3> render(const Options& options, const ShadowedScene& scene, CounterPo
                         own[i] = surface.color(weights, options.texture.filter, counters);
                         if (!surface.effects.light) continue;
                         light.add(weights.here, points, counters);
+                        shadow.look_up(points, counters);
                         relief.tilt(weights, options.texture.filter, points, counters);
                     }
-                    light.compute(points, triangle_shadows.shares(points, counters));
+                    light.compute(points, shadow);
                     for (std::size_t i = 0; i < fragments.size(); ++i)
                         color[fragments[i].pixel] =
                             surface.effects.light ? phong(own[i], ambient_light, points.light(i))

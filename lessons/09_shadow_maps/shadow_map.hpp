@@ -126,13 +126,15 @@ constexpr double most_slope = 1;
 
 /// Fits the bias to a triangle.
 ///
-/// With Bias::slope, plane and normal, a lit plane nowhere shadows itself.
+/// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
+/// lit of a triangle of no area, edge-on, not finite, or turned away from the light: that one gets
+/// no light anyway, or next to none by normals that are mixed between its corners.
 ///
 /// @param radius   Of the look-up's square of texels: 0 to most_pcf_radius.
-/// @param corners  World space. Of a triangle of no area, edge-on or not finite, points are lit,
-///                 except with Bias::none and constant.
+/// @param corners  World space.
+/// @param outward  Any vector to that side of the triangle which is seen.
 inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
-                         const std::array<vec3, 3>& corners) {
+                         const std::array<vec3, 3>& corners, vec3 outward) {
     Receiver result;
     const double reach_texels = radius + 0.5;
     if (bias == Bias::constant)
@@ -142,8 +144,11 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
     const dvec3 a = corners[0], b = corners[1], c = corners[2];
     dvec3 normal = normalize_or(glm::cross(b - a, c - a), dvec3(0));
     dvec4 plane = map.plane_from_world * dvec4(normal, -glm::dot(normal, a));  // Eq. 9.8
-    // Positive towards the light, where depth is less.
-    if (plane.z > 0) plane = -plane, normal = -normal;
+    if (glm::dot(normal, dvec3(outward)) < 0) plane = -plane, normal = -normal;
+    if (!(plane.z < 0)) {  // Depth is less towards the light.
+        result.bias = 2;
+        return result;
+    }
     const double across = std::abs(plane.x) + std::abs(plane.y), along = std::abs(plane.z);
 
     if (bias == Bias::normal) {  // Eq. 9.12

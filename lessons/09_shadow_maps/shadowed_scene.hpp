@@ -84,12 +84,12 @@ class Shadows {
             of_light_[l].light = lights[l];
             if (light_casts[l])
                 add_maps(of_light_[l], variant.size, scene, scene.casters, scene.receivers);
-            const bool is_drawn = !of_light_[l].maps.empty();
-            if (!is_drawn && all_effects)
+            of_light_[l].is_drawn = !of_light_[l].maps.empty();
+            if (!of_light_[l].is_drawn && all_effects)
                 add_maps(of_light_[l], variant.size, scene, scene.bounds(), scene.bounds());
             for (ShadowMap& map : of_light_[l].maps) {
                 counters.add(Counter::shadow_passes);
-                if (!is_drawn) continue;
+                if (!of_light_[l].is_drawn) continue;
                 const auto casts = [&](std::size_t material) { return scene.casts(material); };
                 for (const Mesh& mesh : scene.meshes) draw_casters(map, mesh, casts, counters);
             }
@@ -104,6 +104,7 @@ class Shadows {
         Light light;
         std::vector<ShadowMap> maps;
         std::array<std::size_t, 6> map_of_view;  ///< no_map where nothing can be in shadow.
+        bool is_drawn = false;                   ///< Else the maps are there, but empty.
         bool has_faces = false;                  ///< The views are those of cube_face().
     };
 
@@ -124,18 +125,29 @@ class Shadows {
         }
     }
 
+    float lit(const ShadowMap& map, const Receiver& receiver, vec3 position) const {
+        switch (radius_) {
+            case 0:
+                return lit_share<0>(map, receiver, position);
+            case 1:
+                return lit_share<1>(map, receiver, position);
+            case 2:
+                return lit_share<2>(map, receiver, position);
+            default:
+                return lit_share<3>(map, receiver, position);
+        }
+    }
+
     int radius_;
     Bias bias_;
     std::array<OfLight, light_casts.size()> of_light_;
 };
 
-/// The share of each light that reaches each point, as reflect_light() asks for it.
-struct LightShares {
-    std::array<Numbers, light_casts.size()> of_light;
-    float operator()(std::size_t light, std::size_t point) const { return of_light[light][point]; }
-};
+/// A surface gets all of a light from this cosine on; from there to 0, where it turns away, less
+/// and less (Eq. 9.16). Its relief may still lean towards the light, but stands in the shade.
+constexpr float full_cosine = 0.1f;
 
-/// The shadows that fall on a triangle.
+/// How much of each light reaches points of a triangle.
 class TriangleShadows {
   public:
     TriangleShadows(const Shadows& shadows, const Mesh& mesh, const Triangle& triangle)
@@ -144,64 +156,49 @@ class TriangleShadows {
                    mesh.positions[triangle.corners[1].position],
                    mesh.positions[triangle.corners[2].position]} {}
 
-    /// How much light reaches points of the triangle. Those turned away from a light get none
-    /// anyway: no map is asked for them.
+    /// Looks up the point that was added last, while its normal is the surface's own. No map is
+    /// asked where that is turned away from a light.
     template <typename CounterPolicy>
-    LightShares shares(const LitPoints& points, CounterPolicy& counters) {
-        LightShares shares;
-        for (std::size_t l = 0; l < shares.of_light.size(); ++l) {
-            Numbers& share = shares.of_light[l];
-            for (std::size_t i = 0; i < points.count; ++i) share[i] = 1;
-            if (shadows_.of_light_[l].maps.empty()) continue;
-            switch (shadows_.radius_) {
-                case 0:
-                    look_up<0>(l, points, share, counters);
-                    break;
-                case 1:
-                    look_up<1>(l, points, share, counters);
-                    break;
-                case 2:
-                    look_up<2>(l, points, share, counters);
-                    break;
-                default:
-                    look_up<3>(l, points, share, counters);
-                    break;
-            }
-        }
-        return shares;
+    void look_up(const LitPoints& points, CounterPolicy& counters) {
+        const std::size_t i = points.count - 1;
+        for (std::size_t l = 0; l < shares_.size(); ++l)
+            shares_[l][i] =
+                shadows_.of_light_[l].maps.empty()
+                    ? 1
+                    : share(l, points.position_world[i], points.normal_world[i], counters);
     }
+
+    /// As reflect_light() asks for it.
+    float operator()(std::size_t light, std::size_t point) const { return shares_[light][point]; }
 
   private:
-    template <int radius, typename CounterPolicy>
-    void look_up(std::size_t l, const LitPoints& points, Numbers& share, CounterPolicy& counters) {
+    template <typename CounterPolicy>
+    float share(std::size_t l, vec3 position, vec3 normal, CounterPolicy& counters) {
         const Shadows::OfLight& of_light = shadows_.of_light_[l];
         const Light& light = of_light.light;
-        for (std::size_t i = 0; i < points.count; ++i) {
-            const vec3 position = points.position_world[i];
-            const vec3 way = light.position_world - position;
-            const vec3 toward = light.kind == LightKind::directional ? light.direction_world : way;
-            if (!(glm::dot(points.normal_world[i], toward) > 0)) continue;
-            const std::size_t map = of_light.map_of_view[of_light.has_faces ? cube_face(-way) : 0];
-            if (map == Shadows::no_map) continue;
-            counters.add(Counter::shadow_lookups);
-            share[i] = lit_share<radius>(of_light.maps[map], receiver_of(l, map), position);
-        }
-    }
-
-    /// Computed when it is first asked for: most triangles of a lamp are seen in one map.
-    const Receiver& receiver_of(std::size_t l, std::size_t map) {
-        if (!is_known_[l][map]) {
-            receivers_[l][map] = receiver(shadows_.of_light_[l].maps[map], shadows_.bias_,
-                                          shadows_.radius_, corners_);
+        const vec3 toward = light.kind == LightKind::directional ? light.direction_world
+                                                                 : light.position_world - position;
+        const float cosine = glm::dot(normal, toward);
+        if (!(cosine > 0)) return of_light.is_drawn ? 0 : 1;
+        const std::size_t map = of_light.map_of_view[of_light.has_faces ? cube_face(-toward) : 0];
+        if (map == Shadows::no_map) return 1;
+        counters.add(Counter::shadow_lookups);
+        if (!is_known_[l][map]) {  // most triangles of a lamp are seen in one map
+            receivers_[l][map] =
+                receiver(of_light.maps[map], shadows_.bias_, shadows_.radius_, corners_, normal);
             is_known_[l][map] = true;
         }
-        return receivers_[l][map];
+        const float lit = shadows_.lit(of_light.maps[map], receivers_[l][map], position);
+        if (!of_light.is_drawn) return lit;
+        const float sizes = glm::dot(normal, normal) * glm::dot(toward, toward);
+        return lit * std::min(1.0f, cosine / (full_cosine * std::sqrt(sizes)));
     }
 
     const Shadows& shadows_;
     std::array<vec3, 3> corners_;
     std::array<std::array<Receiver, 6>, light_casts.size()> receivers_;
     std::array<std::array<bool, 6>, light_casts.size()> is_known_{};
+    std::array<Numbers, light_casts.size()> shares_;
 };
 
 }  // namespace rasterbook
