@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "assets/generate/brick.hpp"
+#include "assets/generate/figure.hpp"
 #include "assets/generate/hammered.hpp"
 #include "assets/generate/materials.hpp"
 #include "assets/generate/models.hpp"
@@ -65,6 +66,7 @@ void write_models(const path& folder, const std::vector<Part>& teapot) {
                 {crate("crate"), floor("checker", 384, 6)}, wooden_crate + checkered_floor);
     write_model(folder, "scene", "Teapot, crate and floor", scene(teapot, "", "crate", "tiles"),
                 porcelain + tea_in_spout + wooden_crate + smooth_tiles);
+    write_model(folder, "figure", "A robot with a crate on a platform", figure(), figure_paints);
     write_model(folder, "scene_bumpy", "Teapot, crate and floor with normal maps",
                 scene(teapot, "copper", "brick", "tiles"),
                 hammered_copper + tea_in_spout + brick_crate + bumpy_tiles);

@@ -26,12 +26,15 @@ inline Image<vec3> backdrop(ivec2 size) {
     return image;
 }
 
-/// Whether the picture is the backdrop still.
+/// For drawings with dark outlines: pale paper; linear colour.
+constexpr vec3 paper_color(0.72f, 0.66f, 0.52f);
+
+/// Whether the picture is the backdrop still, or paper.
 inline bool is_backdrop(const Image<vec3>& picture) {
     for (int y = 0; y < picture.size().y; ++y) {
         const vec3 color = backdrop_color(y, picture.size().y);
         for (int x = 0; x < picture.size().x; ++x)
-            if (picture[{x, y}] != color) return false;
+            if (picture[{x, y}] != color && picture[{x, y}] != paper_color) return false;
     }
     return true;
 }

@@ -21,7 +21,10 @@ enum class Counter {
     fragments_shaded,  ///< Written into the picture.
     texture_samples,
     fragments_lit,
-    highlights,  ///< Fragments for which highlights are computed.
+    highlights,      ///< Fragments for which highlights are computed.
+    toon_fragments,  ///< Painted in bands.
+    outline_tests,   ///< Of fragments or pixels, whether there is an outline.
+    outline_pixels,  ///< Inked; some several times.
     normal_map_samples,
     meshes_with_tangents,
     shadow_passes,     ///< Depth maps drawn.
@@ -43,6 +46,9 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "texture_samples",
     "fragments_lit",
     "highlights",
+    "toon_fragments",
+    "outline_tests",
+    "outline_pixels",
     "normal_map_samples",
     "meshes_with_tangents",
     "shadow_passes",

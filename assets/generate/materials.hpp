@@ -119,4 +119,64 @@ Kd 0.8 0.8 0.8
 illum 1
 )";
 
+/// Paints without pictures, for bands of one colour.
+inline const std::string figure_paints = R"(
+newmtl coat
+Ka 0.8 0.13 0.06
+Kd 0.8 0.13 0.06
+Ks 0.7 0.7 0.7
+Ns 40
+illum 2
+
+newmtl cream
+Ka 0.87 0.72 0.42
+Kd 0.87 0.72 0.42
+Ks 0.7 0.7 0.7
+Ns 40
+illum 2
+
+newmtl trim
+Ka 0.03 0.36 0.38
+Kd 0.03 0.36 0.38
+Ks 0.7 0.7 0.7
+Ns 30
+illum 2
+
+newmtl glass
+Ka 0.03 0.04 0.09
+Kd 0.03 0.04 0.09
+Ks 0.9 0.9 0.9
+Ns 60
+illum 2
+
+newmtl steel
+Ka 0.22 0.25 0.32
+Kd 0.22 0.25 0.32
+illum 1
+
+newmtl lamp
+Ka 0.8 0.42 0.04
+Kd 0.8 0.42 0.04
+Ks 0.7 0.7 0.7
+Ns 40
+Ke 0.15 0.08 0.01
+illum 2
+
+newmtl eyes
+Ka 0.1 0.1 0.1
+Kd 0.1 0.1 0.1
+Ke 0.55 0.85 0.8
+illum 1
+
+newmtl box
+Ka 0.75 0.4 0.12
+Kd 0.75 0.4 0.12
+illum 1
+
+newmtl platform
+Ka 0.3 0.5 0.25
+Kd 0.3 0.5 0.25
+illum 1
+)";
+
 }  // namespace rasterbook::assets

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Outlines that need more than one fragment: the inverted hull, and edges found in depth and
+/// normals. Introduced in lesson 07; derivation: docs/derivations/07_toon.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "06_phong/light.hpp"
+#include "06_phong/normals.hpp"
+#include "common/counters.hpp"
+
+namespace rasterbook {
+
+constexpr vec3 ink(0.006f, 0.005f, 0.009f);  ///< The colour of outlines; linear.
+
+/// For each position of a mesh the direction in which its hull grows: the mean of all faces around
+/// the place, weighted by their angles there (Eq. 7.8).
+///
+/// Positions at the same place get the same direction, also where the file has one for each face;
+/// so the hull has no gap at a sharp edge.
+///
+/// @return  Of length 1; 0 where there is none, as on a sheet with two sides.
+inline std::vector<vec3> hull_normals(const Mesh& mesh) {
+    std::vector<vec3> sums(mesh.positions.size(), vec3(0));
+    for (const Triangle& triangle : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            sums[triangle.corners[i].position] +=
+                corner_angle_radians(mesh, triangle, i) * face_normal(mesh, triangle);
+
+    const auto place = [&](std::size_t i) {  // its bits: NaN has a place in their order, too
+        return std::bit_cast<std::array<std::uint32_t, 3>>(mesh.positions[i] + 0.0f);  // -0 is 0
+    };
+    std::vector<std::size_t> by_place(sums.size());
+    std::iota(by_place.begin(), by_place.end(), std::size_t{0});
+    std::ranges::stable_sort(by_place, {}, place);
+    for (std::size_t begin = 0, end; begin < by_place.size(); begin = end) {
+        vec3 sum(0);
+        for (end = begin; end < by_place.size() && place(by_place[end]) == place(by_place[begin]);)
+            sum += sums[by_place[end++]];
+        const vec3 normal = unit_or(sum, vec3(0));
+        for (std::size_t i = begin; i < end; ++i) sums[by_place[i]] = normal;
+    }
+    return sums;
+}
+
+/// A point pushed on the screen by `width_px` pixels, in the direction in which it moves there when
+/// it moves along its normal (Eq. 7.9). Its depth and its w stay.
+///
+/// @param normal_clip  clip_from_world * vec4(normal, 0). A normal that leads straight to the eye
+///                     or away from it has no direction on the screen: the point stays.
+inline vec4 pushed(vec4 position_clip, vec4 normal_clip, float width_px, ivec2 size) {
+    const vec2 half_size = 0.5f * vec2(size);
+    const vec2 way = vec2(normal_clip) * position_clip.w - vec2(position_clip) * normal_clip.w;
+    const vec2 direction(unit_or(vec3(half_size * way, 0), vec3(0)));
+    const vec2 push = width_px * position_clip.w * direction / half_size;
+    return position_clip + vec4(push, 0, 0);
+}
+
+/// Whether a face shows the eye its back (Eq. 7.10). In double, where products do not overflow.
+inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3 eye_world) {
+    const dvec3 a = mesh.positions[triangle.corners[0].position];
+    const dvec3 b = mesh.positions[triangle.corners[1].position];
+    const dvec3 c = mesh.positions[triangle.corners[2].position];
+    return glm::dot(a - dvec3(eye_world), glm::cross(b - a, c - a)) > 0;
+}
+
+/// Draws the outline of a closed body: the faces on its far side, pushed outwards, in ink. What is
+/// in front hides all of them but for a rim of `width_px` pixels (Eq. 7.9).
+///
+/// The rim is as wide everywhere that the body is round; at the sides of a cube it is 0.7 to 1
+/// times as wide. A sheet that is not closed has no rim where it shows its front.
+///
+/// @param normals  hull_normals() of the mesh.
+/// @param depth    All bodies are drawn already. Keeps the hull's depths where it is seen.
+template <typename CounterPolicy>
+void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
+               float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
+    const ivec2 size = color.size();
+    const mat4 clip_from_world = camera.clip_from_world(size);
+    if (is_outside_frustum(mesh.bounds, clip_from_world)) return;
+    std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
+    for (std::size_t i = 0; i < positions_clip.size(); ++i)
+        positions_clip[i] =
+            pushed(positions_clip[i], clip_from_world * vec4(normals[i], 0), width_px, size);
+    for (const Triangle& triangle : mesh.triangles) {
+        // Asked of the body: pushing may turn a small face around.
+        if (!is_seen_from_behind(mesh, triangle, camera.position_world)) continue;
+        for (const ClippedTriangle& clipped : clip_triangle(corners_of(triangle, positions_clip))) {
+            const vec3 a = screen_from_clip(clipped[0].position_clip, size);
+            const vec3 b = screen_from_clip(clipped[1].position_clip, size);
+            const vec3 c = screen_from_clip(clipped[2].position_clip, size);
+            const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
+            fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 pixel, vec3 screen_weights) {
+                counters.add(Counter::outline_tests);
+                if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
+                counters.add(Counter::outline_pixels);
+                color[pixel] = ink;
+            });
+        }
+    }
+}
+
+/// From where on a change counts as an edge.
+struct EdgeThresholds {
+    float depth = 0.02f;   ///< In units of the distance to what is seen.
+    float normals = 0.5f;  ///< Of unit vectors: 0.5 is a turn of 29 degrees.
+};
+
+/// How near what is seen in a pixel is: 1 / w, which of a plane is linear on the screen (Eq. 7.11).
+///
+/// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, and nothing is as far.
+inline float nearness(float depth, const Camera& camera) {
+    if (depth == DepthBuffer::cleared) return 0;
+    return 1 / camera.near - depth * (1 / camera.near - 1 / camera.far);
+}
+
+/// The second difference along x or y, the rows beside count half (Eq. 7.12): 0 for a plane,
+/// however steep, where the first one would grow with the slope.
+///
+/// @param at  Called as at(ivec2 offset), in steps from -1 to 1.
+template <typename At>
+float second_difference(At&& at, ivec2 along) {
+    const ivec2 across(along.y, along.x);
+    const auto line = [&](ivec2 row) { return at(row - along) - 2 * at(row) + at(row + along); };
+    return 0.25f * (line(-across) + 2 * line(ivec2(0)) + line(across));
+}
+
+/// Sobel's first difference along x or y, the rows beside count half (Eq. 7.13): for an edge
+/// between two colours, their difference.
+///
+/// @param at  As for second_difference().
+template <typename At>
+vec3 sobel(At&& at, ivec2 along) {
+    const ivec2 across(along.y, along.x);
+    const auto line = [&](ivec2 row) { return at(row + along) - at(row - along); };
+    return 0.25f * (line(-across) + 2.0f * line(ivec2(0)) + line(across));
+}
+
+/// Draws, in ink, the pixels in whose surroundings depth or normals change by more than a threshold
+/// (Eq. 7.14): silhouettes, sharp edges, and where one body touches another.
+///
+/// @param normals   Of what is seen, length 1; 0 where nothing is.
+/// @param width_px  Of the lines, rounded up to an even number; 0: none.
+template <typename CounterPolicy>
+void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
+                float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,
+                CounterPolicy& counters) {
+    const int reach = static_cast<int>(std::ceil(width_px / 2));
+    const ivec2 size = color.size();
+    if (std::min(size.x, size.y) <= 2 * reach) return;
+    const ivec2 x(1, 0), y(0, 1);
+    for (ivec2 pixel(0); pixel.y < size.y; ++pixel.y)
+        for (pixel.x = 0; pixel.x < size.x; ++pixel.x) {
+            counters.add(Counter::outline_tests);
+            // At the border, those of the next pixel that has neighbours on all sides.
+            const ivec2 center = glm::clamp(pixel, ivec2(reach), size - 1 - reach);
+            const auto near_at = [&](ivec2 offset) {
+                return nearness(depth.depths()[center + reach * offset], camera);
+            };
+            const auto normal_at = [&](ivec2 offset) { return normals[center + reach * offset]; };
+            const float bend =
+                std::hypot(second_difference(near_at, x), second_difference(near_at, y));
+            const vec3 turn_x = sobel(normal_at, x), turn_y = sobel(normal_at, y);
+            const float turn = std::sqrt(glm::dot(turn_x, turn_x) + glm::dot(turn_y, turn_y));
+            if (bend > thresholds.depth * near_at(ivec2(0)) || turn > thresholds.normals) {
+                counters.add(Counter::outline_pixels);
+                color[pixel] = ink;
+            }
+        }
+}
+
+}  // namespace rasterbook

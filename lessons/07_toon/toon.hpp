@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Light in bands, as in a comic. Introduced in lesson 07; derivation: docs/derivations/07_toon.md.
+#pragma once
+
+#include <algorithm>
+
+#include "06_phong/phong.hpp"
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+constexpr int most_bands = 255;
+
+/// From all around: the light of the darkest band; linear.
+constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
+
+/// How bright a coloured light is: its greatest number (Eq. 7.1).
+///
+/// @return  0 for NaN and for negative numbers.
+inline float brightness(vec3 light) { return std::max({0.0f, light.r, light.g, light.b}); }
+
+/// The band that a brightness falls into: 0 to bands - 1 (Eq. 7.2).
+///
+/// The thresholds are k / bands, exactly, for k = 1 to bands - 1; a brightness on a threshold
+/// belongs to the brighter band.
+///
+/// @param brightness  Any number; below 0 and NaN count as 0, above 1 as 1.
+/// @param bands       1 to most_bands.
+inline int band_of(float brightness, int bands) {
+    // In double the product is exact; in float it may be rounded up to a threshold.
+    const double steps = double{brightness} * bands;
+    if (!(steps >= 1)) return 0;  // also for NaN
+    return steps < bands ? static_cast<int>(steps) : bands - 1;
+}
+
+/// The light that a band stands for: 0, 1 / (bands - 1), ..., 1; for a single band 1 (Eq. 7.3).
+inline float level_of(int band, int bands) {
+    return bands == 1 ? 1.0f : static_cast<float>(band) / static_cast<float>(bands - 1);
+}
+
+/// A brightness, snapped to the light of its band.
+///
+/// @param brightness,bands  As for band_of().
+inline float banded(float brightness, int bands) {
+    return level_of(band_of(brightness, bands), bands);
+}
+
+/// From this brightness on a highlight is seen, and then it is white.
+constexpr float least_highlight = 0.5f;
+
+/// The paint of a fragment whose light is known: white in a highlight, else the surface's own
+/// colours in the light of a level (Eq. 7.4). The colour of the lamps does not count, so that a
+/// band has one colour.
+///
+/// @param color          Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
+/// @param from_all_around  Light, 0 to 1.
+/// @param level          Of the diffuse light, 0 to 1.
+/// @param is_highlight   Whether the fragment lies in a highlight.
+inline vec3 paint(const SurfaceColor& color, vec3 from_all_around, float level, bool is_highlight) {
+    if (is_highlight) return vec3(1);
+    return color.emission + color.ambient * from_all_around + color.diffuse * level;
+}
+
+/// Whether a highlight can be seen in a fragment: what Phong's model would add is bright enough.
+inline bool is_highlight(const SurfaceColor& color, const ReflectedLight& light) {
+    return brightness(color.specular * light.specular) >= least_highlight;
+}
+
+/// What a fragment sends to the eye: in place of phong() (Eq. 7.4).
+///
+/// @param bands  1 to most_bands.
+inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const ReflectedLight& light,
+                 int bands) {
+    return paint(color, from_all_around, banded(brightness(light.diffuse), bands),
+                 is_highlight(color, light));
+}
+
+/// How much a surface faces the eye: 1 where it is seen from straight above, 0 at a silhouette.
+///
+/// @param normal,toward_eye  Length 1.
+/// @return  0 to 1, but for rounding; 0 for NaN, and for normals that lead away, as interpolated
+///          ones may at a silhouette.
+inline float facing_ratio(vec3 normal, vec3 toward_eye) {
+    return std::max(0.0f, glm::dot(normal, toward_eye));
+}
+
+/// The outline by the facing ratio: where it is below `least` (Eq. 7.6). On a sphere that is a ring
+/// whose width grows with the sphere (Eq. 7.7); of a flat face it is all or nothing.
+///
+/// @param least  0 to 1; 0: no outline.
+inline bool is_facing_outline(float ratio, float least) { return ratio < least; }
+
+}  // namespace rasterbook
