@@ -84,6 +84,9 @@ struct BumpyScene : LitScene {
     }
 };
 
+/// Where the key light stands: low, so that its light rakes over what stands out.
+constexpr vec3 low_key(-1.2f, 0.3f, 0.22f);
+
 /// What a triangle's normal map makes of its normals.
 class TriangleRelief {
   public:

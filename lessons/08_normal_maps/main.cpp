@@ -24,7 +24,7 @@ struct Options : LessonOptions {
     LightOptions shading;
     NormalMapVariant normal_map;
 
-    Options() { model = "scene_bumpy.obj"; }
+    Options() { model = "scene_bumpy.obj", orbit.distance = 1.2f, orbit.pitch_degrees = 25; }
     void declare(Knobs& knobs) {
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
@@ -38,7 +38,7 @@ template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolicy& counters) {
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
-    const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
+    const std::array lights = studio_lights(options.shading.key_light, scene.bounds(), low_key);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
