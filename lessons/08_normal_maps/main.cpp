@@ -24,7 +24,7 @@ struct Options : LessonOptions {
     LightOptions shading;
     NormalMapVariant normal_map;
 
-    Options() { model = "scene_bumpy.obj", orbit.distance = 1.2f, orbit.pitch_degrees = 25; }
+    Options() { model = "scene_bumpy.obj", orbit.distance = 1.3f, orbit.pitch_degrees = 25; }
     void declare(Knobs& knobs) {
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
@@ -71,14 +71,15 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
                                           triangle, is_back, surface);
                 const auto shade = [&](std::span<const Fragment> fragments) {
                     std::array<SurfaceColor, most_points> own;
-                    LitPoints points;
+                    BumpyPoints points;
                     for (std::size_t i = 0; i < fragments.size(); ++i) {
                         const FragmentWeights weights = perspective.at(fragments[i].screen_weights);
                         own[i] = surface.color(weights, options.texture.filter, counters);
                         if (!surface.effects.light) continue;
                         light.add(weights.here, points, counters);
-                        relief.tilt(weights, options.texture.filter, points, counters);
+                        relief.add(weights, options.texture.filter, points, counters);
                     }
+                    relief.tilt(points);
                     light.compute(points);
                     for (std::size_t i = 0; i < fragments.size(); ++i)
                         color[fragments[i].pixel] =

@@ -91,14 +91,15 @@ inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentU
 /// A surface's normal as the map tilts it (Eq. 8.7).
 ///
 /// @param frame       Of the surface; finite.
-/// @param normal_map  In that frame. Where x and y are 0, the surface's own normal is left as it
-///                    is, to the last bit.
-/// @return            Length 1; the surface's own where there is no direction.
-inline vec3 tilted(const TangentFrame& frame, vec3 normal_map) {
-    if (normal_map.x == 0 && normal_map.y == 0) return frame.normal;
-    return unit_or(
-        normal_map.x * frame.tangent + normal_map.y * frame.bitangent + normal_map.z * frame.normal,
-        frame.normal);
+/// @param normal_map  In that frame.
+/// @param normal      The surface's own, not yet scaled: it is left as it is, to the last bit,
+/// where
+///                    x and y are 0.
+/// @return            Of any length; scaling comes last.
+inline vec3 tilted(const TangentFrame& frame, vec3 normal_map, vec3 normal) {
+    if (normal_map.x == 0 && normal_map.y == 0) return normal;
+    return normal_map.x * frame.tangent + normal_map.y * frame.bitangent +
+           normal_map.z * frame.normal;
 }
 
 }  // namespace rasterbook
