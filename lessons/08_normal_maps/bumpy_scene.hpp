@@ -176,6 +176,7 @@ class TriangleRelief {
     /// so
     ///          short that its square is not a usable number, or a tangent leads along a normal.
     bool tilt_at_once(BumpyPoints& points) const {
+        // No step of the loop leaves it: the compiler takes many i at once.
         int unusable = 0;
         Vectors all;
         for (std::size_t i = 0; i < points.count; ++i) {
@@ -184,16 +185,13 @@ class TriangleRelief {
             unusable |= (squared > 1e-30f ? 0 : 1) | (squared < 1e30f ? 0 : 1);
             const vec3 n = mixed * (1 / std::sqrt(squared));
             const vec3 tangent = interpolate(tangents_, points.weights[i]);
-            const vec3 left = tangent - glm::dot(tangent, n) * n;
+            const vec3 left = across(tangent, n);
             const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);
             unusable |= (of_length > 0x1p-6f * of_all ? 0 : 1) | (of_length > 1e-30f ? 0 : 1) |
                         (of_all < 1e30f ? 0 : 1);
             const vec3 t = left * (1 / std::sqrt(of_length));  // Eq. 8.5
-            const vec3 b = handedness_ * glm::cross(n, t);
-            const vec3 tilted = in_map.x * t + in_map.y * b + in_map.z * n;  // Eq. 8.7
-            const bool is_flat = (in_map.x == 0) & (in_map.y == 0);
-            all.set(i, {is_flat ? mixed.x : tilted.x, is_flat ? mixed.y : tilted.y,
-                        is_flat ? mixed.z : tilted.z});
+            const TangentFrame frame{t, handedness_ * glm::cross(n, t), n};
+            all.set(i, tilted(frame, in_map, mixed));
         }
         if (unusable == 0) points.normal_world = all;
         return unusable == 0;

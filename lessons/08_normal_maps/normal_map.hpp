@@ -97,9 +97,11 @@ inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentU
 ///                    x and y are 0.
 /// @return            Of any length; scaling comes last.
 inline vec3 tilted(const TangentFrame& frame, vec3 normal_map, vec3 normal) {
-    if (normal_map.x == 0 && normal_map.y == 0) return normal;
-    return normal_map.x * frame.tangent + normal_map.y * frame.bitangent +
-           normal_map.z * frame.normal;
+    const vec3 sum =
+        normal_map.x * frame.tangent + normal_map.y * frame.bitangent + normal_map.z * frame.normal;
+    const bool is_flat = (normal_map.x == 0) & (normal_map.y == 0);
+    // One number at a time: a loop over many points then has no jumps.
+    return {is_flat ? normal.x : sum.x, is_flat ? normal.y : sum.y, is_flat ? normal.z : sum.z};
 }
 
 }  // namespace rasterbook
