@@ -187,7 +187,7 @@ class TriangleRelief {
             const vec3 tangent = interpolate(tangents_, points.weights[i]);
             const vec3 left = across(tangent, n);
             const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);
-            unusable |= (of_length > 0x1p-6f * of_all ? 0 : 1) | (of_length > 1e-30f ? 0 : 1) |
+            unusable |= (of_length > mostly * of_all ? 0 : 1) | (of_length > 1e-30f ? 0 : 1) |
                         (of_all < 1e30f ? 0 : 1);
             const vec3 t = left * (1 / std::sqrt(of_length));  // Eq. 8.5
             const TangentFrame frame{t, handedness_ * glm::cross(n, t), n};

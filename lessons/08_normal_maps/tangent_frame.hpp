@@ -46,8 +46,8 @@ inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
     const dvec3 e2 = dvec3(positions[2]) - dvec3(positions[0]);
     const dvec2 d1 = dvec2(uvs[1]) - dvec2(uvs[0]), d2 = dvec2(uvs[2]) - dvec2(uvs[0]);
     const double determinant = d1.x * d2.y - d2.x * d1.y;
-    const int handedness = (determinant > 0) - (determinant < 0);  // Eq. 8.4; 0 for NaN
-    if (handedness == 0) return {};
+    const int handedness = (determinant > 0) - (determinant < 0);  // Eq. 8.4
+    if (handedness == 0 || !std::isfinite(determinant)) return {};
     // Eq. 8.3. Only directions count: of what they are divided by, the sign is enough.
     const double sign = handedness;
     return {vec3(normalize_or(sign * (d2.y * e1 - d1.y * e2), dvec3(0))),
@@ -76,6 +76,10 @@ struct TangentFrame {
     vec3 tangent, bitangent, normal;
 };
 
+/// As much of the square of a tangent's length has to be left for one step to be exact enough: the
+/// tangent is within 30 degrees of where it should be.
+constexpr float mostly = 0.75f;
+
 /// What is left of a tangent across the normal, scaled to length 1 (Eq. 8.5).
 ///
 /// @param tangent  Any numbers.
@@ -85,7 +89,7 @@ struct TangentFrame {
 inline vec3 unit_across(vec3 tangent, vec3 normal) {
     const vec3 left = across(tangent, normal);
     const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);
-    if (of_length > 0x1p-6f * of_all && of_length > 1e-30f && of_all < 1e30f)
+    if (of_length > mostly * of_all && of_length > 1e-30f && of_all < 1e30f)
         return left * (1 / std::sqrt(of_length));
     // Roundings of the whole tangent count more in the little that is left: take away theirs, too.
     const vec3 little = across(unit_or(tangent, normal), normal);
@@ -98,7 +102,7 @@ inline vec3 unit_across(vec3 tangent, vec3 normal) {
 /// @param tangent     Any numbers; where it has no direction across the normal, any_across() has.
 /// @param normal      Of any length; where it has no direction, up.
 /// @param handedness  -1 or 1.
-/// @return            Orthonormal within 2^-21, also for numbers that are not finite.
+/// @return            Orthonormal within 2^-20, also for numbers that are not finite.
 inline TangentFrame tangent_frame(vec3 tangent, vec3 normal, float handedness) {
     const vec3 n = unit_or(normal, vec3(0, 1, 0));
     const vec3 t = unit_across(tangent, n);
