@@ -8,6 +8,7 @@
 #include <random>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -94,8 +95,11 @@ TEST(ShadingVariants, ManyFragmentsAreLitAsEachAlone) {
     light.direction_world = unit_or(-light.position_world, vec3(0));
     light.cos_full = 0.95f, light.cos_none = 0.9f;
     bool is_lit = false, is_dark = false;
-    for (const bool has_highlight : {true, false}) {
+    // A power of 0 is 1 even where the mirrored light leads away from the eye.
+    for (const auto& [has_highlight, shininess] :
+         {std::pair(true, 90.0f), std::pair(true, 0.0f), std::pair(false, 90.0f)}) {
         lit.scene.effects[0].highlight = has_highlight;
+        lit.scene.materials[0].shininess = shininess;
         for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
             light.kind = kind;
             for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
