@@ -339,11 +339,10 @@ TEST(NormalMaps, HardCase_ManyPointsAtOnceAreTiltedAsOne) {
             const UvDirections of_face = uv_directions(
                 {mesh.positions[0], mesh.positions[1], mesh.positions[2]}, bumpy.uvs());
             const auto& tangents = bumpy.scene.tangents[0];
-            const vec3 tangent =
-                i % 2 ? of_face.tangent
-                      : interpolate(
-                            std::array{vec3(tangents[0]), vec3(tangents[1]), vec3(tangents[2])},
-                            weights.here);
+            std::array<vec3, 3> corners;
+            for (std::size_t c = 0; c < 3; ++c)
+                corners[c] = i % 2 ? of_face.tangent : vec3(tangents[c]);
+            const vec3 tangent = interpolate(corners, weights.here);
             const TangentFrame frame = tangent_frame(
                 side * tangent, mixed, side * static_cast<float>(of_face.handedness < 0 ? -1 : 1));
             alone.push_back(tilted(frame, together.in_map[last], mixed));

@@ -32,17 +32,20 @@ struct BumpyScene : LitScene {
     template <typename Options>
     BumpyScene(Scene scene, const Options& options) : LitScene(std::move(scene), options) {
         const NormalMapVariant& variant = options.normal_map;
+        const auto calls_for_map = [&](const Material& material) {
+            return material.illumination >= 1 && variant.space != MapSpace::none;
+        };
         normal_textures = load_textures(
             &Material::normal_map, "norm", options.texture,
             [&](const Image<u8vec4>& picture, Wrap) { return variant.normals(picture); },
-            [](const Material& material) { return material.illumination >= 1; });
+            calls_for_map);
         const MaterialTextures bumps = load_textures(
             &Material::bump_map, "map_Bump", options.texture,
             [&](const Image<u8vec4>& picture, Wrap wrap) {
                 return variant.normals_of_bumps(picture, wrap);
             },
-            [](const Material& material) {
-                return material.illumination >= 1 && material.normal_map.file.empty();
+            [&](const Material& material) {
+                return calls_for_map(material) && material.normal_map.file.empty();
             });
         normal_spaces.assign(materials.size(), MapSpace::tangent);
         for (std::size_t i = 0; i < materials.size(); ++i) {

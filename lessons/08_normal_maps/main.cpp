@@ -24,7 +24,7 @@ struct Options : LessonOptions {
     LightOptions shading;
     NormalMapVariant normal_map;
 
-    Options() { model = "scene_bumpy.obj", orbit.distance = 1.3f, orbit.pitch_degrees = 25; }
+    Options() { model = "scene_bumpy.obj"; }
     void declare(Knobs& knobs) {
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
