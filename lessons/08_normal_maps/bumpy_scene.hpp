@@ -32,17 +32,20 @@ struct BumpyScene : LitScene {
     template <typename Options>
     BumpyScene(Scene scene, const Options& options) : LitScene(std::move(scene), options) {
         const NormalMapVariant& variant = options.normal_map;
+        const auto calls_for_map = [&](const Material& material) {
+            return material.illumination >= 1 && variant.space != MapSpace::none;
+        };
         normal_textures = load_textures(
             &Material::normal_map, "norm", options.texture,
             [&](const Image<u8vec4>& picture, Wrap) { return variant.normals(picture); },
-            [](const Material& material) { return material.illumination >= 1; });
+            calls_for_map);
         const MaterialTextures bumps = load_textures(
             &Material::bump_map, "map_Bump", options.texture,
             [&](const Image<u8vec4>& picture, Wrap wrap) {
                 return variant.normals_of_bumps(picture, wrap);
             },
-            [](const Material& material) {
-                return material.illumination >= 1 && material.normal_map.file.empty();
+            [&](const Material& material) {
+                return calls_for_map(material) && material.normal_map.file.empty();
             });
         normal_spaces.assign(materials.size(), MapSpace::tangent);
         for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -84,6 +87,14 @@ struct BumpyScene : LitScene {
     }
 };
 
+/// Where the key light stands: low, so that its light rakes over what stands out.
+constexpr vec3 low_key(-1.2f, 0.3f, 0.22f);
+
+/// Up to 64 points that are lit together, what the normal map has there, and their weights.
+struct BumpyPoints : LitPoints {
+    Vectors in_map, weights;
+};
+
 /// What a triangle's normal map makes of its normals.
 class TriangleRelief {
   public:
@@ -112,36 +123,81 @@ class TriangleRelief {
                                    mesh.positions[triangle.corners[2].position]};
         const UvDirections directions = uv_directions(positions, uvs_);
         handedness_ = directions.handedness < 0 ? -side_ : side_;
+        tangents_.fill(side_ * directions.tangent);
         const vec3 normal = side_ * face_normal(mesh, triangle);
-        frame_ = tangent_frame(side_ * directions.tangent, normal, handedness_);
+        face_ = tangent_frame(tangents_[0], normal, handedness_);
     }
 
-    /// Tilts the normal of the point that was added last.
+    /// Reads the map for the point that was added last.
     template <typename CounterPolicy>
-    void tilt(const FragmentWeights& weights, Filter filter, LitPoints& points,
-              CounterPolicy& counters) const {
+    void add(const FragmentWeights& weights, Filter filter, BumpyPoints& points,
+             CounterPolicy& counters) const {
         if (!texture_) return;
+        const std::size_t i = points.count - 1;
         counters.add(Counter::normal_map_samples);
         vec3 in_map = sample_normal(*texture_, filter, fragment_uv(uvs_, weights));
         if (variant_.channels == Channels::xy) in_map = with_z(vec2(in_map));
-        const std::size_t last = points.count - 1;
-        if (space_ == MapSpace::object) return points.normal_world.set(last, side_ * in_map);
-        if (in_map.x == 0 && in_map.y == 0) return;  // flat: not even a rounding
-        in_map.x *= steepness_, in_map.y *= steepness_;
-        const vec3 mixed = points.normal_world[last];
-        points.normal_world.set(last, tilted(frame_at(weights.here, mixed), in_map));
+        if (space_ == MapSpace::tangent) in_map.x *= steepness_, in_map.y *= steepness_;
+        points.in_map.set(i, in_map);
+        points.weights.set(i, weights.here);
+    }
+
+    /// Tilts the normals of points as the map has it. Their lengths are not 1.
+    void tilt(BumpyPoints& points) const {
+        if (!texture_) return;
+        if (space_ == MapSpace::object) {
+            for (std::size_t i = 0; i < points.count; ++i)
+                points.normal_world.set(i, side_ * points.in_map[i]);
+            return;
+        }
+        if (is_orthonormal_at_pixels() && tilt_at_once(points)) return;
+        for (std::size_t i = 0; i < points.count; ++i) {
+            const vec3 mixed = points.normal_world[i];
+            points.normal_world.set(
+                i, tilted(frame_at(points.weights[i], mixed), points.in_map[i], mixed));
+        }
     }
 
   private:
+    bool is_orthonormal_at_pixels() const {
+        return variant_.frame == FrameOf::pixel || (variant_.frame == FrameOf::vertex &&
+                                                    variant_.orthonormal == Orthonormal::at_pixels);
+    }
+
     TangentFrame frame_at(vec3 weights, vec3 mixed_normal) const {
         if (variant_.frame == FrameOf::face)
-            return {frame_.tangent, frame_.bitangent, unit_or(mixed_normal, frame_.normal)};
-        if (variant_.frame == FrameOf::pixel)
-            return tangent_frame(frame_.tangent, mixed_normal, handedness_);
+            return {face_.tangent, face_.bitangent, unit_or(mixed_normal, face_.normal)};
         const vec3 tangent = interpolate(tangents_, weights);
-        if (variant_.orthonormal == Orthonormal::at_corners)
+        if (!is_orthonormal_at_pixels())
             return {tangent, handedness_ * glm::cross(mixed_normal, tangent), mixed_normal};
         return tangent_frame(tangent, mixed_normal, handedness_);
+    }
+
+    /// The same bits as of frame_at() and tilted(), many points at a time.
+    ///
+    /// @return  Whether all is done: false, and nothing has changed, where a vector is so long or
+    /// so
+    ///          short that its square is not a usable number, or a tangent leads along a normal.
+    bool tilt_at_once(BumpyPoints& points) const {
+        // No step of the loop leaves it: the compiler takes many i at once.
+        int unusable = 0;
+        Vectors all;
+        for (std::size_t i = 0; i < points.count; ++i) {
+            const vec3 mixed = points.normal_world[i], in_map = points.in_map[i];
+            const float squared = glm::dot(mixed, mixed);
+            unusable |= (squared > 1e-30f ? 0 : 1) | (squared < 1e30f ? 0 : 1);
+            const vec3 n = mixed * (1 / std::sqrt(squared));
+            const vec3 tangent = interpolate(tangents_, points.weights[i]);
+            const vec3 left = across(tangent, n);
+            const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);
+            unusable |= (of_length > mostly * of_all ? 0 : 1) | (of_length > 1e-30f ? 0 : 1) |
+                        (of_all < 1e30f ? 0 : 1);
+            const vec3 t = left * (1 / std::sqrt(of_length));  // Eq. 8.5
+            const TangentFrame frame{t, handedness_ * glm::cross(n, t), n};
+            all.set(i, tilted(frame, in_map, mixed));
+        }
+        if (unusable == 0) points.normal_world = all;
+        return unusable == 0;
     }
 
     const Texture* texture_;  ///< Null where there is no map; then the rest means nothing.
@@ -150,9 +206,10 @@ class TriangleRelief {
     float side_ = 1;       ///< -1 as seen from behind.
     float steepness_ = 1;  ///< -bm
     std::array<vec2, 3> uvs_;
-    std::array<vec3, 3> tangents_;  ///< Of the corners, for FrameOf::vertex.
+    std::array<vec3, 3>
+        tangents_;  ///< Of the corners; for FrameOf::pixel three times that of the face.
     float handedness_ = 1;
-    TangentFrame frame_;  ///< Of the face, for the others.
+    TangentFrame face_;  ///< For FrameOf::face.
 };
 
 }  // namespace rasterbook

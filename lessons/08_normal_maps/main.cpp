@@ -38,7 +38,7 @@ template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolicy& counters) {
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
-    const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
+    const std::array lights = studio_lights(options.shading.key_light, scene.bounds(), low_key);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
@@ -71,14 +71,15 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
                                           triangle, is_back, surface);
                 const auto shade = [&](std::span<const Fragment> fragments) {
                     std::array<SurfaceColor, most_points> own;
-                    LitPoints points;
+                    BumpyPoints points;
                     for (std::size_t i = 0; i < fragments.size(); ++i) {
                         const FragmentWeights weights = perspective.at(fragments[i].screen_weights);
                         own[i] = surface.color(weights, options.texture.filter, counters);
                         if (!surface.effects.light) continue;
                         light.add(weights.here, points, counters);
-                        relief.tilt(weights, options.texture.filter, points, counters);
+                        relief.add(weights, options.texture.filter, points, counters);
                     }
+                    relief.tilt(points);
                     light.compute(points);
                     for (std::size_t i = 0; i < fragments.size(); ++i)
                         color[fragments[i].pixel] =

@@ -91,14 +91,17 @@ inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentU
 /// A surface's normal as the map tilts it (Eq. 8.7).
 ///
 /// @param frame       Of the surface; finite.
-/// @param normal_map  In that frame. Where x and y are 0, the surface's own normal is left as it
-///                    is, to the last bit.
-/// @return            Length 1; the surface's own where there is no direction.
-inline vec3 tilted(const TangentFrame& frame, vec3 normal_map) {
-    if (normal_map.x == 0 && normal_map.y == 0) return frame.normal;
-    return unit_or(
-        normal_map.x * frame.tangent + normal_map.y * frame.bitangent + normal_map.z * frame.normal,
-        frame.normal);
+/// @param normal_map  In that frame.
+/// @param normal      The surface's own, not yet scaled: it is left as it is, to the last bit,
+/// where
+///                    x and y are 0.
+/// @return            Of any length; scaling comes last.
+inline vec3 tilted(const TangentFrame& frame, vec3 normal_map, vec3 normal) {
+    const vec3 sum =
+        normal_map.x * frame.tangent + normal_map.y * frame.bitangent + normal_map.z * frame.normal;
+    const bool is_flat = (normal_map.x == 0) & (normal_map.y == 0);
+    // One number at a time: a loop over many points then has no jumps.
+    return {is_flat ? normal.x : sum.x, is_flat ? normal.y : sum.y, is_flat ? normal.z : sum.z};
 }
 
 }  // namespace rasterbook

@@ -21,8 +21,9 @@ enum class FrameOf { face, vertex, pixel };
 /// The frames between corners are made orthonormal, or are as they are mixed.
 enum class Orthonormal { at_pixels, at_corners };
 
-/// What `norm` names: normals in the frames of the surface, or as they stand in the model.
-enum class MapSpace { tangent, object };
+/// What `norm` names: normals in the frames of the surface, or as they stand in the model; or
+/// neither `norm` nor `map_Bump` is read.
+enum class MapSpace { tangent, object, none };
 
 /// A map holds all of a normal, or x and y only.
 enum class Channels { xyz, xy };
@@ -54,8 +55,11 @@ struct NormalMapVariant {
                      {{"pixels", Orthonormal::at_pixels}, {"corners", Orthonormal::at_corners}},
                      "Frames are made orthonormal at each pixel, or only at the corners");
         knobs.choice("--normal-map", space,
-                     {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}},
-                     "Normals in a map stand in the surface's frames, or in the model's space");
+                     {{"tangent", MapSpace::tangent},
+                      {"object", MapSpace::object},
+                      {"none", MapSpace::none}},
+                     "Normals in a map stand in the surface's frames, or in the model's space; or "
+                     "maps are not read");
         knobs.choice("--green", green, {{"up", Green::up}, {"down", Green::down}},
                      "Where green leads in a normal map: up as in OpenGL, or down as in Direct3D");
         knobs.choice("--channels", channels, {{"xyz", Channels::xyz}, {"xy", Channels::xy}},

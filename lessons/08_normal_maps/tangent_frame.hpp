@@ -46,13 +46,18 @@ inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
     const dvec3 e2 = dvec3(positions[2]) - dvec3(positions[0]);
     const dvec2 d1 = dvec2(uvs[1]) - dvec2(uvs[0]), d2 = dvec2(uvs[2]) - dvec2(uvs[0]);
     const double determinant = d1.x * d2.y - d2.x * d1.y;
-    const int handedness = (determinant > 0) - (determinant < 0);  // Eq. 8.4; 0 for NaN
-    if (handedness == 0) return {};
+    const int handedness = (determinant > 0) - (determinant < 0);  // Eq. 8.4
+    if (handedness == 0 || !std::isfinite(determinant)) return {};
     // Eq. 8.3. Only directions count: of what they are divided by, the sign is enough.
     const double sign = handedness;
     return {vec3(normalize_or(sign * (d2.y * e1 - d1.y * e2), dvec3(0))),
             vec3(normalize_or(sign * (d1.x * e2 - d2.x * e1), dvec3(0))), handedness};
 }
+
+/// What is left of v when all that leads along the normal is taken away (Eq. 8.5).
+///
+/// @param normal  Length 1.
+inline vec3 across(vec3 v, vec3 normal) { return v - glm::dot(v, normal) * normal; }
 
 /// A direction across n: along the axis to which n leans least, as far as n lets it.
 ///
@@ -63,7 +68,7 @@ inline vec3 any_across(vec3 n) {
     const vec3 axis = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
                       : size.y <= size.z                   ? vec3(0, 1, 0)
                                                            : vec3(0, 0, 1);
-    return unit_or(axis - glm::dot(axis, n) * n, axis);
+    return unit_or(across(axis, n), axis);
 }
 
 /// Three directions at right angles, each of length 1.
@@ -71,23 +76,25 @@ struct TangentFrame {
     vec3 tangent, bitangent, normal;
 };
 
-/// What is left of a tangent when all that leads along the normal is taken away, scaled to length 1
-/// (Eq. 8.5).
+/// As much of the square of a tangent's length has to be left for one step to be exact enough: the
+/// tangent is within 30 degrees of where it should be.
+constexpr float mostly = 0.75f;
+
+/// What is left of a tangent across the normal, scaled to length 1 (Eq. 8.5).
 ///
 /// @param tangent  Any numbers.
 /// @param normal   Length 1.
 /// @return         any_across(normal) where nothing is left: the tangent is 0, not finite, or
 ///                 parallel to the normal but for 2^-20 of its length.
-inline vec3 tangent_across(vec3 tangent, vec3 normal) {
-    const auto across = [&](vec3 v) { return v - glm::dot(v, normal) * normal; };
-    const vec3 left = across(tangent);
+inline vec3 unit_across(vec3 tangent, vec3 normal) {
+    const vec3 left = across(tangent, normal);
     const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);
-    if (of_length > 0x1p-6f * of_all && of_length > 1e-30f && of_all < 1e30f)
+    if (of_length > mostly * of_all && of_length > 1e-30f && of_all < 1e30f)
         return left * (1 / std::sqrt(of_length));
     // Roundings of the whole tangent count more in the little that is left: take away theirs, too.
-    const vec3 little = across(unit_or(tangent, normal));
+    const vec3 little = across(unit_or(tangent, normal), normal);
     if (!(glm::dot(little, little) > 0x1p-40f)) return any_across(normal);
-    return unit_or(across(unit_or(little, normal)), normal);
+    return unit_or(across(unit_or(little, normal), normal), normal);
 }
 
 /// The frame at a point (Eq. 8.5).
@@ -95,10 +102,10 @@ inline vec3 tangent_across(vec3 tangent, vec3 normal) {
 /// @param tangent     Any numbers; where it has no direction across the normal, any_across() has.
 /// @param normal      Of any length; where it has no direction, up.
 /// @param handedness  -1 or 1.
-/// @return            Orthonormal within 2^-21, also for numbers that are not finite.
+/// @return            Orthonormal within 2^-20, also for numbers that are not finite.
 inline TangentFrame tangent_frame(vec3 tangent, vec3 normal, float handedness) {
     const vec3 n = unit_or(normal, vec3(0, 1, 0));
-    const vec3 t = tangent_across(tangent, n);
+    const vec3 t = unit_across(tangent, n);
     return {t, handedness * glm::cross(n, t), n};
 }
 
@@ -143,10 +150,10 @@ std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
                               bits(uvs[i].x), bits(uvs[i].y), handedness < 0 ? 1u : 0u},
                              corner.normal,
                              {0, 0, 0}});
-            const vec3 across = tangent - glm::dot(tangent, n) * n;
-            if (glm::dot(across, across) < 0x1p-40f) continue;  // none, or along the normal
+            const vec3 left = across(tangent, n);
+            if (!(glm::dot(left, left) > 0x1p-40f)) continue;  // none, or along the normal
             const dvec3 share = static_cast<double>(corner_angle_radians(mesh, triangle, i)) *
-                                dvec3(tangent_across(tangent, n));
+                                dvec3(unit_across(tangent, n));
             for (int axis = 0; axis < 3; ++axis)
                 own.share[static_cast<std::size_t>(axis)] = std::llround(0x1p40 * share[axis]);
         }
@@ -159,8 +166,7 @@ std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
         auto end = begin;
         for (; end != shares.end() && end->key == begin->key; ++end)
             for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += end->share[axis];
-        const vec3 tangent =
-            tangent_across(vec3(sum[0], sum[1], sum[2]), mesh.normals[begin->normal]);
+        const vec3 tangent = unit_across(vec3(sum[0], sum[1], sum[2]), mesh.normals[begin->normal]);
         for (; begin != end; ++begin)
             tangents[begin->normal] = vec4(tangent, begin->key.back() == 1 ? -1 : 1);
     }
