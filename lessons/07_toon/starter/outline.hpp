@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Outlines that need more than one fragment: the inverted hull, and edges found in depth and
+/// normals. Introduced in lesson 07; derivation: docs/derivations/07_toon.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "06_phong/light.hpp"
+#include "06_phong/normals.hpp"
+#include "common/counters.hpp"
+
+namespace rasterbook {
+
+constexpr vec3 ink(0.006f, 0.005f, 0.009f);  ///< The colour of outlines; linear.
+
+/// For each position of a mesh the direction in which its hull grows: the mean of all faces around
+/// the place, weighted by their angles there (Eq. 7.8).
+///
+/// Positions at the same place get the same direction, also where the file has one for each face;
+/// so the hull has no gap at a sharp edge.
+///
+/// @return  Of length 1; 0 where there is none, as on a sheet with two sides.
+inline std::vector<vec3> hull_normals(const Mesh& mesh) {
+    // TODO: Eq. 7.8: sum over the faces around each position, then over all positions at the same
+    // place; then of length 1, with unit_or(sum, vec3(0)).
+    return std::vector<vec3>(mesh.positions.size(), vec3(0));
+}
+
+/// A point pushed on the screen by `width_px` pixels, in the direction in which it moves there when
+/// it moves along its normal (Eq. 7.9). Its depth and its w stay.
+///
+/// @param normal_clip  clip_from_world * vec4(normal, 0). A normal that leads straight to the eye
+///                     or away from it has no direction on the screen: the point stays.
+inline vec4 pushed(vec4 position_clip, vec4 normal_clip, float width_px, ivec2 size) {
+    // TODO: Eq. 7.9.
+    return position_clip;
+}
+
+/// Whether a face shows the eye its back (Eq. 7.10). In double, where products do not overflow.
+inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3 eye_world) {
+    // TODO: Eq. 7.10.
+    return false;
+}
+
+/// Draws the outline of a closed body: the faces on its far side, pushed outwards, in ink. What is
+/// in front hides all of them but for a rim of `width_px` pixels (Eq. 7.9).
+///
+/// The rim is as wide everywhere that the body is round; at the sides of a cube it is 0.7 to 1
+/// times as wide. A sheet that is not closed has no rim where it shows its front.
+///
+/// @param normals  hull_normals() of the mesh.
+/// @param depth    All bodies are drawn already. Keeps the hull's depths where it is seen.
+template <typename CounterPolicy>
+void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
+               float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
+    // TODO: as main.cpp draws a mesh, but: each position is pushed; only faces that are seen from
+    // behind (asked of the mesh as it was) are drawn; and what passes the depth test is ink. Count
+    // Counter::outline_tests for each test and Counter::outline_pixels for each pixel inked.
+}
+
+/// From where on a change counts as an edge.
+struct EdgeThresholds {
+    float depth = 0.02f;   ///< In units of the distance to what is seen.
+    float normals = 0.5f;  ///< Of unit vectors: 0.5 is a turn of 29 degrees.
+};
+
+/// How near what is seen in a pixel is: 1 / w, which of a plane is linear on the screen (Eq. 7.11).
+///
+/// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, and nothing is as far.
+inline float nearness(float depth, const Camera& camera) {
+    // TODO: Eq. 7.11.
+    return 0;
+}
+
+/// The second difference along x or y, the rows beside count half (Eq. 7.12): 0 for a plane,
+/// however steep, where the first one would grow with the slope.
+///
+/// @param at  Called as at(ivec2 offset), in steps from -1 to 1.
+template <typename At>
+float second_difference(At&& at, ivec2 along) {
+    // TODO: Eq. 7.12.
+    return 0;
+}
+
+/// Sobel's first difference along x or y, the rows beside count half (Eq. 7.13): for an edge
+/// between two colours, their difference.
+///
+/// @param at  As for second_difference().
+template <typename At>
+vec3 sobel(At&& at, ivec2 along) {
+    // TODO: Eq. 7.13.
+    return vec3(0);
+}
+
+/// Draws, in ink, the pixels in whose surroundings depth or normals change by more than a threshold
+/// (Eq. 7.14): silhouettes, sharp edges, and where one body touches another.
+///
+/// @param normals   Of what is seen, length 1; 0 where nothing is.
+/// @param width_px  Of the lines, rounded up to an even number; 0: none.
+template <typename CounterPolicy>
+void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
+                float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,
+                CounterPolicy& counters) {
+    // TODO: for each pixel Eq. 7.14, with the neighbours `reach` = width_px / 2, rounded up, pixels
+    // away; at the picture's border those of the next pixel that has neighbours on all sides. Count
+    // Counter::outline_tests for each pixel and Counter::outline_pixels for each one inked.
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Light in bands, as in a comic. Introduced in lesson 07; derivation: docs/derivations/07_toon.md.
+#pragma once
+
+#include <algorithm>
+
+#include "06_phong/phong.hpp"
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+constexpr int most_bands = 255;
+
+/// From all around: the light of the darkest band; linear.
+constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
+
+/// How bright a coloured light is: its greatest number (Eq. 7.1).
+///
+/// @return  0 for NaN and for negative numbers.
+inline float brightness(vec3 light) {
+    // TODO: Eq. 7.1; mind NaN.
+    return 0;
+}
+
+/// The band that a brightness falls into: 0 to bands - 1 (Eq. 7.2).
+///
+/// The thresholds are k / bands, exactly, for k = 1 to bands - 1; a brightness on a threshold
+/// belongs to the brighter band.
+///
+/// @param brightness  Any number; below 0 and NaN count as 0, above 1 as 1.
+/// @param bands       1 to most_bands.
+inline int band_of(float brightness, int bands) {
+    // TODO: Eq. 7.2. The product has to be exact.
+    return 0;
+}
+
+/// The light that a band stands for: 0, 1 / (bands - 1), ..., 1; for a single band 1 (Eq. 7.3).
+inline float level_of(int band, int bands) {
+    // TODO: Eq. 7.3.
+    return 0;
+}
+
+/// A brightness, snapped to the light of its band.
+///
+/// @param brightness,bands  As for band_of().
+inline float banded(float brightness, int bands) {
+    // TODO: the two above, one after the other.
+    return 0;
+}
+
+/// From this brightness on a highlight is seen, and then it is white.
+constexpr float least_highlight = 0.5f;
+
+/// The paint of a fragment whose light is known: white in a highlight, else the surface's own
+/// colours in the light of a level (Eq. 7.4). The colour of the lamps does not count, so that a
+/// band has one colour.
+///
+/// @param color          Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
+/// @param from_all_around  Light, 0 to 1.
+/// @param level          Of the diffuse light, 0 to 1.
+/// @param is_highlight   Whether the fragment lies in a highlight.
+inline vec3 paint(const SurfaceColor& color, vec3 from_all_around, float level, bool is_highlight) {
+    // TODO: Eq. 7.4, when it is known whether there is a highlight.
+    return color.diffuse;
+}
+
+/// Whether a highlight can be seen in a fragment: what Phong's model would add is bright enough.
+inline bool is_highlight(const SurfaceColor& color, const ReflectedLight& light) {
+    // TODO: the first half of Eq. 7.4.
+    return false;
+}
+
+/// What a fragment sends to the eye: in place of phong() (Eq. 7.4).
+///
+/// @param bands  1 to most_bands.
+inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const ReflectedLight& light,
+                 int bands) {
+    // TODO: Eq. 7.4 with the functions above.
+    return color.diffuse;
+}
+
+/// How much a surface faces the eye: 1 where it is seen from straight above, 0 at a silhouette.
+///
+/// @param normal,toward_eye  Length 1.
+/// @return  0 to 1, but for rounding; 0 for NaN, and for normals that lead away, as interpolated
+///          ones may at a silhouette.
+inline float facing_ratio(vec3 normal, vec3 toward_eye) {
+    // TODO: the cosine of the angle between the two; mind NaN.
+    return 1;
+}
+
+/// The outline by the facing ratio: where it is below `least` (Eq. 7.6). On a sphere that is a ring
+/// whose width grows with the sphere (Eq. 7.7); of a flat face it is all or nothing.
+///
+/// @param least  0 to 1; 0: no outline.
+inline bool is_facing_outline(float ratio, float least) {
+    // TODO: Eq. 7.6.
+    return false;
+}
+
+}  // namespace rasterbook

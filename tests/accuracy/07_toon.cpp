@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Bands on a sphere, and the three outlines of a sphere beside a cube. The references are rays in
+/// double that meet sphere and cube themselves.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+// All that the lesson's main.cpp includes, so that it can be included within a namespace.
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "05_textures/textured_scene.hpp"
+#include "06_phong/fragments.hpp"
+#include "06_phong/lit_scene.hpp"
+#include "07_toon/toon_variants.hpp"
+#include "accuracy/accuracy.hpp"
+#include "common/backdrop.hpp"
+#include "common/image_io.hpp"
+#include "common/lesson_app.hpp"
+#include "common/math/color.hpp"
+#include "support/lit_sphere.hpp"
+
+namespace lesson {
+#define main main_of_lesson
+#include "07_toon/main.cpp"
+#undef main
+}  // namespace lesson
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr ivec2 size(512);
+constexpr int bands = 4;
+
+/// A sphere of radius 1 around the origin, and beside it perhaps a cube, in the light of a sun.
+Scene bodies(bool with_cube) {
+    Scene scene;
+    Material material;
+    material.diffuse = vec3(1), material.ambient = vec3(0);
+    scene.materials.push_back(material);
+    scene.meshes.push_back(sphere_mesh(96, 192));
+    if (!with_cube) return scene;
+    Mesh cube;
+    for (int i = 0; i < 8; ++i) {
+        cube.positions.push_back(vec3(1.3f, -0.7f, -0.7f) +
+                                 1.4f * vec3(ivec3(i & 1, i >> 1 & 1, i >> 2)));
+        cube.bounds.add(cube.positions.back());
+    }
+    constexpr std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& [a, b, c, d] : quads) {
+        cube.triangles.push_back({{Corner{a}, Corner{b}, Corner{c}}, 0});
+        cube.triangles.push_back({{Corner{a}, Corner{c}, Corner{d}}, 0});
+    }
+    scene.meshes.push_back(cube);
+    return scene;
+}
+
+/// The rays of a camera that looks at a point.
+class Rays {
+  public:
+    Rays(const Camera& camera, dvec3 center)
+        : eye_(camera.position_world),
+          forward_(glm::normalize(center - eye_)),
+          right_(glm::normalize(glm::cross(forward_, dvec3(0, 1, 0)))),
+          up_(glm::cross(right_, forward_)),
+          half_height_(std::tan(double{camera.fov_y_radians} / 2)) {}
+
+    dvec3 eye() const { return eye_; }
+
+    /// @param place  In pixels of a square picture.
+    dvec3 through(dvec2 place) const {
+        const dvec2 ndc = 2.0 * place / dvec2(size) - 1.0;
+        return forward_ + half_height_ * (ndc.x * right_ - ndc.y * up_);
+    }
+
+  private:
+    dvec3 eye_, forward_, right_, up_;
+    double half_height_;
+};
+
+/// How far along a ray it meets the sphere.
+std::optional<double> meets_sphere(dvec3 eye, dvec3 ray) {
+    const double a = glm::dot(ray, ray), b = glm::dot(ray, eye), c = glm::dot(eye, eye) - 1;
+    if (b * b < a * c) return std::nullopt;
+    return (-b - std::sqrt(b * b - a * c)) / a;
+}
+
+/// What a ray meets: 0 nothing, 1 the sphere, 2 to 7 a side of the cube.
+int meets(dvec3 eye, dvec3 ray) {
+    int body = 0, side = 0;
+    double nearest = 1e30, from = -1e30, to = 1e30;
+    if (const auto sphere = meets_sphere(eye, ray)) nearest = *sphere, body = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = axis == 0 ? 1.3 : -0.7;
+        double enter = (low - eye[axis]) / ray[axis], leave = (low + 1.4 - eye[axis]) / ray[axis];
+        if (enter > leave) std::swap(enter, leave);
+        if (enter > from) from = enter, side = axis;
+        to = std::min(to, leave);
+    }
+    if (from < to && from > 0 && from < nearest) body = 2 + 2 * side + (ray[side] > 0);
+    return body;
+}
+
+lesson::Options options_of(Outline outline, bool smooth) {
+    lesson::Options options;
+    options.size = size;
+    options.orbit = {};
+    options.shading.outline = outline;
+    options.shading.smooth = smooth;
+    return options;
+}
+
+/// The level of light in each pixel, as the lesson draws it with so many samples a side.
+Image<float> drawn_levels(const ToonScene& scene, bool smooth, int samples) {
+    lesson::Options options = options_of(Outline::none, smooth);
+    options.size = samples * size;
+    options.samples_per_side = samples;
+    NoCounters counters;
+    const Image<vec3> picture = averaged(lesson::render(options, scene, counters), samples);
+    Image<float> levels(size);
+    for (std::size_t i = 0; i < levels.pixels().size(); ++i)
+        levels.pixels()[i] = picture.pixels()[i].g;
+    return levels;
+}
+
+/// The mean level of 256 rays a pixel; nothing where one of them misses the sphere or grazes it.
+std::vector<std::optional<double>> exact_levels(const Camera& camera,
+                                                std::span<const Light> lights) {
+    const Rays rays(camera, dvec3(0));
+    std::vector<std::optional<double>> levels;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            std::optional<double> sum = 0.0;
+            for (int i = 0; i < 256 && sum; ++i) {
+                const dvec3 ray =
+                    rays.through({x + (i % 16 + 0.5) / 16.0, y + (i / 16 + 0.5) / 16.0});
+                const auto far = meets_sphere(rays.eye(), ray);
+                const dvec3 normal = far ? rays.eye() + *far * ray : dvec3(0);
+                if (!far || -glm::dot(normal, ray) < 0.15 * glm::length(ray)) {
+                    sum.reset();
+                    break;
+                }
+                dvec3 light(0);
+                for (const Light& lamp : lights)
+                    light += std::max(0.0, glm::dot(normal, dvec3(lamp.direction_world))) *
+                             dvec3(lamp.color);
+                const double brightness = std::max({light.r, light.g, light.b});
+                int band = 0;
+                for (int k = 1; k < bands; ++k) band += brightness >= double(k) / bands;
+                *sum += band / (bands - 1.0) / 256;
+            }
+            levels.push_back(sum);
+        }
+    return levels;
+}
+
+void add_bands() {
+    static const ToonScene scene(bodies(false), options_of(Outline::none, false));
+    const Camera camera = orbit_camera({}, scene.bounds());
+    const auto lights = studio_lights(LightKind::directional, scene.bounds());
+    const auto exact = exact_levels(camera, lights);
+    // What is wrong, of three variants, where two bands meet.
+    constexpr int zoom = 6;
+    constexpr ivec2 part_from(316, 334);
+    const Image<float> part({44, 44});
+    Image<vec3> picture(zoom * part.size() * ivec2(3, 1));
+    int panel = 0;
+    const std::tuple<const char*, bool, int> variants[] = {{"hard", false, 1},
+                                                           {"smooth", true, 1},
+                                                           {"hard, 4 samples", false, 2},
+                                                           {"hard, 16 samples", false, 4}};
+    for (const auto& [name, smooth, samples] : variants) {
+        const Image<float> levels = drawn_levels(scene, smooth, samples);
+        double squares = 0, greatest = 0, compared = 0;
+        for (std::size_t i = 0; i < exact.size(); ++i) {
+            const ivec2 pixel(int(i) % size.x, int(i) / size.x);
+            const double error = exact[i] ? double{levels[pixel]} - *exact[i] : 0;
+            if (exact[i]) squares += error * error, ++compared;
+            greatest = std::max(greatest, std::abs(error));
+            const ivec2 shown = pixel - part_from;
+            if (panel == 3 || !part.contains(shown)) continue;
+            const float strength = std::min(1.0f, 5 * static_cast<float>(std::abs(error)));
+            const vec3 wrong = error > 0 ? vec3(1.0f, 0.05f, 0.0f) : vec3(0.0f, 0.1f, 1.0f);
+            const vec3 seen = glm::mix(vec3(0.3f + 0.5f * levels[pixel]), wrong, strength);
+            for (int j = 0; j < zoom * zoom; ++j)
+                picture[zoom * (shown + ivec2(panel * part.size().x, 0)) +
+                        ivec2(j % zoom, j / zoom)] = seen;
+        }
+        ++panel;
+        add_variant(
+            "bands", name, double(size.x) * size.y,
+            {{"RMS error", std::sqrt(squares / compared)}, {"greatest error", greatest}},
+            [=, smooth = smooth, samples = samples] { drawn_levels(scene, smooth, samples); });
+    }
+    write_image(RASTERBOOK_ASSETS "/../docs/accuracy/07_toon-bands.png",
+                srgb8_from_linear(picture));
+}
+
+void add_outlines() {
+    constexpr int near_edge = 3;  // pixels: as far as a line of 3 may lie from its edge
+    Image<int> met(size);
+    static const ToonScene scene(bodies(true), options_of(Outline::hull, false));
+    const Rays rays(orbit_camera({}, scene.bounds()), dvec3(scene.bounds().center()));
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x)
+            met[{x, y}] = meets(rays.eye(), rays.through({x + 0.5, y + 0.5}));
+    const auto is_edge = [&](ivec2 p) {
+        return met[p] != met[p + ivec2(1, 0)] || met[p] != met[p + ivec2(0, 1)];
+    };
+    /// Whether one of the pixels around has it.
+    const auto around = [&](ivec2 p, const auto& has) {
+        for (int y = -near_edge; y <= near_edge; ++y)
+            for (int x = -near_edge; x <= near_edge; ++x)
+                if (has(p + ivec2(x, y))) return true;
+        return false;
+    };
+    const std::pair<const char*, Outline> outlines[] = {{"none", Outline::none},
+                                                        {"facing ratio", Outline::facing},
+                                                        {"hull", Outline::hull},
+                                                        {"edges", Outline::edges}};
+    for (const auto& [name, outline] : outlines) {
+        const lesson::Options options = options_of(outline, false);
+        NoCounters counters;
+        const Image<vec3> picture = lesson::render(options, scene, counters);
+        const auto is_ink = [&](ivec2 p) { return picture[p] == ink; };
+        double edges = 0, missing = 0, inked = 0, wrong = 0;
+        for (int y = near_edge; y < size.y - near_edge - 1; ++y)
+            for (int x = near_edge; x < size.x - near_edge - 1; ++x) {
+                const ivec2 p(x, y);
+                if (is_edge(p)) ++edges, missing += !around(p, is_ink);
+                if (is_ink(p)) ++inked, wrong += !around(p, is_edge);
+            }
+        add_variant("outlines", name, double(size.x) * size.y,
+                    {{"missing, %", 100 * missing / edges},
+                     {"false, %", inked > 0 ? 100 * wrong / inked : 0}},
+                    [=] {
+                        NoCounters none;
+                        lesson::render(options, scene, none);
+                    });
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    add_bands();
+    add_outlines();
+    return measure_variants(argc, argv);
+}
