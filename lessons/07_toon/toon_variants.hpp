@@ -62,21 +62,23 @@ struct ToonScene : LitScene {
 ///
 /// @param change  >= 0; for 0 and NaN there is nothing to smooth.
 inline float smoothly_banded(float brightness, float change, int bands) {
-    if (!(change > 0) || bands == 1) return banded(brightness, bands);
     const auto area = [bands](double b) {  // below the staircase, from 0 to b
         if (!(b > 0)) return 0.0;
         const double k = std::min(std::floor(b * bands), bands - 1.0);
         return (k * (k - 1) / 2 / bands + k * (b - k / bands)) / (bands - 1);
     };
-    const double half = double{change} / 2;
-    if (!(half <= 1e15)) return 0.5f;  // as far on both sides of all bands
-    return static_cast<float>((area(brightness + half) - area(brightness - half)) / (2 * half));
+    const double from = brightness - double{change} / 2, to = brightness + double{change} / 2;
+    if (!(from < to) || bands == 1) return banded(brightness, bands);  // also for NaN
+    if (to <= 0 || from >= 1) return from >= 1 ? 1.0f : 0.0f;
+    if (!(to - from < 1e15)) return 0.5f;  // as far on both sides of all bands
+    return static_cast<float>((area(to) - area(from)) / (to - from));
 }
 
 /// The share of a pixel that lies in a highlight, in the same way.
 inline float highlight_share(float brightness, float change) {
     if (!(change > 0)) return brightness >= least_highlight ? 1.0f : 0.0f;
-    return std::clamp((brightness - least_highlight) / change + 0.5f, 0.0f, 1.0f);
+    const float share = (brightness - least_highlight) / change + 0.5f;
+    return std::min(std::max(0.0f, share), 1.0f);  // 0 first: never NaN
 }
 
 /// Points of a surface that are lit together, and with --smooth those a pixel to the right and a

@@ -3,6 +3,7 @@
 /// Golden pictures: what a lesson drew when somebody last looked at it and was content.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,9 @@ constexpr const char* golden_size = "960x540";
 /// @param lesson     The program's name, NN_name.
 /// @param golden     The picture's name without ".png".
 /// @param arguments  For the program, besides --size and --out.
+/// @param may_jump   So many pixels may differ by any amount (PictureDifference).
 testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
-                                       const std::vector<std::string>& arguments = {});
+                                       const std::vector<std::string>& arguments = {},
+                                       std::size_t may_jump = 0);
 
 }  // namespace rasterbook::test

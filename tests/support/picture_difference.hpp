@@ -34,9 +34,14 @@ inline bool looks_the_same(u8vec4 a, u8vec4 b) {
 struct PictureDifference {
     std::size_t differing = 0;  ///< Pixels that are not equal.
     std::size_t allowed = 0;    ///< As many may differ, by levels_that_may_differ.
+    std::size_t jumps = 0;      ///< Pixels that differ by more than levels_that_may_differ.
     int greatest = 0;           ///< Of all pixels, 0 to 255.
 
-    bool is_tolerable() const { return differing <= allowed && greatest <= levels_that_may_differ; }
+    /// @param may_jump  So many pixels may differ by any amount: where light is snapped to bands, a
+    ///                  last bit decides on which side of a threshold a pixel lies.
+    bool is_tolerable(std::size_t may_jump = 0) const {
+        return differing <= allowed && jumps <= may_jump;
+    }
 };
 
 /// @param actual,expected  Of one size.
@@ -48,6 +53,7 @@ inline PictureDifference picture_difference(const Image<u8vec4>& actual,
         const int difference = greatest_difference(expected.pixels()[i], actual.pixels()[i]);
         found.greatest = std::max(found.greatest, difference);
         found.differing += difference > 0;
+        found.jumps += difference > levels_that_may_differ;
     }
     found.allowed = static_cast<std::size_t>(share_of_pixels_that_may_differ *
                                              static_cast<double>(expected.pixels().size()));
