@@ -116,13 +116,44 @@ struct TangentShare {
     std::array<std::int64_t, 3> share;
 };
 
+/// A triangle's share at one of its corners: its angle there, along its tangent (Eq. 8.6), in whole
+/// numbers of 2^-40. Which corner of the triangle comes first in the file does not change a bit.
+///
+/// @param mesh  As complete_normals() leaves it: each corner has a normal of its own.
+/// @param uvs   Of the triangle's corners.
+/// @return      A share of 0 where there is no direction across the normal.
+inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
+                                  const std::array<vec2, 3>& uvs, std::size_t corner) {
+    const std::size_t next = (corner + 1) % 3, last = (corner + 2) % 3;
+    const auto position = [&](std::size_t i) {
+        return mesh.positions[triangle.corners[i].position];
+    };
+    // Seen from this corner, as if it were the first one.
+    const auto [tangent, bitangent, handedness] = uv_directions(
+        {position(corner), position(next), position(last)}, {uvs[corner], uvs[next], uvs[last]});
+    const std::uint32_t normal = triangle.corners[corner].normal;
+    const vec3 p = position(corner), n = mesh.normals[normal];
+    const vec2 uv = uvs[corner];
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
+    TangentShare own{{bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z), bits(uv.x),
+                      bits(uv.y), handedness < 0 ? 1u : 0u},
+                     normal,
+                     {0, 0, 0}};
+    const vec3 left = across(tangent, n);
+    if (!(glm::dot(left, left) > 0x1p-40f)) return own;
+    const double angle = corner_angle_radians(mesh, triangle, corner);
+    const dvec3 share = angle * dvec3(unit_across(tangent, n));
+    own.share = {std::llround(0x1p40 * share.x), std::llround(0x1p40 * share.y),
+                 std::llround(0x1p40 * share.z)};
+    return own;
+}
+
 /// A tangent for each corner: the mean of those of the triangles around it, weighted by their
 /// angles there (Eq. 8.6). Corners with the same place, normal and uv share one, but for those with
 /// the other handedness: a mirrored texture has tangents that point against each other.
 ///
-/// The sums are taken in whole numbers of 2^-40: neither the order of the triangles nor which of
-/// their corners comes first changes a bit of them. Exact to 2^-40 per triangle, up to 2^20 of them
-/// in one place.
+/// Sums of whole numbers have no order: neither that of the triangles nor that of the vertices
+/// changes a bit. There may be 2^20 triangles in one place.
 ///
 /// @param mesh    As complete_normals() leaves it: each corner has a normal of its own.
 /// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
@@ -132,32 +163,9 @@ template <std::invocable<const Triangle&> UvsOf>
 std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
     std::vector<TangentShare> shares;
     shares.reserve(3 * mesh.triangles.size());
-    for (const Triangle& triangle : mesh.triangles) {
-        const std::array<vec2, 3> uvs = uvs_of(triangle);
-        const auto position = [&](std::size_t i) {
-            return mesh.positions[triangle.corners[i % 3].position];
-        };
-        for (std::size_t i = 0; i < 3; ++i) {
-            // Seen from this corner, so that it does not matter which one is the first.
-            const auto [tangent, bitangent, handedness] =
-                uv_directions({position(i), position(i + 1), position(i + 2)},
-                              {uvs[i], uvs[(i + 1) % 3], uvs[(i + 2) % 3]});
-            const Corner corner = triangle.corners[i];
-            const vec3 p = position(i), n = mesh.normals[corner.normal];
-            const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };
-            TangentShare& own = shares.emplace_back(
-                TangentShare{{bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z),
-                              bits(uvs[i].x), bits(uvs[i].y), handedness < 0 ? 1u : 0u},
-                             corner.normal,
-                             {0, 0, 0}});
-            const vec3 left = across(tangent, n);
-            if (!(glm::dot(left, left) > 0x1p-40f)) continue;  // none, or along the normal
-            const dvec3 share = static_cast<double>(corner_angle_radians(mesh, triangle, i)) *
-                                dvec3(unit_across(tangent, n));
-            for (int axis = 0; axis < 3; ++axis)
-                own.share[static_cast<std::size_t>(axis)] = std::llround(0x1p40 * share[axis]);
-        }
-    }
+    for (const Triangle& triangle : mesh.triangles)
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            shares.push_back(tangent_share(mesh, triangle, uvs_of(triangle), corner));
     std::ranges::sort(shares, {}, &TangentShare::key);
 
     std::vector<vec4> tangents(mesh.normals.size(), vec4(0));
