@@ -130,7 +130,8 @@ TEST(Toon, HardCase_AFlatLampLessSceneHasBandsAllTheSame) {
         options.shading.key_light = light;
         options.shading.outline = Outline::none;
         std::vector<float> reds;
-        for (const vec3 color : toon_picture(scene, options).pixels())
+        const Image<vec3> picture = toon_picture(scene, options);
+        for (const vec3 color : picture.pixels())
             if (color != paper_color) reds.push_back(color.r);
         std::ranges::sort(reds);
         reds.erase(std::ranges::unique(reds).begin(), reds.end());

@@ -172,7 +172,8 @@ TEST(Toon, HardCase_SilhouettesAreNeverNaN) {
                 options.orbit = {static_cast<float>(yaw), 0, 3, 36};
                 options.shading.outline = outline;
                 options.shading.smooth = smooth;
-                for (const vec3 color : toon_picture(scene, options).pixels())
+                const Image<vec3> picture = toon_picture(scene, options);
+                for (const vec3 color : picture.pixels())
                     ASSERT_TRUE(is_finite(color) && color.x >= 0 && color.x <= 1);
             }
 }

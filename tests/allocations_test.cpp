@@ -23,6 +23,7 @@
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/shading_variants.hpp"
+#include "07_toon/toon_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 
@@ -36,6 +37,9 @@ namespace lesson_05 {
 }
 namespace lesson_06 {
 #include "06_phong/main.cpp"
+}
+namespace lesson_07 {
+#include "07_toon/main.cpp"
 }
 #undef main
 
@@ -174,4 +178,21 @@ TEST(Allocations, OfLesson06DoNotDependOnTriangles) {
                 return count;
             }));
     }
+}
+
+TEST(Allocations, OfLesson07DoNotDependOnTriangles) {
+    for (const Outline outline : {Outline::none, Outline::facing, Outline::hull, Outline::edges})
+        for (const bool smooth : {false, true}) {
+            lesson_07::Options knobs;
+            knobs.orbit = {}, knobs.shading.outline = outline, knobs.shading.smooth = smooth;
+            EXPECT_TRUE(
+                does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
+                    const ToonScene toon(scene, options);
+                    Counters counters;
+                    const std::size_t count =
+                        allocations_of([&] { lesson_07::render(options, toon, counters); });
+                    EXPECT_GT(counters.values[std::size_t(Counter::toon_fragments)], 1000u);
+                    return count;
+                }));
+        }
 }
