@@ -198,8 +198,8 @@ inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bo
 /// @param size       Of a map in texels.
 inline LightViews light_views(const Light& light, const Bounds& casters, const Bounds& receivers,
                               int size) {
-    const auto is_empty = [](const Bounds& b) { return !(b.min.x <= b.max.x); };
-    if (is_empty(casters) || is_empty(receivers)) return {};
+    const auto is_usable = [](const Bounds& b) { return LightBox{b.min, b.max}.is_usable(); };
+    if (!is_usable(casters) || !is_usable(receivers)) return {};
     if (light.kind == LightKind::directional) return sun_views(light, casters, receivers);
     if (light.kind == LightKind::spot && light.cos_none > std::cos(widest_spot_radians))
         return spot_views(light, casters, receivers);

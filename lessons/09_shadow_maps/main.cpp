@@ -23,14 +23,11 @@ struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
     TextureOptions texture;
-    LightOptions shading;
+    LightOptions shading{.key_light = LightKind::directional};
     NormalMapVariant normal_map;
     ShadowVariant shadow;
 
-    Options() {
-        model = "scene_bumpy.obj";
-        shading.key_light = LightKind::directional;
-    }
+    Options() { model = "scene_bumpy.obj"; }
     void declare(Knobs& knobs) {
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
@@ -80,15 +77,16 @@ Image<vec3> render(const Options& options, const ShadowedScene& scene, CounterPo
                 TriangleShadows shadow(shadows, mesh, triangle);
                 const auto shade = [&](std::span<const Fragment> fragments) {
                     std::array<SurfaceColor, most_points> own;
-                    LitPoints points;
+                    BumpyPoints points;
                     for (std::size_t i = 0; i < fragments.size(); ++i) {
                         const FragmentWeights weights = perspective.at(fragments[i].screen_weights);
                         own[i] = surface.color(weights, options.texture.filter, counters);
                         if (!surface.effects.light) continue;
                         light.add(weights.here, points, counters);
-                        shadow.look_up(points, counters);
-                        relief.tilt(weights, options.texture.filter, points, counters);
+                        relief.add(weights, options.texture.filter, points, counters);
                     }
+                    shadow.look_up(points, counters);
+                    relief.tilt(points);
                     light.compute(points, shadow);
                     for (std::size_t i = 0; i < fragments.size(); ++i)
                         color[fragments[i].pixel] =

@@ -136,7 +136,7 @@ constexpr double most_slope = 1;
 inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
                          const std::array<vec3, 3>& corners, vec3 outward) {
     Receiver result;
-    const double reach_texels = radius + 0.5;
+    const double reach_texels = radius + 0.5;  // to the farthest texel's centre: Eq. 9.9
     if (bias == Bias::constant)
         result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
     if (bias == Bias::none || bias == Bias::constant) return result;

@@ -50,19 +50,19 @@ struct ShadowedScene : BumpyScene {
 inline std::array<Light, 2> raking_lights(LightKind key, const Bounds& bounds) {
     const vec3 center = bounds.center();
     const float radius = bounds.radius();
-    const vec3 toward_key = unit_or(vec3(-0.9f, 0.5f, -0.18f), vec3(0, 1, 0));
+    const vec3 toward_key = unit_or(vec3(-0.9f, 0.5f, -0.2f), vec3(0, 1, 0));
     const vec3 toward_sky = unit_or(vec3(0.5f, 0.7f, 0.9f), vec3(0, 1, 0));
     Light light{key, 1.5f * vec3(1.0f, 0.87f, 0.68f), toward_key};
     if (key != LightKind::directional) {
-        light.position_world = center + radius * vec3(-0.62f, 0.75f, -0.1f);
+        light.position_world = center + radius * vec3(-0.7f, 0.8f, 0.0f);
         light.half_distance = std::max(radius, std::numeric_limits<float>::min());
         light.color *= 2.0f;
     }
     if (key == LightKind::spot) {
-        const vec3 target = center + radius * vec3(0.05f, -0.1f, 0.05f);
+        const vec3 target = center + radius * vec3(0.12f, -0.15f, 0.1f);
         light.direction_world = unit_or(target - light.position_world, -toward_key);
-        light.cos_full = std::cos(glm::radians(20.0f));
-        light.cos_none = std::cos(glm::radians(26.0f));
+        light.cos_full = std::cos(glm::radians(19.0f));
+        light.cos_none = std::cos(glm::radians(24.0f));
     }
     return {light, Light{LightKind::directional, vec3(0.13f, 0.18f, 0.27f), toward_sky}};
 }
@@ -156,16 +156,16 @@ class TriangleShadows {
                    mesh.positions[triangle.corners[1].position],
                    mesh.positions[triangle.corners[2].position]} {}
 
-    /// Looks up the point that was added last, while its normal is the surface's own. No map is
-    /// asked where that is turned away from a light.
+    /// Asks the maps for points with normals that are the surface's own, no relief's. None is asked
+    /// where a surface is turned away from the light.
     template <typename CounterPolicy>
     void look_up(const LitPoints& points, CounterPolicy& counters) {
-        const std::size_t i = points.count - 1;
         for (std::size_t l = 0; l < shares_.size(); ++l)
-            shares_[l][i] =
-                shadows_.of_light_[l].maps.empty()
-                    ? 1
-                    : share(l, points.position_world[i], points.normal_world[i], counters);
+            for (std::size_t i = 0; i < points.count; ++i)
+                shares_[l][i] =
+                    shadows_.of_light_[l].maps.empty()
+                        ? 1
+                        : share(l, points.position_world[i], points.normal_world[i], counters);
     }
 
     /// As reflect_light() asks for it.
