@@ -25,6 +25,11 @@ enum class Counter {
     toon_fragments,  ///< Painted in bands.
     outline_tests,   ///< Of fragments or pixels, whether there is an outline.
     outline_pixels,  ///< Inked; some several times.
+    normal_map_samples,
+    meshes_with_tangents,
+    shadow_passes,     ///< Depth maps drawn.
+    shadow_fragments,  ///< Compared with a depth map's texel.
+    shadow_lookups,    ///< Points for which a depth map was asked, with all its texels.
     count
 };
 
@@ -43,7 +48,12 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "highlights",
     "toon_fragments",
     "outline_tests",
-    "outline_pixels"};
+    "outline_pixels",
+    "normal_map_samples",
+    "meshes_with_tangents",
+    "shadow_passes",
+    "shadow_fragments",
+    "shadow_lookups"};
 
 /// Counts.
 struct Counters {

@@ -24,6 +24,8 @@
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "07_toon/toon_variants.hpp"
+#include "08_normal_maps/bumpy_scene.hpp"
+#include "08_normal_maps/normal_map_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 
@@ -40,6 +42,9 @@ namespace lesson_06 {
 }
 namespace lesson_07 {
 #include "07_toon/main.cpp"
+}
+namespace lesson_08 {
+#include "08_normal_maps/main.cpp"
 }
 #undef main
 
@@ -195,4 +200,23 @@ TEST(Allocations, OfLesson07DoNotDependOnTriangles) {
                     return count;
                 }));
         }
+}
+
+TEST(Allocations, OfLesson08DoNotDependOnTriangles) {
+    for (const FrameOf frame : {FrameOf::face, FrameOf::vertex, FrameOf::pixel}) {
+        lesson_08::Options knobs;
+        knobs.normal_map.frame = frame;
+        knobs.shading.all_effects = true;  // a map for each mesh
+        EXPECT_TRUE(
+            does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
+                BumpyScene bumpy(scene, options);
+                bumpy.normal_textures[1] = std::make_shared<const Texture>(
+                    make_texture(Image<vec4>({16, 16}, vec4(0.6f, 0, 0.8f, 1)), Wrap::repeat));
+                Counters counters;
+                const std::size_t count =
+                    allocations_of([&] { lesson_08::render(options, bumpy, counters); });
+                EXPECT_GT(counters.values[std::size_t(Counter::normal_map_samples)], 1000u);
+                return count;
+            }));
+    }
 }

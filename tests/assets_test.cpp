@@ -298,3 +298,13 @@ TEST(AssetModels, BodyLidAndLedgeEncloseAVolume) {
     EXPECT_GT(six_volumes / 6,
               20);  // positive: all faces look outwards; a cylinder of its size: 30
 }
+
+TEST(AssetModels, TheFigureIsClosedAndStandsOnTheFloor) {
+    const Scene scene = load_obj(assets / "models/figure.obj");
+    ASSERT_EQ(scene.meshes.size(), 3u);
+    for (const char* name : {"figure", "crate", "platform"})
+        EXPECT_EQ(border_edges({&group(scene, name)}), 0u) << name;
+    EXPECT_EQ(scene.bounds().min.y, 0);
+    EXPECT_EQ(group(scene, "platform").bounds.min.y, 0);
+    EXPECT_LT(std::filesystem::file_size(assets / "models/figure.obj"), 400'000u);
+}

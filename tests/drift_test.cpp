@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -144,6 +145,23 @@ TEST(Drift, NoLessonIncludesALaterOne) {
                         << entry.path() << ": " << header;
                 }
     EXPECT_GT(includes, 5);
+}
+
+TEST(Drift, ALessonBuildsOnAnEarlierOne) {  // what ./lessons/run --diff compares it with
+    const std::vector<std::string> names = lessons();
+    const std::string mark = "builds on: ";
+    int marks = 0;
+    for (const std::string& name : names) {
+        std::istringstream readme(read_text(root / "lessons" / name / "README.md"));
+        for (std::string line; std::getline(readme, line);) {
+            if (!line.starts_with(mark)) continue;
+            ++marks;
+            const std::string before = line.substr(mark.size());
+            EXPECT_TRUE(std::binary_search(names.begin(), names.end(), before)) << name;
+            EXPECT_LT(before, name);
+        }
+    }
+    EXPECT_GT(marks, 0);
 }
 
 TEST(Drift, NothingInCommonIncludesALesson) {

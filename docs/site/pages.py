@@ -211,9 +211,10 @@ def changes(lesson: int) -> str:
         for path, length in re.findall(r"^new: (\S+), (\d+) lines$", files, re.MULTILINE)
     ]
     if lesson:
+        compared = re.findall(r"^(?:---|\+\+\+) lessons/(\S+)/main\.cpp$", diff, re.MULTILINE)
         before, after = (
             f"[{folder}/main.cpp]({source_page(ROOT / 'lessons' / folder / 'main.cpp')})"
-            for folder in LESSONS[lesson - 1 : lesson + 1]
+            for folder in compared
         )
         count = re.sub(r"(\d+) insertions?\(\+\)", r"**\1 lines added**", count)
         count = re.sub(r"(\d+) deletions?\(-\)", r"**\1 removed**", count)

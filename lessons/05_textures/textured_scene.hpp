@@ -43,7 +43,7 @@ struct TexturedScene : Scene {
     TexturedScene(Scene scene, const Options& options) : Scene(std::move(scene)) {
         diffuse_textures = load_textures(
             &Material::diffuse_map, "map_Kd", options.texture,
-            [&](const Image<u8vec4>& picture) { return options.texture.decoded(picture); },
+            [&](const Image<u8vec4>& picture, Wrap) { return options.texture.decoded(picture); },
             [](const Material&) { return true; });
     }
 
@@ -51,7 +51,7 @@ struct TexturedScene : Scene {
     /// The textures that materials name by one statement, each picture read once; null for
     /// materials that no triangle has.
     ///
-    /// @param decode     Called as decode(Image<u8vec4>); gives an Image<vec4>.
+    /// @param decode     Called as decode(Image<u8vec4>, Wrap); gives an Image<vec4>.
     /// @param calls_for  Called as calls_for(Material): whether it needs its texture.
     template <typename Decode, typename CallsFor>
     MaterialTextures load_textures(TextureMap Material::* map_of, const char* statement,
@@ -66,10 +66,10 @@ struct TexturedScene : Scene {
             const TextureMap& map = materials[i].*map_of;
             if (map.file.empty() || !is_seen[i] || !calls_for(materials[i])) continue;
             std::shared_ptr<const Texture>& texture = loaded[{map.file, map.clamp}];
+            const Wrap wrap = map.clamp ? Wrap::clamp : texture_options.wrap;
             if (!texture)
-                texture = std::make_shared<Texture>(
-                    make_texture(decode(read_picture(map, statement, texture_options.keep_going)),
-                                 map.clamp ? Wrap::clamp : texture_options.wrap));
+                texture = std::make_shared<Texture>(make_texture(
+                    decode(read_picture(map, statement, texture_options.keep_going), wrap), wrap));
             textures[i] = texture;
         }
         return textures;

@@ -38,8 +38,10 @@ struct LitScene : TexturedScene {
     template <typename Options>
     LitScene(Scene scene, const Options& options) : TexturedScene(std::move(scene), options) {
         for (Mesh& mesh : meshes) complete_normals(mesh);
-        specular_textures = load_textures(&Material::specular_map, "map_Ks", options.texture,
-                                          plain_numbers, has_highlight);
+        specular_textures = load_textures(
+            &Material::specular_map, "map_Ks", options.texture,
+            [](const Image<u8vec4>& picture, Wrap) { return plain_numbers(picture); },
+            has_highlight);
         for (std::size_t i = 0; i < materials.size(); ++i) {
             const bool light = materials[i].illumination >= 1;
             effects.push_back({light, has_highlight(materials[i]), diffuse_textures[i] != nullptr,
@@ -96,12 +98,14 @@ struct TriangleSurface {
 
 /// A warm key light from the upper left, and a cool one from behind that draws the rims.
 ///
-/// @param key     The key light's kind.
-/// @param bounds  Of the scene, world space.
-inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds) {
+/// @param key      The key light's kind.
+/// @param bounds   Of the scene, world space.
+/// @param key_way  Where the key light stands as seen from the scene's centre; of any length.
+inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds,
+                                          vec3 key_way = {-1.2f, 0.5f, 0.6f}) {
     const vec3 center = bounds.center();
     const float radius = bounds.radius();
-    const vec3 toward_key = unit_or(vec3(-1.2f, 0.5f, 0.6f), vec3(0, 1, 0));
+    const vec3 toward_key = unit_or(key_way, vec3(0, 1, 0));
     const vec3 toward_rim = unit_or(vec3(0.95f, 0.38f, -0.55f), vec3(0, 1, 0));
     Light light{key, vec3(1.0f, 0.92f, 0.8f), toward_key};
     if (key != LightKind::directional) {

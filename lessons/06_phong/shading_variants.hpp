@@ -29,14 +29,29 @@ enum class Power { in_float, in_double, squarings, schlick };
 /// root, or nothing.
 enum class NormalScaling { exact, approximate, none };
 
-struct ShadingVariant {
+/// What every scene with lights can be asked for, in this lesson and all later ones.
+struct LightOptions {
+    LightKind key_light = LightKind::point;
+    bool two_sided = false;
+    bool all_effects = false;
+
+    void declare(Knobs& knobs) {
+        knobs.choice("--light", key_light,
+                     {{"sun", LightKind::directional},
+                      {"lamp", LightKind::point},
+                      {"spot", LightKind::spot}},
+                     "What the scene is lit by");
+        knobs.flag("--two-sided", two_sided, "Draw the backs of faces, too");
+        knobs.flag("--all-effects", all_effects,
+                   "Compute each effect also where it can change nothing");
+    }
+};
+
+struct ShadingVariant : LightOptions {
     Shading shading = Shading::phong;
     Highlight highlight = Highlight::phong;
     Power power = Power::in_float;
     NormalScaling normals = NormalScaling::exact;
-    LightKind key_light = LightKind::point;
-    bool two_sided = false;
-    bool all_effects = false;
 
     void declare(Knobs& knobs) {
         knobs.choice(
@@ -57,19 +72,7 @@ struct ShadingVariant {
                       {"approximate", NormalScaling::approximate},
                       {"none", NormalScaling::none}},
                      "How an interpolated normal is scaled to length 1");
-        declare_light(knobs);
-    }
-
-    /// Those that go on in the lessons behind.
-    void declare_light(Knobs& knobs) {
-        knobs.choice("--light", key_light,
-                     {{"sun", LightKind::directional},
-                      {"lamp", LightKind::point},
-                      {"spot", LightKind::spot}},
-                     "What the scene is lit by");
-        knobs.flag("--two-sided", two_sided, "Draw the backs of faces, too");
-        knobs.flag("--all-effects", all_effects,
-                   "Compute each effect also where it can change nothing");
+        LightOptions::declare(knobs);
     }
 };
 
@@ -187,15 +190,30 @@ class TriangleLight {
 
     /// The light on all of them: the same bits as of at(), sooner.
     void compute(LitPoints& points) const {
+        compute(points, [](std::size_t, std::size_t) { return 1.0f; });
+    }
+
+    /// The same, where not all light arrives.
+    ///
+    /// @param share  As of reflect_light().
+    template <typename Share>
+    void compute(LitPoints& points, const Share& share) const {
         if (!at_once_) return;
         if (reflect_light(
                 lights_, eye_world_, has_highlight_, points,
-                [this](float cosine) { return power(cosine); },
-                [](std::size_t, std::size_t) { return 1.0f; }))
+                [this](float cosine) { return power(cosine); }, share))
             return;
-        for (std::size_t i = 0; i < points.count; ++i)
-            points.set_light(i,
-                             reflected(points.position_world[i], scaled(points.normal_world[i])));
+        for (std::size_t i = 0; i < points.count; ++i) {
+            ReflectedLight sum;
+            for (std::size_t l = 0; l < lights_.size(); ++l) {
+                const ReflectedLight light =
+                    reflected(lights_.subspan(l, 1), points.position_world[i],
+                              scaled(points.normal_world[i]));
+                sum.diffuse += share(l, i) * light.diffuse;
+                sum.specular += share(l, i) * light.specular;
+            }
+            points.set_light(i, sum);
+        }
     }
 
   private:
@@ -216,9 +234,13 @@ class TriangleLight {
     }
 
     ReflectedLight reflected(vec3 position, vec3 normal) const {
+        return reflected(lights_, position, normal);
+    }
+
+    ReflectedLight reflected(std::span<const Light> lights, vec3 position, vec3 normal) const {
         const vec3 toward_eye = has_highlight_ ? unit_or(eye_world_ - position, normal) : vec3(0);
         const SurfacePoint point{position, normal, toward_eye};
-        return reflected_light(lights_, point, has_highlight_, variant_.highlight,
+        return reflected_light(lights, point, has_highlight_, variant_.highlight,
                                [this](float cosine) { return power(cosine); });
     }
 

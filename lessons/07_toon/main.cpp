@@ -63,7 +63,7 @@ Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy
                 }
                 const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
                 const PerspectiveWeights perspective(on_screen, clipped);
-                const TriangleLight light(options.shading, lights, camera.position_world, mesh,
+                const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
                                           triangle, is_back, surface);
                 const auto shade = [&](std::span<const Fragment> fragments) {
                     std::array<SurfaceColor, most_points> own;

@@ -21,8 +21,7 @@ namespace rasterbook {
 
 enum class Outline { none, facing, hull, edges };
 
-/// The knobs of the lesson; of ShadingVariant's, those of the light alone.
-struct ToonVariant : ShadingVariant {
+struct ToonVariant : LightOptions {
     int bands = 4;
     bool smooth = false;  ///< Bands end over one pixel, not at once.
     Outline outline = Outline::edges;
@@ -43,7 +42,7 @@ struct ToonVariant : ShadingVariant {
         knobs.number("--outline-width", outline_width_px, 0, 64,
                      "Of hull and edges, in pixels; of edges, rounded up to an even number");
         knobs.number("--facing", least_facing, 0, 1, "The facing ratio below which outline is");
-        declare_light(knobs);
+        LightOptions::declare(knobs);
     }
 };
 

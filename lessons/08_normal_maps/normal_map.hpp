@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Normals in a picture, as codes or as heights, and the surface that they tilt. Introduced in
+/// lesson 08; derivation: docs/derivations/08_normal_maps.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "05_textures/texture.hpp"
+#include "06_phong/light.hpp"
+#include "08_normal_maps/tangent_frame.hpp"
+#include "common/image.hpp"
+
+namespace rasterbook {
+
+/// Which way green leads in a normal map: up in the picture, as OpenGL has it, or down, as
+/// Direct3D.
+enum class Green { up, down };
+
+/// A component of a normal, -1 to 1 (Eq. 8.1). The code in the middle is exactly 0, the greatest
+/// exactly 1; with 8 bits those are 128 and 255.
+///
+/// @param code  0 to 2^bits - 1.
+/// @param bits  2 to 16.
+constexpr float component_from_code(std::uint32_t code, int bits = 8) {
+    const float middle = static_cast<float>(1u << (bits - 1));
+    return std::max(-1.0f, (static_cast<float>(code) - middle) / (middle - 1));  // code 0, too
+}
+
+/// The normals of a map, of 8 bits a component, x right, y up and z out of the surface; w is 1.
+/// (128, 128, 255) is (0, 0, 1) without error; other lengths are 1 but for the codes' steps.
+inline Image<vec4> normals_from_codes(const Image<u8vec4>& picture, Green green) {
+    const float up = green == Green::up ? 1.0f : -1.0f;
+    Image<vec4> normals(picture.size());
+    for (std::size_t i = 0; i < normals.pixels().size(); ++i) {
+        const u8vec4 code = picture.pixels()[i];
+        normals.pixels()[i] = {component_from_code(code.r), up * component_from_code(code.g),
+                               component_from_code(code.b), 1};
+    }
+    return normals;
+}
+
+/// The normals of a map of heights, not yet of length 1: how much the surface falls to the right
+/// and upwards in the picture, and 1 (Eq. 8.9). A map of one height has (0, 0, 1) everywhere.
+///
+/// @param picture  Its red is the height: code 255 lies one side of the picture above code 0.
+/// @param wrap     What lies beyond the picture's borders.
+inline Image<vec4> normals_from_heights(const Image<u8vec4>& picture, Wrap wrap) {
+    const ivec2 size = picture.size();
+    const auto height = [&](ivec2 texel) {
+        texel =
+            wrap == Wrap::repeat ? (texel + size) % size : glm::clamp(texel, ivec2(0), size - 1);
+        return static_cast<float>(picture[texel].r) / 255.0f;
+    };
+    const vec2 per_two_texels = 0.5f * vec2(size);
+    Image<vec4> normals(size);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const float to_right = height({x + 1, y}) - height({x - 1, y});
+            const float upwards = height({x, y - 1}) - height({x, y + 1});
+            normals[{x, y}] = {-per_two_texels.x * to_right, -per_two_texels.y * upwards, 1, 1};
+        }
+    return normals;
+}
+
+/// Whether red, green and blue are the same in all texels. A `map_Bump` should be such a picture of
+/// heights; some exporters write their normal maps there.
+inline bool is_gray(const Image<u8vec4>& picture) {
+    return std::ranges::all_of(picture.pixels(), [](u8vec4 c) { return c.r == c.g && c.g == c.b; });
+}
+
+/// The third component of a normal of length 1 from the other two (Eq. 8.8); 0 where they are too
+/// long for one.
+inline vec3 with_z(vec2 xy) { return {xy, std::sqrt(std::max(0.0f, 1 - glm::dot(xy, xy)))}; }
+
+/// What a normal map has in a fragment, in the directions in which the texture's coordinates grow.
+/// It is shorter than 1 where different normals are mixed.
+inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentUv& uv) {
+    vec3 normal(sample(texture, filter, uv));
+    // In each second copy of a mirrored picture its right is on the left.
+    if (texture.wrap == Wrap::mirror)
+        for (int axis = 0; axis < 2; ++axis) {
+            const float there_and_back = 0.5f * uv.here[axis];
+            if (there_and_back - std::floor(there_and_back) >= 0.5f) normal[axis] = -normal[axis];
+        }
+    return normal;
+}
+
+/// A surface's normal as the map tilts it (Eq. 8.7).
+///
+/// @param frame       Of the surface; finite.
+/// @param normal_map  In that frame.
+/// @param normal      The surface's own, not yet scaled: it is left as it is, to the last bit,
+/// where
+///                    x and y are 0.
+/// @return            Of any length; scaling comes last.
+inline vec3 tilted(const TangentFrame& frame, vec3 normal_map, vec3 normal) {
+    const vec3 sum =
+        normal_map.x * frame.tangent + normal_map.y * frame.bitangent + normal_map.z * frame.normal;
+    const bool is_flat = (normal_map.x == 0) & (normal_map.y == 0);
+    // One number at a time: a loop over many points then has no jumps.
+    return {is_flat ? normal.x : sum.x, is_flat ? normal.y : sum.y, is_flat ? normal.z : sum.z};
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Normals in a picture, as codes or as heights, and the surface that they tilt. Introduced in
+/// lesson 08; derivation: docs/derivations/08_normal_maps.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "05_textures/texture.hpp"
+#include "06_phong/light.hpp"
+#include "08_normal_maps/tangent_frame.hpp"
+#include "common/image.hpp"
+
+namespace rasterbook {
+
+/// Which way green leads in a normal map: up in the picture, as OpenGL has it, or down, as
+/// Direct3D.
+enum class Green { up, down };
+
+/// A component of a normal, -1 to 1 (Eq. 8.1). The code in the middle is exactly 0, the greatest
+/// exactly 1; with 8 bits those are 128 and 255.
+///
+/// @param code  0 to 2^bits - 1.
+/// @param bits  2 to 16.
+constexpr float component_from_code(std::uint32_t code, int bits = 8) {
+    // TODO: Eq. 8.1.
+    return 0;
+}
+
+/// The normals of a map, of 8 bits a component, x right, y up and z out of the surface; w is 1.
+/// (128, 128, 255) is (0, 0, 1) without error; other lengths are 1 but for the codes' steps.
+inline Image<vec4> normals_from_codes(const Image<u8vec4>& picture, Green green) {
+    // TODO: component_from_code() of red, green and blue; green down changes the sign of y.
+    return Image<vec4>(picture.size(), vec4(0, 0, 1, 1));
+}
+
+/// The normals of a map of heights, not yet of length 1: how much the surface falls to the right
+/// and upwards in the picture, and 1 (Eq. 8.9). A map of one height has (0, 0, 1) everywhere.
+///
+/// @param picture  Its red is the height: code 255 lies one side of the picture above code 0.
+/// @param wrap     What lies beyond the picture's borders.
+inline Image<vec4> normals_from_heights(const Image<u8vec4>& picture, Wrap wrap) {
+    // TODO: Eq. 8.9 with s = 1; red over 255 is the height. Beyond the border: the opposite one for
+    // Wrap::repeat, else the border itself.
+    return Image<vec4>(picture.size(), vec4(0, 0, 1, 1));
+}
+
+/// Whether red, green and blue are the same in all texels. A `map_Bump` should be such a picture of
+/// heights; some exporters write their normal maps there.
+inline bool is_gray(const Image<u8vec4>& picture) {
+    return std::ranges::all_of(picture.pixels(), [](u8vec4 c) { return c.r == c.g && c.g == c.b; });
+}
+
+/// The third component of a normal of length 1 from the other two (Eq. 8.8); 0 where they are too
+/// long for one.
+inline vec3 with_z(vec2 xy) {
+    // TODO: Eq. 8.8.
+    return {xy, 1};
+}
+
+/// What a normal map has in a fragment, in the directions in which the texture's coordinates grow.
+/// It is shorter than 1 where different normals are mixed.
+inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentUv& uv) {
+    vec3 normal(sample(texture, filter, uv));
+    // In each second copy of a mirrored picture its right is on the left.
+    if (texture.wrap == Wrap::mirror)
+        for (int axis = 0; axis < 2; ++axis) {
+            const float there_and_back = 0.5f * uv.here[axis];
+            if (there_and_back - std::floor(there_and_back) >= 0.5f) normal[axis] = -normal[axis];
+        }
+    return normal;
+}
+
+/// A surface's normal as the map tilts it (Eq. 8.7).
+///
+/// @param frame       Of the surface; finite.
+/// @param normal_map  In that frame.
+/// @param normal      The surface's own, not yet scaled: it is left as it is, to the last bit,
+/// where
+///                    x and y are 0.
+/// @return            Of any length; scaling comes last.
+inline vec3 tilted(const TangentFrame& frame, vec3 normal_map, vec3 normal) {
+    // TODO: what stands above the fraction line in Eq. 8.7. Where x and y are 0, the normal as it
+    // is; choose one number at a time, `is_flat ? normal.x : sum.x`: a loop over many points then
+    // has no jumps.
+    return normal;
+}
+
+}  // namespace rasterbook

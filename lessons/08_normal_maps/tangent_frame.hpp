@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How a texture lies on a surface: which way u grows, which way v, which way is out. Introduced in
+/// lesson 08; derivation: docs/derivations/08_normal_maps.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "06_phong/light.hpp"
+#include "06_phong/normals.hpp"
+#include "common/math/numerics.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// Which way the texture's coordinates grow on a triangle.
+struct UvDirections {
+    vec3 tangent{0};     ///< u grows, v stays; length 1, or 0 where there is no such direction.
+    vec3 bitangent{0};   ///< v grows, u stays; the same.
+    int handedness = 0;  ///< -1 where the texture is mirrored, else 1; 0: no area in the texture.
+};
+
+/// The directions that take the triangle's sides from the texture to the surface (Eq. 8.2): solved
+/// by the inverse of a 2x2 matrix (Eq. 8.3). Its determinant has the sign of the handedness
+/// (Eq. 8.4). With handedness 0, both directions are 0.
+///
+/// @param positions,uvs  Of the corners. Any numbers: what is not finite has no area.
+/// @return  Of one texture and surface whatever its size. The sides are taken from the first
+/// corner:
+///          another one that comes first changes roundings. In double, an error of 2^-51 times
+///          (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is exact
+///          where the differences of the uvs are: between numbers less than 2^29 times each other.
+inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
+                                  const std::array<vec2, 3>& uvs) {
+    // double: products of floats may overflow or vanish
+    const dvec3 e1 = dvec3(positions[1]) - dvec3(positions[0]);
+    const dvec3 e2 = dvec3(positions[2]) - dvec3(positions[0]);
+    const dvec2 d1 = dvec2(uvs[1]) - dvec2(uvs[0]), d2 = dvec2(uvs[2]) - dvec2(uvs[0]);
+    const double determinant = d1.x * d2.y - d2.x * d1.y;
+    const int handedness = (determinant > 0) - (determinant < 0);  // Eq. 8.4
+    if (handedness == 0 || !std::isfinite(determinant)) return {};
+    // Eq. 8.3. Only directions count: of what they are divided by, the sign is enough.
+    const double sign = handedness;
+    return {vec3(normalize_or(sign * (d2.y * e1 - d1.y * e2), dvec3(0))),
+            vec3(normalize_or(sign * (d1.x * e2 - d2.x * e1), dvec3(0))), handedness};
+}
+
+/// What is left of v when all that leads along the normal is taken away (Eq. 8.5).
+///
+/// @param normal  Length 1.
+inline vec3 across(vec3 v, vec3 normal) { return v - glm::dot(v, normal) * normal; }
+
+/// A direction across n: along the axis to which n leans least, as far as n lets it.
+///
+/// @param n  Length 1.
+/// @return   Length 1.
+inline vec3 any_across(vec3 n) {
+    const vec3 size = glm::abs(n);
+    const vec3 axis = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
+                      : size.y <= size.z                   ? vec3(0, 1, 0)
+                                                           : vec3(0, 0, 1);
+    return unit_or(across(axis, n), axis);
+}
+
+/// Three directions at right angles, each of length 1.
+struct TangentFrame {
+    vec3 tangent, bitangent, normal;
+};
+
+/// As much of the square of a tangent's length has to be left for one step to be exact enough: the
+/// tangent is within 30 degrees of where it should be.
+constexpr float mostly = 0.75f;
+
+/// What is left of a tangent across the normal, scaled to length 1 (Eq. 8.5).
+///
+/// @param tangent  Any numbers.
+/// @param normal   Length 1.
+/// @return         any_across(normal) where nothing is left: the tangent is 0, not finite, or
+///                 parallel to the normal but for 2^-20 of its length.
+inline vec3 unit_across(vec3 tangent, vec3 normal) {
+    const vec3 left = across(tangent, normal);
+    const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);
+    if (of_length > mostly * of_all && of_length > 1e-30f && of_all < 1e30f)
+        return left * (1 / std::sqrt(of_length));
+    // Roundings of the whole tangent count more in the little that is left: take away theirs, too.
+    const vec3 little = across(unit_or(tangent, normal), normal);
+    if (!(glm::dot(little, little) > 0x1p-40f)) return any_across(normal);
+    return unit_or(across(unit_or(little, normal), normal), normal);
+}
+
+/// The frame at a point (Eq. 8.5).
+///
+/// @param tangent     Any numbers; where it has no direction across the normal, any_across() has.
+/// @param normal      Of any length; where it has no direction, up.
+/// @param handedness  -1 or 1.
+/// @return            Orthonormal within 2^-20, also for numbers that are not finite.
+inline TangentFrame tangent_frame(vec3 tangent, vec3 normal, float handedness) {
+    const vec3 n = unit_or(normal, vec3(0, 1, 0));
+    const vec3 t = unit_across(tangent, n);
+    return {t, handedness * glm::cross(n, t), n};
+}
+
+/// What one corner adds to the tangent that it shares with others.
+struct TangentShare {
+    std::array<std::uint32_t, 9> key;  ///< Those with the same bits share a tangent.
+    std::uint32_t normal;              ///< Index of the corner's normal.
+    std::array<std::int64_t, 3> share;
+};
+
+/// A triangle's share at one of its corners: its angle there, along its tangent (Eq. 8.6), in whole
+/// numbers of 2^-40. Which corner of the triangle comes first in the file does not change a bit.
+///
+/// @param mesh  As complete_normals() leaves it: each corner has a normal of its own.
+/// @param uvs   Of the triangle's corners.
+/// @return      A share of 0 where there is no direction across the normal.
+inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
+                                  const std::array<vec2, 3>& uvs, std::size_t corner) {
+    const std::size_t next = (corner + 1) % 3, last = (corner + 2) % 3;
+    const auto position = [&](std::size_t i) {
+        return mesh.positions[triangle.corners[i].position];
+    };
+    // Seen from this corner, as if it were the first one.
+    const auto [tangent, bitangent, handedness] = uv_directions(
+        {position(corner), position(next), position(last)}, {uvs[corner], uvs[next], uvs[last]});
+    const std::uint32_t normal = triangle.corners[corner].normal;
+    const vec3 p = position(corner), n = mesh.normals[normal];
+    const vec2 uv = uvs[corner];
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
+    TangentShare own{{bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z), bits(uv.x),
+                      bits(uv.y), handedness < 0 ? 1u : 0u},
+                     normal,
+                     {0, 0, 0}};
+    const vec3 left = across(tangent, n);
+    if (!(glm::dot(left, left) > 0x1p-40f)) return own;
+    const double angle = corner_angle_radians(mesh, triangle, corner);
+    const dvec3 share = angle * dvec3(unit_across(tangent, n));
+    own.share = {std::llround(0x1p40 * share.x), std::llround(0x1p40 * share.y),
+                 std::llround(0x1p40 * share.z)};
+    return own;
+}
+
+/// A tangent for each corner: the mean of those of the triangles around it, weighted by their
+/// angles there (Eq. 8.6). Corners with the same place, normal and uv share one, but for those with
+/// the other handedness: a mirrored texture has tangents that point against each other.
+///
+/// Sums of whole numbers have no order: neither that of the triangles nor that of the vertices
+/// changes a bit. There may be 2^20 triangles in one place.
+///
+/// @param mesh    As complete_normals() leaves it: each corner has a normal of its own.
+/// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
+/// @return        For each of the mesh's normals: tangent, of length 1 and across the normal, and
+///                handedness, -1 or 1. Where no triangle has a direction, any_across() and 1.
+template <std::invocable<const Triangle&> UvsOf>
+std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
+    std::vector<TangentShare> shares;
+    shares.reserve(3 * mesh.triangles.size());
+    for (const Triangle& triangle : mesh.triangles)
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            shares.push_back(tangent_share(mesh, triangle, uvs_of(triangle), corner));
+    std::ranges::sort(shares, {}, &TangentShare::key);
+
+    std::vector<vec4> tangents(mesh.normals.size(), vec4(0));
+    for (auto begin = shares.begin(); begin != shares.end();) {
+        std::array<std::int64_t, 3> sum{};
+        auto end = begin;
+        for (; end != shares.end() && end->key == begin->key; ++end)
+            for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += end->share[axis];
+        const vec3 tangent = unit_across(vec3(sum[0], sum[1], sum[2]), mesh.normals[begin->normal]);
+        for (; begin != end; ++begin)
+            tangents[begin->normal] = vec4(tangent, begin->key.back() == 1 ? -1 : 1);
+    }
+    return tangents;
+}
+
+}  // namespace rasterbook

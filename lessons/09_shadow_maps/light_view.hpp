@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How a light sees the scene: the matrices of its depth maps. Introduced in lesson 09;
+/// derivation: docs/derivations/09_shadow_maps.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "04_mvp/clip.hpp"
+#include "04_mvp/transform.hpp"
+#include "06_phong/light.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// The matrices under which a light's depth maps are drawn.
+struct LightViews {
+    std::array<mat4, 6> clip_from_world{};
+    std::size_t count = 0;  ///< 0: nothing can throw a shadow on anything; 1; 6: see cube_face().
+    bool is_perspective = false;
+};
+
+/// What lies from `low` to `high`, moved and stretched to the cube from -1 to 1 (Eq. 9.2). Without
+/// shear, so that a w stays what it was.
+///
+///     2/(h.x-l.x)  0            0            -(h.x+l.x)/(h.x-l.x)
+///     0            2/(h.y-l.y)  0            -(h.y+l.y)/(h.y-l.y)
+///     0            0            2/(h.z-l.z)  -(h.z+l.z)/(h.z-l.z)
+///     0            0            0            1
+///
+/// @param low,high  low < high in each component.
+inline dmat4 crop(dvec3 low, dvec3 high) {
+    const dvec3 scale = 2.0 / (high - low);
+    return translation(-(high + low) / (high - low)) * scaling(scale);
+}
+
+/// Nearer to a lamp or spot than this share of the farthest caster or receiver, nothing casts.
+constexpr double least_near = 0.001;
+
+/// A spot whose light ends farther than this from its axis gets six maps, as a lamp.
+constexpr float widest_spot_radians = 75 * std::numbers::pi_v<float> / 180;
+
+/// A box in the light's view: x right, y up, z the way from the light, w 1 (or the same after the
+/// division by w).
+struct LightBox {
+    dvec3 low{std::numeric_limits<double>::infinity()};
+    dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(dvec3 p) { low = glm::min(low, p), high = glm::max(high, p); }
+    bool is_usable() const {  // false for NaN and infinity
+        constexpr double most = std::numeric_limits<float>::max();
+        return glm::all(glm::lessThanEqual(low, high)) &&
+               glm::all(glm::lessThan(glm::max(glm::abs(low), glm::abs(high)), dvec3(most)));
+    }
+};
+
+/// The box around a box's corners in another space.
+inline LightBox box_in(const dmat4& view_from_world, const Bounds& bounds) {
+    LightBox box;
+    for (int i = 0; i < 8; ++i)
+        box.add(view_from_world * dvec4(i & 1 ? bounds.max.x : bounds.min.x,
+                                        i & 2 ? bounds.max.y : bounds.min.y,
+                                        i & 4 ? bounds.max.z : bounds.min.z, 1));
+    return box;
+}
+
+/// Where a shadow can begin and end: sideways where there are both casters and receivers, and from
+/// the nearest caster to where casters or receivers end (Eq. 9.3).
+///
+/// z grows towards the light, as view space does.
+inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers) {
+    LightBox region{glm::max(casters.low, receivers.low), glm::min(casters.high, receivers.high)};
+    region.high.z = casters.high.z;
+    return region;
+}
+
+/// The box a little larger, so that rounding puts nothing outside, and no side of it 0.
+inline LightBox widened(const LightBox& box) {
+    const dvec3 half = 0.5 * (box.high - box.low), middle = 0.5 * (box.high + box.low);
+    const double largest = std::max({half.x, half.y, half.z});
+    const double least = largest > 0 ? 1e-3 * largest : 1;
+    const dvec3 wider = glm::max(1.002 * half, dvec3(least));
+    return {middle - wider, middle + wider};
+}
+
+/// view_from_world from a place into a direction. (In `eye + direction`, a far eye would swallow
+/// the direction's digits.)
+inline dmat4 looking(dvec3 eye, dvec3 direction) {
+    return look_at(dvec3(0), direction, dvec3(0, 1, 0)) * translation(-eye);
+}
+
+/// The sun's map: parallel to its light, and of what casts on what receives (Eq. 9.1).
+///
+/// @return  Of count 0 when no receiver lies behind a caster, as the light goes.
+inline LightViews sun_views(const Light& light, const Bounds& casters, const Bounds& receivers) {
+    const dmat4 view = looking(casters.center(), -light.direction_world);
+    const LightBox caster_box = box_in(view, casters), receiver_box = box_in(view, receivers);
+    const LightBox region = shadow_region(caster_box, receiver_box);
+    if (!caster_box.is_usable() || !receiver_box.is_usable() || !region.is_usable()) return {};
+    const LightBox box = widened(region);
+    // Towards the light is near: z changes its sign.
+    const dmat4 clip = scaling(dvec3(1, 1, -1)) * crop(box.low, box.high) * view;
+    return {{mat4(clip)}, 1, false};
+}
+
+/// From the nearest caster, or a thousandth of the way, to where casters or receivers end.
+struct DepthRange {
+    double near, far;
+};
+
+inline DepthRange depth_range(double nearest_caster, double farthest) {
+    const double far = 1.002 * farthest;
+    return {std::max(0.998 * nearest_caster, least_near * far), far};
+}
+
+/// A spot's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
+///
+/// @return  Of count 0 when in front of the spot no receiver lies behind a caster.
+inline LightViews spot_views(const Light& light, const Bounds& casters, const Bounds& receivers) {
+    const dvec3 eye = light.position_world;
+    const dmat4 view = looking(eye, light.direction_world);
+    const LightBox caster_box = box_in(view, casters), receiver_box = box_in(view, receivers);
+    if (!caster_box.is_usable() || !receiver_box.is_usable()) return {};
+    const double farthest = -std::max(caster_box.low.z, receiver_box.low.z);
+    const double nearest_caster = -caster_box.high.z;
+    if (!(farthest > 0 && nearest_caster <= farthest)) return {};
+    const auto [near, far] = depth_range(nearest_caster, farthest);
+    const double fov_radians = 2 * std::acos(double{light.cos_none});
+    const dmat4 clip = perspective(fov_radians, 1.0, near, far) * view;
+
+    const auto box_in_ndc = [&](const Bounds& bounds, const LightBox& box) {
+        LightBox ndc{dvec3(-1), dvec3(1)};
+        if (-box.high.z < near) return ndc;  // partly beside or behind the light
+        ndc = {};
+        for (int i = 0; i < 8; ++i) {
+            const dvec4 corner = clip * dvec4(i & 1 ? bounds.max.x : bounds.min.x,
+                                              i & 2 ? bounds.max.y : bounds.min.y,
+                                              i & 4 ? bounds.max.z : bounds.min.z, 1);
+            ndc.add(dvec3(corner) / corner.w);
+        }
+        return ndc;
+    };
+    LightBox region =
+        shadow_region(box_in_ndc(casters, caster_box), box_in_ndc(receivers, receiver_box));
+    region.low = glm::max(region.low, dvec3(-1)), region.high = glm::min(region.high, dvec3(1));
+    if (!(region.low.x < region.high.x && region.low.y < region.high.y)) return {};
+    region.low.z = -1, region.high.z = 1;  // near and far are fitted already
+    LightBox box = widened(region);
+    box.low.z = -1, box.high.z = 1;
+    return {{mat4(crop(box.low, box.high) * clip)}, 1, true};
+}
+
+/// Texels by which each of a lamp's six maps reaches over its neighbours: what is looked up near a
+/// border lies inside.
+constexpr int cube_margin = 4;
+
+/// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5).
+inline std::size_t cube_face(vec3 way) {
+    const vec3 size = glm::abs(way);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return static_cast<std::size_t>(2 * axis + (way[axis] < 0));
+}
+
+/// A lamp's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
+///
+/// @param size  Of a map in texels, > 2 cube_margin.
+inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bounds& receivers,
+                             int size) {
+    const dvec3 eye = light.position_world;
+    const auto farthest_from_eye = [&](const Bounds& bounds) {
+        return glm::length(
+            glm::max(glm::abs(dvec3(bounds.min) - eye), glm::abs(dvec3(bounds.max) - eye)));
+    };
+    const double farthest = std::min(farthest_from_eye(casters), farthest_from_eye(receivers));
+    const double nearest_caster =
+        glm::length(eye - glm::clamp(eye, dvec3(casters.min), dvec3(casters.max)));
+    constexpr double most = std::numeric_limits<float>::max();
+    if (!(farthest > 0 && farthest < most && nearest_caster <= farthest)) return {};
+    // Along the axis of its face, a way in its corner is 1/sqrt(3) as long, a bit less in a margin.
+    const auto [near, far] = depth_range(0.5 * nearest_caster, farthest);
+    const double half_width = static_cast<double>(size) / (size - 2 * cube_margin);
+    const dmat4 projection = perspective(2 * std::atan(half_width), 1.0, near, far);
+    LightViews views{{}, 6, true};
+    for (std::size_t face = 0; face < 6; ++face) {
+        dvec3 axis(0);
+        axis[static_cast<int>(face / 2)] = face % 2 == 0 ? 1 : -1;
+        views.clip_from_world[face] = mat4(projection * looking(eye, axis));
+    }
+    return views;
+}
+
+/// The matrices of a light's depth maps.
+///
+/// @param light      Finite numbers; one parallel to the y axis is as good as any.
+/// @param casters    World space; with receivers, all that the maps have to show. May be empty.
+/// @param receivers  World space; what lies outside of the maps is lit.
+/// @param size       Of a map in texels.
+inline LightViews light_views(const Light& light, const Bounds& casters, const Bounds& receivers,
+                              int size) {
+    const auto is_usable = [](const Bounds& b) { return LightBox{b.min, b.max}.is_usable(); };
+    if (!is_usable(casters) || !is_usable(receivers)) return {};
+    if (light.kind == LightKind::directional) return sun_views(light, casters, receivers);
+    if (light.kind == LightKind::spot && light.cos_none > std::cos(widest_spot_radians))
+        return spot_views(light, casters, receivers);
+    return lamp_views(light, casters, receivers, size);
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a light sees first, and whether a point lies behind it. Introduced in lesson 09;
+/// derivation: docs/derivations/09_shadow_maps.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <glm/matrix.hpp>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/clip.hpp"
+#include "04_mvp/transform.hpp"
+#include "common/counters.hpp"
+#include "common/math/numerics.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// A look-up averages up to 2 * 3 + 1 texels a side.
+constexpr int most_pcf_radius = 3;
+
+/// By how much fill_triangle may see a corner beside its place, in texels: half a snapping step.
+constexpr double snapping = 0.5 / subpixels;
+
+/// Roundings on the way from a corner to a map's depth and to a fragment's: at most 64 of 2^-24,
+/// relative to the sizes of what is added up (Eq. 9.15).
+constexpr double rounding = 64 * 0x1p-24;
+
+/// Depths between 0 and 1 have 24 digits or more; the fill's weights and the depth's sum round a
+/// few times.
+constexpr double depth_quanta = 8 * 0x1p-24;
+
+/// The depth of what a light sees first, for each texel; 1 where it sees nothing.
+struct ShadowMap {
+    int size;                ///< Texels a side.
+    mat4 clip_from_world;    ///< As light_view.hpp makes it.
+    mat4 texels_from_world;  ///< x right, y down in texels, depth 0 to 1, all times w (Eq. 9.6).
+    dmat4 plane_from_world;  ///< For planes as rows of four numbers (Eq. 9.8).
+    bool is_perspective;     ///< Else w is 1.
+    double rounding_texels;  ///< By how much a place may be off, times w (Eq. 9.15).
+    double rounding_depth;   ///< By how much a depth may be off, times w.
+    double slope_in_middle;  ///< |dz/dx| + |dz/dy| of a surface tilted by arctan 2.
+    DepthBuffer depths;      ///< With most_pcf_radius texels around it, in which nothing is seen.
+
+    /// @param reach  World space: a box around all casters and receivers.
+    ShadowMap(const mat4& clip, bool perspective, int texels, const Bounds& reach)
+        : size(texels),
+          clip_from_world(clip),
+          texels_from_world(viewport<double>(ivec2(texels)) * dmat4(clip)),
+          plane_from_world(glm::transpose(glm::inverse(dmat4(texels_from_world)))),
+          is_perspective(perspective),
+          depths(ivec2(texels + 2 * most_pcf_radius)) {
+        const dvec4 farthest(glm::max(glm::abs(dvec3(reach.min)), glm::abs(dvec3(reach.max))), 1);
+        const dmat4 rows = glm::transpose(dmat4(texels_from_world));
+        const auto size_of = [&](int row) { return glm::dot(glm::abs(rows[row]), farthest); };
+        rounding_texels =
+            rounding * (std::max(size_of(0), size_of(1)) + size_of(3) * static_cast<double>(size));
+        rounding_depth = rounding * (size_of(2) + size_of(3));
+        slope_in_middle = slope_at(reach.center(), rows);
+    }
+
+  private:
+    /// |dz/dx| + |dz/dy| of a surface tilted to the right by arctan 2, on the map's axis and as far
+    /// from the light as a point.
+    double slope_at(dvec3 point, const dmat4& rows) const {
+        const dmat4 world_from_texels = glm::inverse(dmat4(texels_from_world));
+        const double half = 0.5 * size;
+        const dvec3 into = glm::normalize(dvec3(is_perspective ? rows[3] : rows[2]));
+        dvec3 place(world_from_texels * dvec4(half, half, 0.5, 1));
+        if (is_perspective) {
+            const dvec3 eye = dvec3(world_from_texels[2]) / world_from_texels[2].w;  // x y w = 0
+            place = eye + glm::distance(point, eye) * into;
+        }
+        const dvec3 right = glm::normalize(dvec3(rows[0]) - half * dvec3(rows[3]));
+        const dvec3 normal = 2.0 * right - into;
+        const dvec4 plane = plane_from_world * dvec4(normal, -glm::dot(normal, place));  // Eq. 9.8
+        const double slope = (std::abs(plane.x) + std::abs(plane.y)) / std::abs(plane.z);
+        return slope <= 1 ? slope : 1;
+    }
+};
+
+/// Draws the depth of a mesh as the light sees it, fronts and backs.
+///
+/// @param casts  Called as casts(material): whether triangles of this material throw shadows.
+template <typename Casts, typename CounterPolicy>
+void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
+    if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
+    const ivec2 size(map.size);
+    const std::vector<vec4> positions_clip = transform(map.clip_from_world, mesh.positions);
+    for (const Triangle& triangle : mesh.triangles) {
+        if (!casts(triangle.material)) continue;
+        for (const ClippedTriangle& clipped : clip_triangle(corners_of(triangle, positions_clip))) {
+            const vec3 a = screen_from_clip(clipped[0].position_clip, size);
+            const vec3 b = screen_from_clip(clipped[1].position_clip, size);
+            const vec3 c = screen_from_clip(clipped[2].position_clip, size);
+            const TriangleDepth depth(vec3(a.z, b.z, c.z));
+            fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 texel, vec3 weights) {
+                counters.add(Counter::shadow_fragments);
+                map.depths.test_and_write(texel + most_pcf_radius, depth.at(weights));
+            });
+        }
+    }
+}
+
+/// What keeps a lit surface from shadowing itself.
+enum class Bias { none, constant, slope, plane, normal };
+
+/// What a look-up has to know of the triangle on which a shadow falls.
+struct Receiver {
+    vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
+    float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.10); leaks: Eq. 9.14.
+    float bias_per_w = 0;  ///< The same, divided by w.
+    vec3 offset{0};        ///< World space: moves the point (Eq. 9.12).
+    vec3 offset_times_w{0};  ///< The same, multiplied by w.
+};
+
+/// A plane's slopes beyond which a depth passes through all of the map within a texel. Such a
+/// surface is seen edge-on by the light, gets hardly any, and all of that.
+constexpr double most_slope = 1;
+
+/// Fits the bias to a triangle.
+///
+/// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
+/// lit of a triangle of no area, edge-on, not finite, or turned away from the light: that one gets
+/// no light anyway, or next to none by normals that are mixed between its corners.
+///
+/// @param radius   Of the look-up's square of texels: 0 to most_pcf_radius.
+/// @param corners  World space.
+/// @param outward  Any vector to that side of the triangle which is seen.
+inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
+                         const std::array<vec3, 3>& corners, vec3 outward) {
+    Receiver result;
+    const double reach_texels = radius + 0.5;  // to the farthest texel's centre: Eq. 9.9
+    if (bias == Bias::constant)
+        result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
+    if (bias == Bias::none || bias == Bias::constant) return result;
+
+    const dvec3 a = corners[0], b = corners[1], c = corners[2];
+    dvec3 normal = normalize_or(glm::cross(b - a, c - a), dvec3(0));
+    dvec4 plane = map.plane_from_world * dvec4(normal, -glm::dot(normal, a));  // Eq. 9.8
+    if (glm::dot(normal, dvec3(outward)) < 0) plane = -plane, normal = -normal;
+    if (!(plane.z < 0)) {  // Depth is less towards the light.
+        result.bias = 2;
+        return result;
+    }
+    const double across = std::abs(plane.x) + std::abs(plane.y), along = std::abs(plane.z);
+
+    if (bias == Bias::normal) {  // Eq. 9.12
+        const dvec3 w_row(dvec4(map.texels_from_world[0].w, map.texels_from_world[1].w,
+                                map.texels_from_world[2].w, 0));
+        const double times_w = (reach_texels + snapping) * across + depth_quanta * along;
+        const double per_w = std::max(1 - times_w * glm::dot(normal, w_row), 0.5);
+        result.offset_times_w = vec3(normal * (times_w / per_w));
+        result.offset =
+            vec3(normal * ((map.rounding_texels * across + map.rounding_depth * along) / per_w));
+        return result;
+    }
+    const double slope = across / along;
+    if (!(slope <= most_slope)) {  // also 0/0
+        result.bias = 2;
+        return result;
+    }
+    const bool is_plane = bias == Bias::plane;
+    if (is_plane) result.slope = vec2(-dvec2(plane) / plane.z);  // Eq. 9.11
+    result.bias = static_cast<float>(((is_plane ? 0 : reach_texels) + snapping) * slope +
+                                     depth_quanta);  // Eq. 9.10
+    result.bias_per_w = static_cast<float>(map.rounding_texels * slope + map.rounding_depth);
+    return result;
+}
+
+/// The share of a square of texels, around a point's place in the map, from which it is lit: 0 to 1
+/// (Eq. 9.7 and 9.13).
+///
+/// @tparam radius         0 to most_pcf_radius: 1, 9, 25 or 49 texels.
+/// @param position_world  Outside of the map, behind the light or not a number: lit.
+template <int radius>
+float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+    static_assert(radius >= 0 && radius <= most_pcf_radius);
+    const mat4& m = map.texels_from_world;
+    vec3 p = position_world;
+    float per_w = 1;
+    if (map.is_perspective) {
+        const float w = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
+        p += receiver.offset + w * receiver.offset_times_w;
+        const float moved_w = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
+        if (!(moved_w > 0)) return 1;
+        per_w = 1 / moved_w;
+    } else {
+        p += receiver.offset + receiver.offset_times_w;
+    }
+    const vec3 place = vec3(m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) * per_w;
+    const auto end = static_cast<float>(map.size);
+    if (!(place.x >= 0 && place.y >= 0 && place.x < end && place.y < end)) return 1;
+
+    const int column = static_cast<int>(place.x), row = static_cast<int>(place.y);
+    // At the centre of the texel in the middle.
+    const float depth = place.z - (receiver.bias + receiver.bias_per_w * per_w) +
+                        receiver.slope.x * (static_cast<float>(column) + 0.5f - place.x) +
+                        receiver.slope.y * (static_cast<float>(row) + 0.5f - place.y);
+    const Image<float>& depths = map.depths.depths();
+    float lit = 0;
+    for (int y = -radius; y <= radius; ++y) {
+        const float* const texels = &depths[{column + most_pcf_radius, row + y + most_pcf_radius}];
+        const float depth_in_row = depth + receiver.slope.y * static_cast<float>(y);
+        for (int x = -radius; x <= radius; ++x) {
+            // Beyond the last caster: as far as nothing.
+            const float at_texel = std::min(depth_in_row + receiver.slope.x * static_cast<float>(x),
+                                            DepthBuffer::cleared);
+            lit += at_texel <= texels[x] ? 1.0f : 0.0f;
+        }
+    }
+    constexpr int side = 2 * radius + 1;
+    return lit / (side * side);
+}
+
+}  // namespace rasterbook

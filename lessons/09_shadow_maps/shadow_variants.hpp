@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How fine depth maps are and how they are looked up, to be seen with `--shadow-size`, `--bias`
+/// and `--pcf`, and measured in docs/accuracy/09_shadow_maps.md.
+#pragma once
+
+#include "09_shadow_maps/shadow_map.hpp"
+#include "common/lesson_app.hpp"
+
+namespace rasterbook {
+
+struct ShadowVariant {
+    int size = 2048;  ///< Texels a side.
+    Bias bias = Bias::slope;
+    int pcf = 3;  ///< A look-up asks pcf * pcf texels: 1, 3, 5 or 7.
+
+    int radius() const { return pcf / 2; }
+
+    void declare(Knobs& knobs) {
+        knobs.number("--shadow-size", size, 16, 8192, "Texels along each side of a depth map");
+        knobs.choice("--bias", bias,
+                     {{"none", Bias::none},
+                      {"constant", Bias::constant},
+                      {"slope", Bias::slope},
+                      {"plane", Bias::plane},
+                      {"normal", Bias::normal}},
+                     "What keeps lit surfaces from shadowing themselves");
+        knobs.choice("--pcf", pcf, {{"1", 1}, {"3", 3}, {"5", 5}, {"7", 7}},
+                     "A shadow's edge is the mean of so many texels squared");
+    }
+};
+
+}  // namespace rasterbook

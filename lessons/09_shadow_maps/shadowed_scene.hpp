@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A scene whose things throw shadows on each other. Introduced in lesson 09.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "06_phong/lit_points.hpp"
+#include "08_normal_maps/bumpy_scene.hpp"
+#include "09_shadow_maps/light_view.hpp"
+#include "09_shadow_maps/shadow_map.hpp"
+#include "09_shadow_maps/shadow_variants.hpp"
+
+namespace rasterbook {
+
+/// A model, its normal maps, and what of it throws shadows and what gets them.
+struct ShadowedScene : BumpyScene {
+    Bounds casters, receivers;  ///< World space, of their triangles; empty where there are none.
+
+    template <typename Options>
+    ShadowedScene(Scene scene, const Options& options) : BumpyScene(std::move(scene), options) {
+        for (const Mesh& mesh : meshes)
+            for (const Triangle& triangle : mesh.triangles)
+                for (const Corner& corner : triangle.corners) {
+                    if (casts(triangle.material)) casters.add(mesh.positions[corner.position]);
+                    if (effects[triangle.material].light)
+                        receivers.add(mesh.positions[corner.position]);
+                }
+    }
+
+    /// Whether a material stops light: where it is lit itself (a sky or a bulb, illum 0, is not),
+    /// and where none passes through (d is 1).
+    bool casts(std::size_t material) const {
+        return effects[material].light && materials[material].opacity >= 1;
+    }
+};
+
+/// A warm light from the left, so low that shadows are long, and a cool one in front. The second
+/// stands for the sky, whose light comes from all sides.
+///
+/// @param key     The warm light's kind.
+/// @param bounds  Of the scene, world space.
+inline std::array<Light, 2> raking_lights(LightKind key, const Bounds& bounds) {
+    const vec3 center = bounds.center();
+    const float radius = bounds.radius();
+    const vec3 toward_key = unit_or(vec3(-0.9f, 0.5f, -0.2f), vec3(0, 1, 0));
+    const vec3 toward_sky = unit_or(vec3(0.5f, 0.7f, 0.9f), vec3(0, 1, 0));
+    Light light{key, 1.5f * vec3(1.0f, 0.87f, 0.68f), toward_key};
+    if (key != LightKind::directional) {
+        light.position_world = center + radius * vec3(-0.7f, 0.8f, 0.0f);
+        light.half_distance = std::max(radius, std::numeric_limits<float>::min());
+        light.color *= 2.0f;
+    }
+    if (key == LightKind::spot) {
+        const vec3 target = center + radius * vec3(0.12f, -0.15f, 0.1f);
+        light.direction_world = unit_or(target - light.position_world, -toward_key);
+        light.cos_full = std::cos(glm::radians(19.0f));
+        light.cos_none = std::cos(glm::radians(24.0f));
+    }
+    return {light, Light{LightKind::directional, vec3(0.13f, 0.18f, 0.27f), toward_sky}};
+}
+
+/// The key light throws shadows. The sky throws none: what comes from all sides has no edges.
+constexpr std::array<bool, 2> light_casts = {true, false};
+
+/// The depth maps of all lights that call for some.
+class Shadows {
+  public:
+    /// Draws them: for a light that casts, where in its view there are a caster and a receiver.
+    ///
+    /// @param all_effects  Gives the other lights maps, too, with nothing in them.
+    template <typename CounterPolicy>
+    Shadows(const ShadowVariant& variant, bool all_effects, const ShadowedScene& scene,
+            std::span<const Light, light_casts.size()> lights, CounterPolicy& counters)
+        : radius_(variant.radius()), bias_(variant.bias) {
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            of_light_[l].light = lights[l];
+            if (light_casts[l])
+                add_maps(of_light_[l], variant.size, scene, scene.casters, scene.receivers);
+            of_light_[l].is_drawn = !of_light_[l].maps.empty();
+            if (!of_light_[l].is_drawn && all_effects)
+                add_maps(of_light_[l], variant.size, scene, scene.bounds(), scene.bounds());
+            for (ShadowMap& map : of_light_[l].maps) {
+                counters.add(Counter::shadow_passes);
+                if (!of_light_[l].is_drawn) continue;
+                const auto casts = [&](std::size_t material) { return scene.casts(material); };
+                for (const Mesh& mesh : scene.meshes) draw_casters(map, mesh, casts, counters);
+            }
+        }
+    }
+
+  private:
+    friend class TriangleShadows;
+    static constexpr std::size_t no_map = 6;
+
+    struct OfLight {
+        Light light;
+        std::vector<ShadowMap> maps;
+        std::array<std::size_t, 6> map_of_view;  ///< no_map where nothing can be in shadow.
+        bool is_drawn = false;                   ///< Else the maps are there, but empty.
+        bool has_faces = false;                  ///< The views are those of cube_face().
+    };
+
+    /// One for each view in which there can be a shadow.
+    static void add_maps(OfLight& of_light, int size, const ShadowedScene& scene,
+                         const Bounds& casters, const Bounds& receivers) {
+        const LightViews views = light_views(of_light.light, casters, receivers, size);
+        of_light.map_of_view.fill(no_map);
+        of_light.has_faces = views.count == 6;
+        of_light.maps.reserve(views.count);
+        for (std::size_t i = 0; i < views.count; ++i) {
+            if (is_outside_frustum(casters, views.clip_from_world[i]) ||
+                is_outside_frustum(receivers, views.clip_from_world[i]))
+                continue;
+            of_light.map_of_view[i] = of_light.maps.size();
+            of_light.maps.emplace_back(views.clip_from_world[i], views.is_perspective, size,
+                                       scene.bounds());
+        }
+    }
+
+    float lit(const ShadowMap& map, const Receiver& receiver, vec3 position) const {
+        switch (radius_) {
+            case 0:
+                return lit_share<0>(map, receiver, position);
+            case 1:
+                return lit_share<1>(map, receiver, position);
+            case 2:
+                return lit_share<2>(map, receiver, position);
+            default:
+                return lit_share<3>(map, receiver, position);
+        }
+    }
+
+    int radius_;
+    Bias bias_;
+    std::array<OfLight, light_casts.size()> of_light_;
+};
+
+/// A surface gets all of a light from this cosine on; from there to 0, where it turns away, less
+/// and less (Eq. 9.16). Its relief may still lean towards the light, but stands in the shade.
+constexpr float full_cosine = 0.1f;
+
+/// How much of each light reaches points of a triangle.
+class TriangleShadows {
+  public:
+    TriangleShadows(const Shadows& shadows, const Mesh& mesh, const Triangle& triangle)
+        : shadows_(shadows),
+          corners_{mesh.positions[triangle.corners[0].position],
+                   mesh.positions[triangle.corners[1].position],
+                   mesh.positions[triangle.corners[2].position]} {}
+
+    /// Asks the maps for points with normals that are the surface's own, no relief's. None is asked
+    /// where a surface is turned away from the light.
+    template <typename CounterPolicy>
+    void look_up(const LitPoints& points, CounterPolicy& counters) {
+        for (std::size_t l = 0; l < shares_.size(); ++l)
+            for (std::size_t i = 0; i < points.count; ++i)
+                shares_[l][i] =
+                    shadows_.of_light_[l].maps.empty()
+                        ? 1
+                        : share(l, points.position_world[i], points.normal_world[i], counters);
+    }
+
+    /// As reflect_light() asks for it.
+    float operator()(std::size_t light, std::size_t point) const { return shares_[light][point]; }
+
+  private:
+    template <typename CounterPolicy>
+    float share(std::size_t l, vec3 position, vec3 normal, CounterPolicy& counters) {
+        const Shadows::OfLight& of_light = shadows_.of_light_[l];
+        const Light& light = of_light.light;
+        const vec3 way = position - light.position_world;
+        const vec3 toward = light.kind == LightKind::directional ? light.direction_world
+                                                                 : unit_or(-way, vec3(0, 1, 0));
+        const float cosine = glm::dot(unit_or(normal, vec3(0)), toward);
+        if (!(cosine > 0)) return of_light.is_drawn ? 0 : 1;
+        const std::size_t map = of_light.map_of_view[of_light.has_faces ? cube_face(way) : 0];
+        if (map == Shadows::no_map) return 1;
+        counters.add(Counter::shadow_lookups);
+        if (!is_known_[l][map]) {  // most triangles of a lamp are seen in one map
+            receivers_[l][map] =
+                receiver(of_light.maps[map], shadows_.bias_, shadows_.radius_, corners_, normal);
+            is_known_[l][map] = true;
+        }
+        const float lit = shadows_.lit(of_light.maps[map], receivers_[l][map], position);
+        return of_light.is_drawn ? lit * std::min(cosine / full_cosine, 1.0f) : lit;
+    }
+
+    const Shadows& shadows_;
+    std::array<vec3, 3> corners_;
+    std::array<std::array<Receiver, 6>, light_casts.size()> receivers_;
+    std::array<std::array<bool, 6>, light_casts.size()> is_known_{};
+    std::array<Numbers, light_casts.size()> shares_;
+};
+
+}  // namespace rasterbook

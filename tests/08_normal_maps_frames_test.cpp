@@ -1,0 +1,574 @@
+// SPDX-License-Identifier: MIT
+// How a texture lies on a surface: directions of a triangle, frames, and tangents of corners.
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "04_mvp/transform.hpp"
+#include "06_phong/normals.hpp"
+#include "08_normal_maps/tangent_frame.hpp"
+#include "support/look_up.hpp"
+#include "support/one_triangle.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr vec3 along_x(1, 0, 0), along_y(0, 1, 0), along_z(0, 0, 1);
+
+/// A few roundings of numbers up to 1.
+constexpr float roundings = 4 * FLT_EPSILON;
+
+/// What the lesson promises of every frame.
+constexpr double most_off_a_right_angle = 1e-6;
+
+testing::AssertionResult is_orthonormal(const TangentFrame& frame) {
+    const dvec3 t = frame.tangent, b = frame.bitangent, n = frame.normal;
+    for (const double off : {glm::length(t) - 1, glm::length(b) - 1, glm::length(n) - 1,
+                             glm::dot(t, n), glm::dot(b, n), glm::dot(t, b)})
+        if (!(std::abs(off) <= most_off_a_right_angle))  // also for NaN
+            return testing::AssertionFailure()
+                   << testing::PrintToString(frame.tangent) << " "
+                   << testing::PrintToString(frame.bitangent) << " "
+                   << testing::PrintToString(frame.normal) << ": off by " << off;
+    return testing::AssertionSuccess();
+}
+
+testing::AssertionResult are_near(vec3 actual, vec3 expected, float tolerance = roundings) {
+    const vec3 off = glm::abs(actual - expected);
+    if (std::max({off.x, off.y, off.z}) <= tolerance) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << testing::PrintToString(actual) << " instead of " << testing::PrintToString(expected);
+}
+
+double degrees_between(vec3 a, vec3 b) {
+    const dvec3 u = a, v = b;
+    return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
+}
+
+/// A mesh as the scene has it when tangents are built: each corner has its own normal.
+struct Patch {
+    Mesh mesh;
+
+    /// @param faces  Three indices into positions and uvs each.
+    Patch(std::vector<vec3> positions, std::vector<vec2> uvs,
+          const std::vector<std::array<std::uint32_t, 3>>& faces,
+          const std::vector<vec3>& normals = {}) {
+        mesh = mesh_of(std::move(positions), faces);
+        mesh.uvs = std::move(uvs);
+        mesh.normals = normals;
+        for (Triangle& triangle : mesh.triangles)
+            for (Corner& corner : triangle.corners) {
+                corner.uv = corner.position;
+                if (!normals.empty()) corner.normal = corner.position;
+            }
+        complete_normals(mesh);
+    }
+
+    std::vector<vec4> tangents() const {
+        return vertex_tangents(mesh, [&](const Triangle& triangle) {
+            return std::array{mesh.uvs[triangle.corners[0].uv], mesh.uvs[triangle.corners[1].uv],
+                              mesh.uvs[triangle.corners[2].uv]};
+        });
+    }
+
+    /// The frame at a triangle's corner.
+    TangentFrame frame(std::size_t triangle, std::size_t corner) const {
+        const std::uint32_t normal = mesh.triangles[triangle].corners[corner].normal;
+        const vec4 tangent = tangents()[normal];
+        return tangent_frame(vec3(tangent), mesh.normals[normal], tangent.w);
+    }
+};
+
+/// Half a pipe around the y axis, with u around it and v up; from so many strips.
+Patch half_pipe(std::uint32_t strips) {
+    std::vector<vec3> positions, normals;
+    std::vector<vec2> uvs;
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    for (std::uint32_t i = 0; i <= strips; ++i) {
+        const float share = static_cast<float>(i) / static_cast<float>(strips);
+        const float angle = std::numbers::pi_v<float> * share;
+        const vec3 out(std::cos(angle), 0, -std::sin(angle));
+        for (const float v : {0.0f, 1.0f}) {
+            positions.push_back(out + vec3(0, v, 0));
+            normals.push_back(out);
+            uvs.emplace_back(share, v);
+        }
+        if (i == strips) break;
+        const std::uint32_t low = 2 * i;
+        faces.push_back({low, low + 2, low + 3});
+        faces.push_back({low, low + 3, low + 1});
+    }
+    return {positions, uvs, faces, normals};
+}
+
+}  // namespace
+
+TEST(NormalMaps, Eq8_2_SidesAreSumsOfTheDirections) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> any(-1, 1);
+    const auto place = [&] { return vec3(any(random), any(random), any(random)); };
+    const auto uv = [&] { return vec2(any(random), any(random)); };
+    for (int i = 0; i < 1000; ++i) {
+        const std::array<vec3, 3> p{place(), place(), place()};
+        const std::array<vec2, 3> t{uv(), uv(), uv()};
+        const UvDirections found = uv_directions(p, t);
+        const dvec3 e1 = dvec3(p[1]) - dvec3(p[0]), e2 = dvec3(p[2]) - dvec3(p[0]);
+        const dvec2 d1 = dvec2(t[1]) - dvec2(t[0]), d2 = dvec2(t[2]) - dvec2(t[0]);
+        // Lengths by Cramer's rule, apart from the stage: areas in space over the one in uv.
+        const double area = std::abs(d1.x * d2.y - d1.y * d2.x);
+        const dvec3 tangent = glm::length(d2.y * e1 - d1.y * e2) / area * dvec3(found.tangent);
+        const dvec3 bitangent = glm::length(d1.x * e2 - d2.x * e1) / area * dvec3(found.bitangent);
+        const double size = glm::length(tangent) + glm::length(bitangent);
+        EXPECT_LT(glm::length(d1.x * tangent + d1.y * bitangent - e1), 4 * FLT_EPSILON * size)
+            << "seed 1, case " << i;
+        EXPECT_LT(glm::length(d2.x * tangent + d2.y * bitangent - e2), 4 * FLT_EPSILON * size)
+            << "seed 1, case " << i;
+    }
+}
+
+TEST(NormalMaps, Eq8_3_WorkedExample) {
+    const std::array<vec3, 3> p{vec3(1, 0, 1), {4, 0, 1}, {1, 0, -2}};
+    const UvDirections found = uv_directions(p, {vec2(0), {0.5f, 0.25f}, {0.25f, 0.5f}});
+    const float s = std::sqrt(0.2f);
+    EXPECT_TRUE(are_near(found.tangent, {2 * s, 0, s}));
+    EXPECT_TRUE(are_near(found.bitangent, {-s, 0, -2 * s}));
+    EXPECT_EQ(found.handedness, 1);
+    // Its mirror image.
+    const UvDirections mirrored = uv_directions(p, {vec2(0), {-0.5f, 0.25f}, {-0.25f, 0.5f}});
+    EXPECT_TRUE(are_near(mirrored.tangent, {-2 * s, 0, -s}));
+    EXPECT_TRUE(are_near(mirrored.bitangent, {-s, 0, -2 * s}));
+    EXPECT_EQ(mirrored.handedness, -1);
+    // The frame is square all the same.
+    EXPECT_TRUE(are_near(tangent_frame(found.tangent, along_y, 1).bitangent, {s, 0, -2 * s}));
+}
+
+TEST(NormalMaps, Eq8_3_DirectionsOfKnownTriangles) {
+    // u along x, v along y; of any size on either side.
+    for (const float size : {1e-30f, 1e-3f, 1.0f, 1e30f})
+        for (const float of_texture : {1e-30f, 1.0f, 1e30f}) {
+            const UvDirections found = uv_directions({vec3(0), {size, 0, 0}, {0, size, 0}},
+                                                     {vec2(0), {of_texture, 0}, {0, of_texture}});
+            EXPECT_EQ(found.tangent, along_x);
+            EXPECT_EQ(found.bitangent, along_y);
+            EXPECT_EQ(found.handedness, 1);
+        }
+    // The texture turned by a quarter: u grows down along -y, v along x.
+    const UvDirections turned =
+        uv_directions({vec3(0), {1, 0, 0}, {0, 1, 0}}, {vec2(0), {0, 1}, {-1, 0}});
+    EXPECT_EQ(turned.tangent, -along_y);
+    EXPECT_EQ(turned.bitangent, along_x);
+    EXPECT_EQ(turned.handedness, 1);
+    // Slanted: lines of equal u need not stand at right angles to lines of equal v.
+    const UvDirections slanted =
+        uv_directions({vec3(0), {2, 0, 0}, {1, 1, 0}}, {vec2(0), {1, 0}, {0, 1}});
+    EXPECT_EQ(slanted.tangent, along_x);
+    EXPECT_TRUE(are_near(slanted.bitangent, std::sqrt(0.5f) * vec3(1, 1, 0)));
+}
+
+TEST(NormalMaps, Eq8_3_DirectionsDoNotDependOnTheFirstCorner) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (int i = 0; i < 1000; ++i) {
+        std::array<vec3, 3> p;
+        std::array<vec2, 3> t;
+        for (std::size_t k = 0; k < 3; ++k) {
+            p[k] = {any(random), any(random), any(random)};
+            t[k] = {any(random), any(random)};
+        }
+        const UvDirections first = uv_directions(p, t);
+        // Both ways around: the other one is the triangle from behind, under the same texture.
+        for (const auto& [a, b, c] : {std::array{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}}) {
+            const auto at = [](auto& corners, int k) {
+                return corners[static_cast<std::size_t>(k)];
+            };
+            const UvDirections other =
+                uv_directions({at(p, a), at(p, b), at(p, c)}, {at(t, a), at(t, b), at(t, c)});
+            // Roundings of double are far below those to float, but for very thin triangles.
+            EXPECT_TRUE(are_near(other.tangent, first.tangent)) << "seed 2, case " << i;
+            EXPECT_TRUE(are_near(other.bitangent, first.bitangent)) << "seed 2, case " << i;
+            EXPECT_EQ(other.handedness,
+                      b - a == 1 || b - a == -2 ? first.handedness : -first.handedness);
+        }
+    }
+}
+
+TEST(NormalMaps, Eq8_4_HandednessSaysWhereTheBitangentLies) {
+    const std::array<vec3, 3> p{vec3(0), along_x, along_y};
+    EXPECT_EQ(uv_directions(p, {vec2(0), {1, 0}, {0, 1}}).handedness, 1);
+    EXPECT_EQ(uv_directions(p, {vec2(0), {-1, 0}, {0, 1}}).handedness, -1);
+    EXPECT_EQ(uv_directions(p, {vec2(0), {1, 0}, {0, -1}}).handedness, -1);
+    EXPECT_EQ(uv_directions(p, {vec2(0), {-1, 0}, {0, -1}}).handedness, 1);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (int i = 0; i < 1000; ++i) {
+        std::array<vec3, 3> q;
+        std::array<vec2, 3> t;
+        for (std::size_t k = 0; k < 3; ++k) {
+            q[k] = {any(random), any(random), any(random)};
+            t[k] = {any(random), any(random)};
+        }
+        const UvDirections found = uv_directions(q, t);
+        const dvec3 out = glm::cross(dvec3(q[1] - q[0]), dvec3(q[2] - q[0]));
+        const double triple =
+            glm::dot(glm::cross(dvec3(found.tangent), dvec3(found.bitangent)), glm::normalize(out));
+        if (std::abs(triple) < 1e-5) continue;  // T and B nearly parallel
+        EXPECT_EQ(triple > 0 ? 1 : -1, found.handedness) << "seed 3, case " << i;
+    }
+}
+
+TEST(NormalMaps, Eq8_5_WorkedExample) {
+    const vec3 n(0.6f, 0.8f, 0);
+    EXPECT_TRUE(are_near(across(along_x, n), {0.64f, -0.48f, 0}));
+    const TangentFrame frame = tangent_frame(along_x, n, 1);
+    EXPECT_TRUE(are_near(frame.tangent, {0.8f, -0.6f, 0}));
+    EXPECT_TRUE(are_near(frame.bitangent, -along_z));
+    EXPECT_TRUE(are_near(tangent_frame(along_x, n, -1).bitangent, along_z));
+}
+
+TEST(NormalMaps, Eq8_5_WhatLeadsAlongTheNormalIsTakenAway) {
+    for (const float handedness : {1.0f, -1.0f}) {
+        const TangentFrame frame = tangent_frame({0.8f, 0, 0.6f}, along_z, handedness);
+        EXPECT_TRUE(are_near(frame.tangent, along_x));
+        EXPECT_TRUE(are_near(frame.bitangent, handedness * along_y));
+        EXPECT_EQ(frame.normal, along_z);
+        // Lengths do not count, and neither is lost what is left of nearly nothing.
+        for (const float length : {1e-37f, 1e-10f, 1e10f, 1e37f}) {
+            const TangentFrame other =
+                tangent_frame(length * vec3(0.8f, 0, 0.6f), length * along_z, handedness);
+            EXPECT_TRUE(are_near(other.tangent, along_x)) << length;
+            EXPECT_TRUE(is_orthonormal(other)) << length;
+        }
+    }
+    const TangentFrame steep = tangent_frame({0x1p-10f, 0, 1}, along_z, 1);
+    EXPECT_EQ(steep.tangent, along_x);
+}
+
+TEST(NormalMaps, Eq8_5_FramesAreOrthonormal) {
+    std::mt19937 random(4);
+    std::normal_distribution<float> normal;
+    std::uniform_real_distribution<float> exponent(-30, 0);
+    for (int i = 0; i < 200'000; ++i) {
+        const vec3 n(normal(random), normal(random), normal(random));
+        vec3 t(normal(random), normal(random), normal(random));
+        if (i % 2) t = n + std::exp2(exponent(random)) * t;  // more and more along the normal
+        ASSERT_TRUE(is_orthonormal(tangent_frame(t, n, i % 4 < 2 ? 1.0f : -1.0f)))
+            << "seed 4, case " << i;
+    }
+}
+
+TEST(NormalMaps, Eq8_6_WorkedExample) {
+    // On the floor, around the origin: 90 degrees with u along x, 45 degrees with u along
+    // (0.8, 0, -0.6). The uv of the second triangle: as far as its corners lie along that, and
+    // across it.
+    const vec3 first_end = along_x, second_end(0, 0, -1);
+    const vec3 third_end = unit_or({-1, 0, -1}, along_x);
+    const auto slanted_uv = [](vec3 p) {
+        return vec2(0.8f * p.x - 0.6f * p.z, -0.6f * p.x - 0.8f * p.z);
+    };
+    const Patch patch({vec3(0), first_end, second_end, second_end, third_end},
+                      {vec2(0), {1, 0}, {0, 1}, slanted_uv(second_end), slanted_uv(third_end)},
+                      {{0, 1, 2}, {0, 3, 4}});
+    EXPECT_TRUE(are_near(uv_directions({vec3(0), second_end, third_end},
+                                       {vec2(0), patch.mesh.uvs[3], patch.mesh.uvs[4]})
+                             .tangent,
+                         {0.8f, 0, -0.6f}));
+    for (std::size_t triangle = 0; triangle < 2; ++triangle) {
+        const TangentFrame frame = patch.frame(triangle, 0);
+        EXPECT_TRUE(are_near(frame.tangent, unit_or({2.8f, 0, -0.6f}, along_x), 1e-6f));
+        EXPECT_EQ(frame.normal, along_y);
+    }
+    EXPECT_NEAR(degrees_between(patch.frame(0, 0).tangent, along_x), 12.1, 0.05);
+    EXPECT_NEAR(degrees_between(patch.frame(0, 0).tangent, {0.8f, 0, -0.6f}), 24.8, 0.05);
+}
+
+TEST(NormalMaps, Eq8_6_TangentsOfAPipeLeadAround) {
+    for (const std::uint32_t strips : {4u, 16u, 64u}) {
+        const Patch pipe = half_pipe(strips);
+        const std::vector<vec4> tangents = pipe.tangents();
+        for (const Triangle& triangle : pipe.mesh.triangles)
+            for (const Corner& corner : triangle.corners) {
+                const vec3 out = pipe.mesh.normals[corner.normal];
+                const vec3 around(out.z, 0, -out.x);
+                // At the two ends there is a face on one side alone; across the normal, its tangent
+                // leads around all the same.
+                EXPECT_TRUE(are_near(vec3(tangents[corner.normal]), around))
+                    << strips << " strips, corner " << corner.position;
+                EXPECT_EQ(tangents[corner.normal].w, 1);
+            }
+    }
+}
+
+TEST(NormalMaps, Eq8_6_AnglesCountAndNotTheNumberOfTriangles) {
+    // Two squares in a plane meet at the origin's right and left; u turns by 60 degrees from one to
+    // the other. The left one is cut through the corner or not: it counts with 90 degrees anyway.
+    const float c = 0.5f, s = std::sqrt(0.75f);
+    for (const bool through_the_corner : {false, true}) {
+        // uv of the left square: such that u grows along (c, s); it is 0 at the shared corners.
+        std::vector<vec3> positions{vec3(0), along_x, {1, 1, 0}, along_y, {-1, 1, 0}, {-1, 0, 0}};
+        std::vector<vec2> uvs{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {-c + s, s + c}, {-c, s}};
+        // The corner on the left that is shared has the uv of the other's: the origin.
+        positions.push_back(along_y), uvs.push_back({s, c});
+        std::vector<std::array<std::uint32_t, 3>> faces{{0, 1, 3}, {1, 2, 3}};
+        if (through_the_corner)
+            faces.insert(faces.end(), {{0, 6, 4}, {0, 4, 5}});
+        else
+            faces.insert(faces.end(), {{0, 6, 5}, {6, 4, 5}});
+        const Patch patch(positions, uvs, faces);
+        EXPECT_NEAR(degrees_between(patch.frame(2, 0).tangent, along_x), 30, 1e-4)
+            << through_the_corner;
+        // By itself the left square has its own: 60 degrees.
+        EXPECT_NEAR(degrees_between(patch.frame(2, 1).tangent, along_x), 60, 1e-4);
+        EXPECT_NEAR(degrees_between(patch.frame(0, 1).tangent, along_x), 0, 1e-4);
+    }
+}
+
+TEST(NormalMaps, HardCase_NoAreaInTheTexture) {
+    look_up("Eq. 8.4, no area");
+    const float infinity = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
+    const std::array<vec3, 3> p{vec3(0), along_x, along_y};
+    // Two uvs are equal; all are; they lie on a line; they are not numbers.
+    for (const std::array<vec2, 3>& uvs : {std::array{vec2(0.25f), vec2(0.25f), vec2(1)},
+                                           {vec2(0), vec2(1, 0), vec2(0)},
+                                           {vec2(0.5f), vec2(0.5f), vec2(0.5f)},
+                                           {vec2(0), vec2(1), vec2(2)},
+                                           {vec2(0), vec2(0.1f, 0.3f), vec2(0.2f, 0.6f)},
+                                           {vec2(no_number), vec2(1, 0), vec2(0, 1)},
+                                           {vec2(0), vec2(infinity, 0), vec2(0, 1)},
+                                           {vec2(1e38f, 0), vec2(infinity), vec2(0, 1)}}) {
+        const UvDirections found = uv_directions(p, uvs);
+        EXPECT_EQ(found.handedness, 0);
+        EXPECT_EQ(found.tangent, vec3(0));
+        EXPECT_EQ(found.bitangent, vec3(0));
+        const Patch patch({p.begin(), p.end()}, {uvs.begin(), uvs.end()}, {{0, 1, 2}});
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const TangentFrame frame = patch.frame(0, corner);
+            EXPECT_TRUE(is_orthonormal(frame));
+            EXPECT_EQ(frame.normal, along_z);
+            EXPECT_EQ(frame.tangent, along_x);  // the axis to which the normal leans least
+            EXPECT_EQ(frame.bitangent, along_y);
+        }
+    }
+    // Such a triangle leaves its neighbours' tangents alone.
+    const Patch beside({vec3(0), along_x, along_y, {1, 1, 0}, {-1, 0, 0}},
+                       {vec2(0), {0, 1}, {-1, 0}, {-1, 1}, vec2(0)}, {{0, 1, 2}, {0, 2, 4}});
+    EXPECT_TRUE(are_near(beside.frame(0, 0).tangent, -along_y));
+    EXPECT_TRUE(are_near(beside.frame(1, 0).tangent, -along_y)) << "it takes that of its neighbour";
+}
+
+TEST(NormalMaps, HardCase_NoAreaOnTheSurface) {
+    look_up("Eq. 8.3");
+    const std::array<vec2, 3> uvs{vec2(0), vec2(1, 0), vec2(0, 1)};
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const std::array<vec3, 3>& p : {std::array{vec3(1), vec3(1), vec3(1)},
+                                         {vec3(0), vec3(0), vec3(1)},
+                                         {vec3(0), vec3(1), vec3(2)},
+                                         {vec3(0), vec3(infinity), vec3(1, 0, 0)}}) {
+        EXPECT_EQ(uv_directions(p, uvs).handedness, 1);  // that is the texture's alone
+        const Patch patch({p.begin(), p.end()}, {uvs.begin(), uvs.end()}, {{0, 1, 2}});
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            EXPECT_TRUE(is_orthonormal(patch.frame(0, corner)));
+    }
+}
+
+TEST(NormalMaps, HardCase_MirroredTexturesMeetInASeam) {
+    look_up("Eq. 8.6, handedness");
+    // Two squares beside each other, the second one with the texture mirrored at the seam x = 0.
+    const Patch patch({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}},
+                      {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {1, 1}},
+                      {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {3, 5, 4}});
+    for (std::size_t triangle = 0; triangle < 4; ++triangle)
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const TangentFrame frame = patch.frame(triangle, corner);
+            const bool is_mirrored = triangle >= 2;
+            EXPECT_TRUE(is_orthonormal(frame));
+            EXPECT_EQ(frame.tangent, is_mirrored ? -along_x : along_x);
+            EXPECT_EQ(frame.bitangent, along_y);  // v grows upwards on either side
+            EXPECT_EQ(frame.normal, along_z);
+        }
+}
+
+TEST(NormalMaps, HardCase_TexturesOfAnySize) {
+    look_up("Eq. 8.3");
+    const Patch expected = half_pipe(8);
+    for (const vec2 scale : {vec2(1e-36f), vec2(1e-20f, 1), vec2(1, 1e20f), vec2(1e36f),
+                             vec2(1e-30f, 1e30f), vec2(0x1p-120f)}) {
+        Patch pipe = half_pipe(8);
+        for (vec2& uv : pipe.mesh.uvs) uv *= scale;
+        const std::vector<vec4> tangents = pipe.tangents(), plain = expected.tangents();
+        for (std::size_t i = 0; i < plain.size(); ++i) {
+            EXPECT_TRUE(are_near(vec3(tangents[i]), vec3(plain[i])));
+            EXPECT_EQ(tangents[i].w, plain[i].w);
+        }
+    }
+    // And the same of surfaces.
+    for (const float scale : {1e-36f, 1e-20f, 1e20f, 1e36f}) {
+        Patch pipe = half_pipe(8);
+        for (vec3& position : pipe.mesh.positions) position *= scale;
+        const std::vector<vec4> tangents = pipe.tangents(), plain = expected.tangents();
+        for (std::size_t i = 0; i < plain.size(); ++i)
+            EXPECT_TRUE(are_near(vec3(tangents[i]), vec3(plain[i]))) << scale;
+    }
+}
+
+TEST(NormalMaps, HardCase_TangentAlongTheNormal) {
+    look_up("Eq. 8.5, where nothing is left");
+    for (const vec3 n : {along_x, along_y, along_z, -along_z, vec3(0.6f, 0, 0.8f),
+                         unit_or(vec3(1), along_x), unit_or(vec3(-3, 1, 2), along_x)})
+        for (const float length : {-1e30f, -1.0f, 0.0f, 1e-30f, 1.0f, 1e30f}) {
+            const TangentFrame frame = tangent_frame(length * n, n, 1);
+            EXPECT_TRUE(is_orthonormal(frame));
+            EXPECT_EQ(frame.tangent, any_across(frame.normal))
+                << testing::PrintToString(n) << length;
+            EXPECT_LT(glm::length(frame.normal - n), roundings);
+        }
+    // Normals of a file may stand so that the surface's tangent leads along them.
+    const Patch patch({vec3(0), along_x, along_y}, {vec2(0), {1, 0}, {0, 1}}, {{0, 1, 2}},
+                      {along_x, -along_x, along_z});
+    for (std::size_t corner = 0; corner < 3; ++corner)
+        EXPECT_TRUE(is_orthonormal(patch.frame(0, corner))) << corner;
+    EXPECT_EQ(patch.frame(0, 0).tangent, along_y);
+    EXPECT_EQ(patch.frame(0, 2).tangent, along_x);
+}
+
+TEST(NormalMaps, HardCase_ZeroNormal) {
+    look_up("Eq. 8.5");
+    const float infinity = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
+    for (const vec3 n : {vec3(0), vec3(no_number), vec3(infinity, 0, 0), vec3(0, -infinity, 1)}) {
+        const TangentFrame frame = tangent_frame({1, 2, 0}, n, -1);
+        EXPECT_TRUE(is_orthonormal(frame));
+        EXPECT_EQ(frame.normal, along_y);
+        EXPECT_TRUE(are_near(frame.tangent, along_x));
+        EXPECT_TRUE(are_near(frame.bitangent, along_z));
+    }
+    // Of a file: the corner takes that of its face.
+    const Patch patch({vec3(0), along_x, along_y}, {vec2(0), {1, 0}, {0, 1}}, {{0, 1, 2}},
+                      {vec3(0), vec3(0), vec3(0)});
+    EXPECT_EQ(patch.frame(0, 0).normal, along_z);
+    EXPECT_EQ(patch.frame(0, 0).tangent, along_x);
+}
+
+TEST(NormalMaps, HardCase_OrderDoesNotMatter) {
+    look_up("Eq. 8.6, no order");
+    // A closed fan of crumpled triangles around a corner, some of them mirrored, some without area.
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> any(-1, 1);
+    constexpr std::uint32_t rim = 24;
+    std::vector<vec3> positions{vec3(0)}, normals{along_z};
+    std::vector<vec2> uvs{vec2(0)};
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    for (std::uint32_t i = 0; i < rim; ++i) {
+        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / rim;
+        positions.emplace_back(std::cos(angle), std::sin(angle), 0.3f * any(random));
+        normals.push_back(vec3(any(random), any(random), 2));
+        uvs.push_back(vec2(std::cos(angle), std::sin(angle)) +
+                      0.4f * vec2(any(random), any(random)));
+        faces.push_back({0, i + 1, (i + 1) % rim + 1});
+    }
+    uvs[7] = uvs[8];
+    const Patch expected(positions, uvs, faces, normals);
+    const std::vector<vec4> tangents = expected.tangents();
+    const auto tangent_of = [](const Patch& patch, const std::vector<vec4>& all, vec3 place,
+                               vec3 face_middle) {
+        for (const Triangle& triangle : patch.mesh.triangles) {
+            vec3 low = patch.mesh.positions[triangle.corners[0].position], high = low;
+            for (const Corner& corner : triangle.corners) {
+                low = glm::min(low, patch.mesh.positions[corner.position]);
+                high = glm::max(high, patch.mesh.positions[corner.position]);
+            }
+            if (low + high != face_middle) continue;
+            for (const Corner& corner : triangle.corners)
+                if (patch.mesh.positions[corner.position] == place) return all[corner.normal];
+        }
+        ADD_FAILURE() << "no such corner";
+        return vec4(0);
+    };
+    const auto middle_of = [&](const std::array<std::uint32_t, 3>& face) {
+        vec3 low = positions[face[0]], high = low;
+        for (const std::uint32_t i : face)
+            low = glm::min(low, positions[i]), high = glm::max(high, positions[i]);
+        return low + high;
+    };
+    for (int shuffle = 0; shuffle < 200; ++shuffle) {
+        // Vertices in another order, faces too, and each may begin with any of its corners.
+        std::vector<std::uint32_t> new_place(positions.size());
+        for (std::uint32_t i = 0; i < new_place.size(); ++i) new_place[i] = i;
+        std::shuffle(new_place.begin(), new_place.end(), random);
+        std::vector<vec3> other_positions(positions.size()), other_normals(positions.size());
+        std::vector<vec2> other_uvs(positions.size());
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            other_positions[new_place[i]] = positions[i];
+            other_normals[new_place[i]] = normals[i];
+            other_uvs[new_place[i]] = uvs[i];
+        }
+        auto other_faces = faces;
+        for (auto& face : other_faces) {
+            for (std::uint32_t& i : face) i = new_place[i];
+            std::rotate(face.begin(), face.begin() + random() % 3, face.end());
+        }
+        std::shuffle(other_faces.begin(), other_faces.end(), random);
+        const Patch other(other_positions, other_uvs, other_faces, other_normals);
+        const std::vector<vec4> found = other.tangents();
+        for (const auto& face : faces)
+            for (const std::uint32_t i : face) {
+                const vec4 a = tangent_of(expected, tangents, positions[i], middle_of(face));
+                const vec4 b = tangent_of(other, found, positions[i], middle_of(face));
+                ASSERT_EQ(std::memcmp(&a, &b, sizeof a), 0)
+                    << "seed 5, shuffle " << shuffle << ": " << testing::PrintToString(a) << " and "
+                    << testing::PrintToString(b);
+            }
+    }
+}
+
+TEST(NormalMaps, HardCase_TangentsThatCancel) {
+    look_up("Eq. 8.6");
+    // Two triangles on one place and uv, with textures turned against each other.
+    const Patch patch({vec3(0), along_x, along_y, -along_x, -along_y},
+                      {vec2(0), {1, 0}, {0, 1}, {1, 0}, {0, 1}}, {{0, 1, 2}, {0, 3, 4}});
+    for (std::size_t triangle = 0; triangle < 2; ++triangle) {
+        const TangentFrame frame = patch.frame(triangle, 0);
+        EXPECT_TRUE(is_orthonormal(frame));
+        EXPECT_EQ(frame.tangent, any_across(frame.normal));
+    }
+}
+
+TEST(NormalMaps, HardCase_ModelsThatAreTurnedAndStretched) {
+    look_up("Eq. 4.15, and what goes with it");
+    // What is found on the stretched model is what the matrices make of what was found before it:
+    // tangents go with the points, normals with the matrix of cofactors.
+    // The roof of the worked example.
+    const mat3 twice_as_wide(2, 0, 0, 0, 1, 0, 0, 0, 1);
+    EXPECT_EQ(twice_as_wide * vec3(1, -1, 0), vec3(2, -1, 0));
+    EXPECT_EQ(normal_matrix(twice_as_wide) * vec3(1, 1, 0), vec3(1, 2, 0));
+    const mat3 stretch = matrix_from_rows({2, 0.5f, 0}, {0, 0.25f, 1}, {-1, 0, 3});
+    for (const float mirror : {1.0f, -1.0f}) {
+        const mat3 m = stretch * mat3(mirror, 0, 0, 0, 1, 0, 0, 0, 1);
+        const std::array<vec3, 3> p{vec3(0.5f, 0, 1), {1, 2, 0}, {0, 1, 1}};
+        const std::array<vec2, 3> uvs{vec2(0.5f, 0), {1, 0.25f}, {0, 1}};
+        const std::array<vec3, 3> q{m * p[0], m * p[1], m * p[2]};
+        const UvDirections before = uv_directions(p, uvs), after = uv_directions(q, uvs);
+        EXPECT_TRUE(are_near(after.tangent, unit_or(m * before.tangent, along_x), 1e-6f));
+        EXPECT_TRUE(are_near(after.bitangent, unit_or(m * before.bitangent, along_x), 1e-6f));
+        EXPECT_EQ(after.handedness, before.handedness) << "that is the texture's alone";
+        const vec3 out = unit_or(glm::cross(p[1] - p[0], p[2] - p[0]), along_x);
+        const vec3 stretched_out = unit_or(glm::cross(q[1] - q[0], q[2] - q[0]), along_x);
+        EXPECT_TRUE(are_near(stretched_out, unit_or(normal_matrix(m) * out, along_x), 1e-6f));
+        EXPECT_GT(glm::length(stretched_out - unit_or(m * out, along_x)), 0.1f)
+            << "normals do not go with the points";
+        const TangentFrame frame = tangent_frame(m * before.tangent, normal_matrix(m) * out, 1.0f);
+        EXPECT_TRUE(is_orthonormal(frame));
+        EXPECT_TRUE(are_near(frame.tangent, after.tangent, 1e-6f)) << "already across";
+    }
+}

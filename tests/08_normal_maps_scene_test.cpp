@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: MIT
+// Which materials call for normal maps, what files may say of them, and the lesson's pictures.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+// All that the lesson's main.cpp includes, so that it can be included within a namespace.
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "05_textures/textured_scene.hpp"
+#include "06_phong/fragments.hpp"
+#include "06_phong/lit_points.hpp"
+#include "06_phong/lit_scene.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "08_normal_maps/bumpy_scene.hpp"
+#include "08_normal_maps/normal_map_variants.hpp"
+#include "common/backdrop.hpp"
+#include "common/image_io.hpp"
+#include "common/lesson_app.hpp"
+#include "common/math/color.hpp"
+#include "common/obj.hpp"
+#include "support/golden.hpp"
+#include "support/lesson_process.hpp"
+#include "support/look_up.hpp"
+#include "support/picture_difference.hpp"
+#include "support/printers.hpp"
+
+namespace lesson {
+#define main main_of_lesson
+#include "08_normal_maps/main.cpp"
+#undef main
+}  // namespace lesson
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path models = fs::path(RASTERBOOK_ASSETS) / "models";
+const std::string textures = (fs::path(RASTERBOOK_ASSETS) / "textures").string() + "/";
+
+lesson::Options small_picture() {
+    lesson::Options options;
+    options.size = {320, 180};
+    return options;
+}
+
+Image<vec3> picture_of(const Scene& scene, const lesson::Options& options) {
+    NoCounters none;
+    return lesson::render(options, BumpyScene(scene, options), none);
+}
+
+std::uint64_t count(const Counters& counters, Counter counter) {
+    return counters.values[static_cast<std::size_t>(counter)];
+}
+
+Counters counters_of(const Scene& scene, const lesson::Options& options) {
+    Counters counters;
+    lesson::render(options, BumpyScene(scene, options), counters);
+    return counters;
+}
+
+bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+bool is_finite(const Image<vec3>& picture) {
+    return std::ranges::all_of(picture.pixels(), [](vec3 c) {
+        return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+    });
+}
+
+/// The share of pixels that differ by more than a rounding when they are written.
+double share_that_differs(const Image<vec3>& a, const Image<vec3>& b) {
+    const Image<u8vec3> code_a = srgb8_from_linear(a), code_b = srgb8_from_linear(b);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < code_a.pixels().size(); ++i)
+        differing +=
+            !looks_the_same(u8vec4(code_a.pixels()[i], 255), u8vec4(code_b.pixels()[i], 255));
+    return static_cast<double>(differing) / static_cast<double>(code_a.pixels().size());
+}
+
+fs::path written(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+}
+
+/// A square that stands upright and looks along z, of the material `m`.
+const std::string square =
+    "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n";
+
+/// Its material in a folder that stays for the test, beside what `write_pictures` puts there.
+Scene square_of(const std::string& material, const std::string& obj = square) {
+    const fs::path folder = fresh_folder("bumpy_square");
+    written(folder / "m.mtl", "newmtl m\nKd 0.8 0.8 0.8\n" + material);
+    return load_obj(written(folder / "m.obj", obj));
+}
+
+/// Looks at the square from the front, and a little from the side.
+lesson::Options before_the_square() {
+    lesson::Options options = small_picture();
+    options.size = {160, 90};
+    options.orbit.yaw_degrees = -20;
+    return options;
+}
+
+/// A picture of one colour in a file of its own.
+std::string plain_picture(const std::string& name, u8vec3 color) {
+    static const fs::path folder = fresh_folder("plain_pictures");
+    write_image(folder / name, Image<u8vec3>({4, 4}, color));
+    return (folder / name).string();
+}
+
+constexpr std::array all_frames = {FrameOf::face, FrameOf::vertex, FrameOf::pixel};
+
+}  // namespace
+
+TEST(NormalMaps, HardCase_NoFrameWithoutAMap) {
+    look_up("Eq. 8.6");
+    const std::string norm = "norm " + textures + "brick_normal.png\n";
+    const std::string bump = "map_Bump -bm 0.01 " + textures + "brick_height.png\n";
+    struct Row {
+        const char* name;
+        Scene scene;
+        bool has_maps;
+    };
+    for (const auto& [name, scene, has_maps] :
+         {Row{"scene", load_obj(models / "scene.obj"), false},
+          Row{"teapot", load_obj(models / "teapot.obj"), false},
+          Row{"scene_bumpy", load_obj(models / "scene_bumpy.obj"), true},
+          Row{"crate_bump", load_obj(models / "crate_bump.obj"), true},
+          Row{"none", square_of(""), false}, Row{"norm", square_of(norm), true},
+          Row{"bump", square_of(bump), true},
+          Row{"unlit norm", square_of("illum 0\n" + norm), false},
+          Row{"unlit bump", square_of("illum 0\n" + bump), false},
+          Row{"diffuse norm", square_of("illum 1\n" + norm), true}}) {
+        lesson::Options options = small_picture();
+        options.size /= 2;
+        for (const FrameOf frame : all_frames) {
+            options.normal_map.frame = frame;
+            const BumpyScene bumpy(scene, options);
+            for (std::size_t i = 0; i < bumpy.meshes.size(); ++i) {
+                const bool calls_for_one =
+                    std::ranges::any_of(bumpy.meshes[i].triangles, [&](const Triangle& triangle) {
+                        return bumpy.normal_textures[triangle.material] != nullptr;
+                    });
+                EXPECT_EQ(bumpy.tangents[i].empty(), !calls_for_one || frame != FrameOf::vertex)
+                    << name << ", mesh " << i;
+            }
+            const Counters counters = counters_of(scene, options);
+            EXPECT_EQ(count(counters, Counter::normal_map_samples) > 0, has_maps) << name;
+            EXPECT_EQ(count(counters, Counter::meshes_with_tangents) > 0,
+                      has_maps && frame == FrameOf::vertex)
+                << name;
+            EXPECT_LE(count(counters, Counter::normal_map_samples),
+                      count(counters, Counter::fragments_lit));
+        }
+        options.normal_map = {};
+        options.normal_map.space = MapSpace::none;
+        EXPECT_EQ(count(counters_of(scene, options), Counter::normal_map_samples), 0u) << name;
+        EXPECT_EQ(count(counters_of(scene, options), Counter::meshes_with_tangents), 0u) << name;
+
+        options.normal_map.space = MapSpace::tangent;
+        options.shading.all_effects = true;
+        const Counters all = counters_of(scene, options);
+        EXPECT_EQ(count(all, Counter::normal_map_samples), count(all, Counter::fragments_lit))
+            << name;
+    }
+}
+
+TEST(NormalMaps, HardCase_OnlyMeshesWithMapsHaveTangents) {
+    look_up("Eq. 8.6");
+    // Two groups; one material has a map.
+    const std::string two =
+        "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        "g first\nusemtl m\nf 1/1 2/2 3/3\ng second\nusemtl plain\nf 1/1 3/3 4/4\n";
+    const Scene scene = square_of("norm " + textures + "brick_normal.png\nnewmtl plain\n", two);
+    lesson::Options options = before_the_square();
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    const BumpyScene bumpy(scene, options);
+    EXPECT_EQ(bumpy.tangents[0].size(), 3u);
+    EXPECT_EQ(bumpy.tangents[1].size(), 0u);
+    EXPECT_EQ(count(counters_of(scene, options), Counter::meshes_with_tangents), 1u);
+}
+
+TEST(NormalMaps, HardCase_AFlatMapChangesNothing) {
+    look_up("Eq. 8.7, where x = y = 0");
+    const std::string flat = plain_picture("flat.png", {128, 128, 255});
+    const std::string level = plain_picture("level.png", {77, 77, 77});
+    const std::string shiny = "Ks 0.5 0.5 0.5\nNs 20\n";
+    for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
+        for (const FrameOf frame : all_frames) {
+            lesson::Options options = before_the_square();
+            options.texture.filter = filter;
+            options.normal_map.frame = frame;
+            options.shading.two_sided = true;
+            for (const float yaw : {-20.0f, 160.0f}) {
+                options.orbit.yaw_degrees = yaw;
+                const Image<vec3> plain = picture_of(square_of(shiny), options);
+                for (const std::string& map :
+                     {"norm " + flat, "norm -bm 7 " + flat, "map_Bump " + level,
+                      "map_Bump -bm 100 " + level, "map_Bump " + flat})
+                    EXPECT_TRUE(are_the_same_bits(
+                        picture_of(square_of(shiny + map + "\n"), options), plain))
+                        << map;
+            }
+        }
+}
+
+TEST(NormalMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
+    look_up("Eq. 8.7, where x = y = 0");
+    for (const char* model :
+         {"scene.obj", "teapot.obj", "crate.obj", "scene_bumpy.obj", "crate_bump.obj"}) {
+        const Scene scene = load_obj(models / model);
+        for (const FrameOf frame : all_frames)
+            for (const MapSpace space : {MapSpace::tangent, MapSpace::object, MapSpace::none}) {
+                lesson::Options options = small_picture();
+                options.normal_map.frame = frame;
+                options.normal_map.space = space;
+                options.shading.two_sided = frame == FrameOf::pixel;
+                const Image<vec3> picture = picture_of(scene, options);
+                options.shading.all_effects = true;
+                EXPECT_TRUE(are_the_same_bits(picture, picture_of(scene, options))) << model;
+                EXPECT_FALSE(is_backdrop(picture)) << model;
+            }
+    }
+}
+
+TEST(NormalMaps, HardCase_ALeaningMapIsALeaningSurface) {
+    look_up("Eq. 8.7");
+    // All of the map leans by the same angle to the right, or up. By the light of the sun and
+    // without highlights, the square looks as one with such normals of its own.
+    const float c = component_from_code(222), s = component_from_code(213);  // .74 and .67
+    const std::string right = "norm " + plain_picture("right.png", {213, 128, 222}) + "\n";
+    const std::string up = "norm " + plain_picture("up.png", {128, 213, 222}) + "\n";
+    const auto leaning = [&](vec3 normal) {
+        const std::string n = std::to_string(normal.x) + " " + std::to_string(normal.y) + " " +
+                              std::to_string(normal.z);
+        return square_of("", "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn " + n +
+                                 "\nusemtl m\nf 1//1 2//1 3//1 4//1\n");
+    };
+    for (const LightKind kind : {LightKind::directional, LightKind::point})
+        for (const FrameOf frame : all_frames)
+            for (const Filter filter : {Filter::nearest, Filter::trilinear}) {
+                lesson::Options options = before_the_square();
+                options.shading.key_light = kind;
+                options.normal_map.frame = frame;
+                options.texture.filter = filter;
+                EXPECT_EQ(share_that_differs(picture_of(square_of(right), options),
+                                             picture_of(leaning({s, 0, c}), options)),
+                          0);
+                EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
+                                             picture_of(leaning({0, s, c}), options)),
+                          0);
+                EXPECT_GT(share_that_differs(picture_of(square_of(up), options),
+                                             picture_of(leaning({0, -s, c}), options)),
+                          0.1);
+                // Green down, and a map that is mirrored by its -s.
+                options.normal_map.green = Green::down;
+                EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
+                                             picture_of(leaning({0, -s, c}), options)),
+                          0);
+                options.normal_map.green = Green::up;
+                std::string mirrored = right;
+                mirrored.insert(5, "-s -1 1 1 ");
+                EXPECT_EQ(share_that_differs(picture_of(square_of(mirrored), options),
+                                             picture_of(leaning({-s, 0, c}), options)),
+                          0);
+                // Twice as steep.
+                std::string steep = right;
+                steep.insert(5, "-bm 2 ");
+                EXPECT_EQ(share_that_differs(picture_of(square_of(steep), options),
+                                             picture_of(leaning({2 * s, 0, c}), options)),
+                          0);
+                // In the model's space the numbers are those of the axes.
+                options.normal_map.space = MapSpace::object;
+                EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
+                                             picture_of(leaning({0, s, c}), options)),
+                          0);
+            }
+}
+
+TEST(NormalMaps, HardCase_MapsInTheModelsSpaceNeedNoFrame) {
+    look_up("maps in object space");
+    // On the floor, looking up: in the model's space (0, 1, 0) is flat.
+    const std::string floor =
+        "mtllib m.mtl\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        "usemtl m\nf 1/1 2/2 3/3 4/4\n";
+    const std::string flat = "norm " + plain_picture("flat_up.png", {128, 255, 128}) + "\n";
+    lesson::Options options = before_the_square();
+    options.normal_map.space = MapSpace::object;
+    const Image<vec3> plain = picture_of(square_of("", floor), options);
+    EXPECT_EQ(share_that_differs(picture_of(square_of(flat, floor), options), plain), 0);
+    EXPECT_EQ(count(counters_of(square_of(flat, floor), options), Counter::meshes_with_tangents),
+              0u);
+    // From below it is the other side.
+    options.orbit.pitch_degrees = -30;
+    options.shading.two_sided = true;
+    const Image<vec3> below = picture_of(square_of("", floor), options);
+    EXPECT_EQ(share_that_differs(picture_of(square_of(flat, floor), options), below), 0);
+}
+
+TEST(NormalMaps, HardCase_BacksOfFaces) {
+    look_up("Eq. 8.7, seen from behind");
+    // From behind a dent is a bump: as a square that looks there, with the texture mirrored and
+    // steep the other way.
+    const std::string map = textures + "hammered_normal.png\n";
+    const std::string from_behind =
+        "mtllib m.mtl\nv 1 -1 0\nv -1 -1 0\nv -1 1 0\nv 1 1 0\n"
+        "vt 1 0\nvt 0 0\nvt 0 1\nvt 1 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n";
+    for (const FrameOf frame : all_frames) {
+        lesson::Options options = before_the_square();
+        options.normal_map.frame = frame;
+        options.orbit.yaw_degrees = 160;
+        const Image<vec3> front = picture_of(square_of("norm -bm -1 " + map, from_behind), options);
+        EXPECT_FALSE(is_backdrop(front));
+        options.shading.two_sided = true;
+        EXPECT_EQ(share_that_differs(picture_of(square_of("norm " + map), options), front), 0);
+        EXPECT_GT(
+            share_that_differs(picture_of(square_of("norm " + map, from_behind), options), front),
+            0.1);
+    }
+}
+
+TEST(NormalMaps, HardCase_WhatMapBumpMayHold) {
+    look_up("Eq. 8.9");
+    const lesson::Options options = before_the_square();
+    const std::string normals = textures + "brick_normal.png\n";
+    const std::string heights = "map_Bump -bm 0.014 " + textures + "brick_height.png\n";
+    const Image<vec3> as_norm = picture_of(square_of("norm " + normals), options);
+    // Coloured pictures are normals; `norm` counts more; keywords in any case.
+    EXPECT_EQ(picture_of(square_of("map_Bump " + normals), options), as_norm);
+    EXPECT_EQ(picture_of(square_of("bump " + normals), options), as_norm);
+    EXPECT_EQ(picture_of(square_of("norm " + normals + heights), options), as_norm);
+    EXPECT_EQ(picture_of(square_of(heights + "norm " + normals), options), as_norm);
+    const Image<vec3> as_heights = picture_of(square_of(heights), options);
+    EXPECT_NE(as_heights, as_norm);
+    EXPECT_NE(as_heights, picture_of(square_of(""), options));
+    // Both come from one relief.
+    double difference = 0, relief = 0;
+    const Image<vec3> plain = picture_of(square_of(""), options);
+    for (std::size_t i = 0; i < plain.pixels().size(); ++i) {
+        difference += std::abs(as_heights.pixels()[i].x - as_norm.pixels()[i].x);
+        relief += std::abs(as_norm.pixels()[i].x - plain.pixels()[i].x);
+    }
+    EXPECT_LT(difference, 0.1 * relief);
+}
+
+TEST(NormalMaps, HardCase_MissingAndBrokenMaps) {
+    look_up("Eq. 8.9");
+    const fs::path folder = fresh_folder("broken_normal_map"), out = folder / "out.png";
+    const fs::path model = written(folder / "m.obj", square);
+    written(folder / "broken.png", "\x89PNG and no more");
+    for (const std::string statement : {"norm", "map_Bump"})
+        for (const char* name : {"missing.png", "broken.png"}) {
+            written(folder / "m.mtl", "newmtl m\n\n" + statement + " " + name + "\n");
+            const std::vector<std::string> arguments = {"--model", model.string(), "--size",
+                                                        "64x36",   "--out",        out.string()};
+            const ProcessResult result = run_program("08_normal_maps", arguments);
+            EXPECT_EQ(result.exit_status, 1);
+            const std::string where = (folder / "m.mtl").string() + ":3: " + statement + ": ";
+            EXPECT_EQ(result.err.rfind("error: " + where, 0), 0u) << result.err;
+            EXPECT_NE(result.err.find(name), std::string::npos) << result.err;
+            EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+            EXPECT_FALSE(fs::exists(out));
+
+            std::vector<std::string> keep_going = arguments;
+            keep_going.push_back("--keep-going");
+            const ProcessResult replaced = run_program("08_normal_maps", keep_going);
+            EXPECT_EQ(replaced.exit_status, 0) << replaced.err;
+            EXPECT_EQ(replaced.err.rfind("warning: " + where, 0), 0u) << replaced.err;
+            EXPECT_TRUE(fs::remove(out));
+            // What is not called for is not read.
+            std::vector<std::string> without = arguments;
+            without.insert(without.end(), {"--normal-map", "none"});
+            EXPECT_EQ(run_program("08_normal_maps", without).exit_status, 0);
+            written(folder / "m.mtl", "newmtl m\nillum 0\n" + statement + " " + name + "\n");
+            EXPECT_EQ(run_program("08_normal_maps", arguments).exit_status, 0);
+            EXPECT_TRUE(fs::remove(out));
+        }
+}
+
+TEST(NormalMaps, HardCase_UvsOfTheModelThatSayNothing) {
+    look_up("Eq. 8.5, where nothing is left");
+    const std::string begin = "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
+    const std::string map = "Ks 1 1 1\nNs 5\nnorm " + textures + "hammered_normal.png\n";
+    for (const std::string uvs :
+         {"", "vt 0 0\nvt 0 0\nvt 0 0\nvt 0 0\n", "vt 0 0\nvt 1 0\nvt 2 0\nvt 3 0\n",
+          "vt 0.3 0.3\nvt 0.3 0.3\nvt 1 1\nvt 0 1\n",
+          "vt 0 0\nvt 1e30 0\nvt 1e30 1e30\nvt 0 1e30\n",
+          "vt 0 0\nvt 1e-30 0\nvt 1e-30 1e-30\nvt 0 1e-30\n",
+          "vt 3e38 -3e38\nvt -3e38 0\nvt 1 3e38\nvt 0 0\n"})
+        for (const FrameOf frame : all_frames)
+            for (const char* steepness : {"", "-bm 1e37 ", "-bm 0 ", "-bm 1e-40 "}) {
+                std::string material = map;
+                material.insert(material.find("norm ") + 5, steepness);
+                lesson::Options options = before_the_square();
+                options.normal_map.frame = frame;
+                const Image<vec3> picture = picture_of(
+                    square_of(material, begin + uvs + "usemtl m\n" +
+                                            (uvs.empty() ? "f 1 2 3 4\n" : "f 1/1 2/2 3/3 4/4\n")),
+                    options);
+                EXPECT_TRUE(is_finite(picture)) << uvs << steepness;
+                EXPECT_FALSE(is_backdrop(picture)) << uvs << steepness;
+            }
+}
+
+TEST(NormalMaps, HardCase_ModelsOfAllSizes) {
+    look_up("Eq. 8.3");
+    const Scene scene = load_obj(models / "scene_bumpy.obj");
+    lesson::Options options = small_picture();
+    options.size = {160, 90};
+    for (const FrameOf frame : all_frames) {
+        options.normal_map.frame = frame;
+        const Image<vec3> expected = picture_of(scene, options);
+        EXPECT_TRUE(is_finite(expected));
+        for (const float factor : {0x1p-100f, 0x1p-40f, 0x1p60f, 0x1p120f}) {
+            Scene other = scene;
+            for (Mesh& mesh : other.meshes) {
+                mesh.bounds = {};
+                for (vec3& position : mesh.positions) position *= factor, mesh.bounds.add(position);
+            }
+            const Image<vec3> picture = picture_of(other, options);
+            EXPECT_TRUE(is_finite(picture)) << factor;
+            EXPECT_EQ(share_that_differs(expected, picture), 0) << factor;
+        }
+    }
+}
+
+TEST(NormalMaps, PictureOfTheScene) {
+    EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps"));
+}
+
+TEST(NormalMaps, PictureOfHeights) {
+    EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps_heights",
+                              {"--model", "crate_bump.obj", "--distance", "3.4", "--yaw", "-50"}));
+}
+
+TEST(NormalMaps, PictureOfGreenDown) {
+    EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps_green_down", {"--green", "down"}));
+}
+
+TEST(NormalMaps, PictureOfMapsInTheModelsSpace) {
+    EXPECT_TRUE(
+        equals_golden("08_normal_maps", "08_normal_maps_object", {"--normal-map", "object"}));
+}
+
+TEST(NormalMaps, PictureWithoutMaps) {
+    EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps_none", {"--normal-map", "none"}));
+}

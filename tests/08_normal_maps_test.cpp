@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+// Normals in pictures: codes, heights, channels, and the surface that they tilt.
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "08_normal_maps/normal_map.hpp"
+#include "common/image_io.hpp"
+#include "support/look_up.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr vec3 out_of_the_surface(0, 0, 1);
+
+/// A few roundings of numbers up to 1.
+constexpr float roundings = 4 * FLT_EPSILON;
+
+/// No frame that is parallel to the axes, so that nothing is right by chance.
+TangentFrame some_frame(float handedness = 1) {
+    return tangent_frame({1, 2, -1}, {0.5f, 0.25f, 2}, handedness);
+}
+
+double degrees_between(vec3 a, vec3 b) {
+    const dvec3 u = a, v = b;
+    return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
+}
+
+constexpr std::array all_filters = {Filter::nearest, Filter::bilinear, Filter::trilinear};
+constexpr std::array all_wraps = {Wrap::repeat, Wrap::mirror, Wrap::clamp};
+
+/// A picture of heights from what is at each texel's centre; x right and y up, 0 to 1.
+template <typename Height>
+Image<u8vec4> heights(ivec2 size, Height&& height) {
+    Image<u8vec4> picture(size);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const double code = height((x + 0.5) / size.x, 1 - (y + 0.5) / size.y);
+            picture[{x, y}] = u8vec4(u8vec3(static_cast<std::uint8_t>(code)), 255);
+        }
+    return picture;
+}
+
+}  // namespace
+
+TEST(NormalMaps, Eq8_1_CodesInTheMiddleAndAtTheEnds) {
+    EXPECT_EQ(component_from_code(128), 0.0f);
+    EXPECT_EQ(component_from_code(255), 1.0f);
+    EXPECT_EQ(component_from_code(1), -1.0f);
+    EXPECT_EQ(component_from_code(0), -1.0f);
+    EXPECT_NEAR(component_from_code(64), -0.504f, 0.0005f);  // the worked example
+    EXPECT_NEAR(component_from_code(192), 64 / 127.0f, FLT_EPSILON);
+    EXPECT_NEAR(component_from_code(64), -64 / 127.0f, FLT_EPSILON);
+    for (int bits = 2; bits <= 16; ++bits) {
+        const std::uint32_t middle = 1u << (bits - 1);
+        EXPECT_EQ(component_from_code(middle, bits), 0.0f) << bits;
+        EXPECT_EQ(component_from_code(2 * middle - 1, bits), 1.0f) << bits;
+        EXPECT_EQ(component_from_code(1, bits), -1.0f) << bits;
+        EXPECT_EQ(component_from_code(0, bits), -1.0f) << bits;
+        for (std::uint32_t k = 1; k < middle && k < 500; ++k)  // the same on either side
+            EXPECT_EQ(component_from_code(middle + k, bits), -component_from_code(middle - k, bits))
+                << bits << " bits, " << k;
+    }
+}
+
+TEST(NormalMaps, Eq8_1_GreenUpAndGreenDown) {
+    Image<u8vec4> picture({2, 1}, {192, 160, 240, 255});
+    picture[{1, 0}] = {10, 20, 30, 40};
+    const Image<vec4> up = normals_from_codes(picture, Green::up);
+    const Image<vec4> down = normals_from_codes(picture, Green::down);
+    EXPECT_EQ(up[ivec2(0)].x, component_from_code(192));
+    EXPECT_EQ(up[ivec2(0)].y, component_from_code(160));
+    EXPECT_EQ(up[ivec2(0)].z, component_from_code(240));
+    for (const ivec2 texel : {ivec2(0), ivec2(1, 0)}) {
+        EXPECT_EQ(down[texel].x, up[texel].x);
+        EXPECT_EQ(down[texel].y, -up[texel].y);
+        EXPECT_EQ(down[texel].z, up[texel].z);
+        EXPECT_EQ(up[texel].w, 1);
+        EXPECT_EQ(down[texel].w, 1);
+    }
+}
+
+TEST(NormalMaps, Eq8_7_WorkedExample) {
+    for (const float handedness : {1.0f, -1.0f}) {
+        const TangentFrame frame = tangent_frame({1, 0, 0}, {0.6f, 0.8f, 0}, handedness);
+        const vec3 tilt = tilted(frame, {0.36f, 0.48f, 0.8f}, frame.normal);
+        EXPECT_NEAR(tilt.x, 0.768f, roundings);
+        EXPECT_NEAR(tilt.y, 0.424f, roundings);
+        EXPECT_NEAR(tilt.z, -0.48f * handedness, roundings);
+    }
+}
+
+TEST(NormalMaps, Eq8_7_TheMapsNormalInTheFrame) {
+    // In the frame of the axes they are the map's own numbers.
+    const TangentFrame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    EXPECT_EQ(tilted(axes, {0.6f, 0, 0.8f}, axes.normal), vec3(0.6f, 0, 0.8f));
+    // A floor, u to the right and v away from us: right in the map is x, up is -z, out is y.
+    const TangentFrame floor = tangent_frame({1, 0, 0}, {0, 1, 0}, 1);
+    EXPECT_EQ(floor.bitangent, vec3(0, 0, -1));
+    EXPECT_EQ(tilted(floor, {0.6f, 0, 0.8f}, floor.normal), vec3(0.6f, 0.8f, 0));
+    EXPECT_EQ(tilted(floor, {0, 0.6f, 0.8f}, floor.normal), vec3(0, 0.8f, -0.6f));
+    // Each direction counts by itself, and lengths and angles stay.
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (const float handedness : {1.0f, -1.0f}) {
+        const TangentFrame frame = some_frame(handedness);
+        for (int i = 0; i < 1000; ++i) {
+            const vec3 a(any(random), any(random), any(random));
+            const vec3 tilt = tilted(frame, a, frame.normal);
+            EXPECT_NEAR(glm::dot(tilt, frame.tangent), a.x, roundings) << "seed 1, case " << i;
+            EXPECT_NEAR(glm::dot(tilt, frame.bitangent), a.y, roundings) << "seed 1, case " << i;
+            EXPECT_NEAR(glm::dot(tilt, frame.normal), a.z, roundings) << "seed 1, case " << i;
+        }
+    }
+}
+
+TEST(NormalMaps, HardCase_TheFlatTexelTiltsNothing) {
+    look_up("Eq. 8.1, the flat texel");
+    const Image<u8vec4> codes({4, 4}, {128, 128, 255, 255});
+    const TangentFrame frame = some_frame();
+    const vec3 mixed = 0.97f * frame.normal;  // as between corners: not of length 1
+    for (const Green green : {Green::up, Green::down})
+        for (const Wrap wrap : all_wraps) {
+            const Texture texture = make_texture(normals_from_codes(codes, green), wrap);
+            for (const Filter filter : all_filters)
+                for (const vec2 uv : {vec2(0), vec2(0.3f, 0.7f), vec2(-3.3f, 7.9f)}) {
+                    const FragmentUv at{uv, vec2(0.9f, 0.1f), vec2(0.2f, 0.3f)};
+                    const vec3 normal = sample_normal(texture, filter, at);
+                    EXPECT_EQ(normal, out_of_the_surface);
+                    EXPECT_EQ(tilted(frame, normal, mixed), mixed) << "to the last bit";
+                }
+        }
+    // What the usual decoding makes of it.
+    const vec3 usual = 2.0f * vec3(128, 128, 255) / 255.0f - 1.0f;
+    EXPECT_NEAR(degrees_between(usual, out_of_the_surface), 0.318, 0.001);
+}
+
+TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
+    look_up("Eq. 8.1, green");
+    // The same relief, stored either way, and read as it is stored.
+    const Image<u8vec4> up =
+        read_image(std::filesystem::path(RASTERBOOK_ASSETS) / "textures/hammered_normal.png");
+    Image<u8vec4> down = up;
+    for (u8vec4& code : down.pixels())
+        if (code.g != 0) code.g = static_cast<std::uint8_t>(256 - code.g);
+    const Image<vec4> a = normals_from_codes(up, Green::up);
+    const Image<vec4> b = normals_from_codes(down, Green::down);
+    const Image<vec4> wrong = normals_from_codes(up, Green::down);
+    EXPECT_EQ(a, b);
+    EXPECT_NE(a, wrong);
+}
+
+TEST(NormalMaps, Eq8_8_TheThirdComponentFromTwo) {
+    EXPECT_EQ(with_z({0, 0}), out_of_the_surface);
+    EXPECT_NEAR(with_z({0.6f, 0}).z, 0.8f, FLT_EPSILON);
+    EXPECT_NEAR(with_z({0.6f, 0.48f}).z, 0.64f, FLT_EPSILON);  // the worked example
+    EXPECT_NEAR(with_z({0.48f, -0.64f}).z, 0.6f, FLT_EPSILON);
+    EXPECT_EQ(with_z({1, 0}).z, 0);
+    EXPECT_EQ(with_z({0.9f, 0.9f}).z, 0) << "too long for a third";
+    EXPECT_EQ(with_z({-3, 4}), vec3(-3, 4, 0));
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (int i = 0; i < 1000; ++i) {
+        const vec3 unit = unit_or({any(random), any(random), any(random)}, vec3(1, 0, 0));
+        const vec3 found = with_z(vec2(unit));
+        EXPECT_EQ(vec2(found), vec2(unit));
+        // Where z is small, its square is what is left of 1: that rounds to some 2^-23.
+        EXPECT_NEAR(found.z * found.z, unit.z * unit.z, 4 * FLT_EPSILON) << "seed 2, case " << i;
+    }
+}
+
+TEST(NormalMaps, Eq8_9_WorkedExample) {
+    Image<u8vec4> picture({4, 3}, {102, 102, 102, 255});
+    for (int y = 0; y < 3; ++y) picture[{0, y}] = {0, 0, 0, 255};
+    const vec4 n = normals_from_heights(picture, Wrap::repeat)[{1, 1}];
+    EXPECT_NEAR(n.x, -0.8f, FLT_EPSILON);
+    EXPECT_EQ(n.y, 0);
+    EXPECT_EQ(n.z, 1);
+    EXPECT_NEAR(degrees_between(vec3(n), out_of_the_surface), 38.7, 0.05);
+    EXPECT_NEAR(degrees_between({0.5f * n.x, n.y, n.z}, out_of_the_surface), 21.8, 0.05);
+}
+
+TEST(NormalMaps, Eq8_9_SlopesOfHeights) {
+    // A ramp: one code higher with each texel to the right, two with each one upwards. So from side
+    // to side it rises by 16/255 and 2 * 8/255 sides.
+    const ivec2 size(16, 8);
+    const Image<u8vec4> ramp = heights(size, [&](double x, double y) {
+        return 50 + std::floor(x * size.x) + 2 * std::floor(y * size.y);
+    });
+    const Image<vec4> normals = normals_from_heights(ramp, Wrap::clamp);
+    for (int y = 1; y + 1 < size.y; ++y)
+        for (int x = 1; x + 1 < size.x; ++x) {
+            EXPECT_NEAR((normals[{x, y}].x), -16 / 255.0f, 16 * FLT_EPSILON);
+            EXPECT_NEAR((normals[{x, y}].y), -16 / 255.0f, 16 * FLT_EPSILON);
+            EXPECT_EQ((normals[{x, y}].z), 1);
+            EXPECT_EQ((normals[{x, y}].w), 1);
+        }
+    // A step up to the right leans to the left, one upwards leans down.
+    EXPECT_LT((normals[{5, 5}].x), 0);
+    EXPECT_LT((normals[{5, 5}].y), 0);
+}
+
+TEST(NormalMaps, Eq8_9_HeightsBeyondTheBorder) {
+    // One high column at the left border.
+    Image<u8vec4> picture({4, 4}, {0, 0, 0, 255});
+    for (int y = 0; y < 4; ++y) picture[{0, y}] = {255, 255, 255, 255};
+    const auto row = [&](Wrap wrap) {
+        const Image<vec4> normals = normals_from_heights(picture, wrap);
+        for (int y = 0; y < 4; ++y) EXPECT_EQ((normals[{1, y}].y), 0);
+        return std::array{normals[{0, 2}].x, normals[{1, 2}].x, normals[{2, 2}].x,
+                          normals[{3, 2}].x};
+    };
+    // Differences over two texels of 1/4: a step of 1 is a slope of 2.
+    EXPECT_EQ(row(Wrap::repeat), (std::array{0.0f, 2.0f, 0.0f, -2.0f}));
+    EXPECT_EQ(row(Wrap::clamp), (std::array{2.0f, 2.0f, 0.0f, 0.0f}));
+    EXPECT_EQ(row(Wrap::mirror), (std::array{2.0f, 2.0f, 0.0f, 0.0f}));
+    // The same from below to above; rows run down.
+    Image<u8vec4> low({4, 4}, {0, 0, 0, 255});
+    for (int x = 0; x < 4; ++x) low[{x, 3}] = {255, 255, 255, 255};
+    const Image<vec4> normals = normals_from_heights(low, Wrap::clamp);
+    for (int y = 0; y < 4; ++y) EXPECT_EQ((normals[{1, y}].y), y >= 2 ? 2 : 0) << y;
+}
+
+TEST(NormalMaps, Eq8_9_HeightsHaveTheNormalsOfTheSameRelief) {
+    // The generator made both maps from one relief, the heights rounded to 255 steps.
+    const std::filesystem::path textures = std::filesystem::path(RASTERBOOK_ASSETS) / "textures";
+    const Image<vec4> normals =
+        normals_from_codes(read_image(textures / "brick_normal.png"), Green::up);
+    const Image<vec4> from_heights =
+        normals_from_heights(read_image(textures / "brick_height.png"), Wrap::repeat);
+    constexpr float relief = 0.014f;  // as crate_bump.mtl says: -bm
+    // A difference of two codes is off by at most one step in all: .8 degrees; a component of the
+    // normal map by half a step.
+    const double most = std::atan(std::sqrt(2.0) * relief * 512 / 2 / 255) * 180 / 3.14159 + 0.4;
+    double greatest = 0, sum = 0;
+    for (std::size_t i = 0; i < normals.pixels().size(); ++i) {
+        const vec4 n = from_heights.pixels()[i];
+        const double off =
+            degrees_between(vec3(normals.pixels()[i]), {relief * n.x, relief * n.y, n.z});
+        greatest = std::max(greatest, off), sum += off;
+    }
+    EXPECT_LT(greatest, most);
+    EXPECT_GT(greatest, 0.1) << "as if there were no steps";
+    EXPECT_LT(sum / static_cast<double>(normals.pixels().size()), 0.5);
+}
+
+TEST(NormalMaps, HardCase_HeightsThatAreAllEqualAreFlat) {
+    look_up("Eq. 8.9");
+    for (const ivec2 size : {ivec2(1), ivec2(1, 7), ivec2(5, 1), ivec2(3, 5)})
+        for (const int code : {0, 1, 128, 255})
+            for (const Wrap wrap : all_wraps) {
+                const Image<u8vec4> flat(size, u8vec4(static_cast<std::uint8_t>(code)));
+                EXPECT_EQ(normals_from_heights(flat, wrap), Image<vec4>(size, vec4(0, 0, 1, 1)));
+            }
+}
+
+TEST(NormalMaps, HardCase_MirroredCopiesOfAMap) {
+    look_up("Eq. 8.7, mirrored copies");
+    // A ramp of normals that all lean to the right and up: in a mirrored copy they lean to the
+    // left.
+    Texture texture = make_texture(Image<vec4>({8, 8}, vec4(0.6f, 0.48f, 0.64f, 1)), Wrap::mirror);
+    const auto at = [&](vec2 uv) {
+        return sample_normal(texture, Filter::bilinear, {uv, vec2(0), vec2(0)});
+    };
+    const vec3 n(0.6f, 0.48f, 0.64f);
+    for (const float copy : {-4.0f, -2.0f, 0.0f, 2.0f, 100.0f}) {
+        EXPECT_EQ(at({copy + 0.3f, 0.2f}), n);
+        EXPECT_EQ(at({copy + 1.3f, 0.2f}), n * vec3(-1, 1, 1));
+        EXPECT_EQ(at({0.2f, copy + 1.7f}), n * vec3(1, -1, 1));
+        EXPECT_EQ(at({copy - 0.7f, copy - 0.1f}), n * vec3(-1, -1, 1));
+    }
+    for (const Wrap wrap : {Wrap::repeat, Wrap::clamp}) {
+        texture.wrap = wrap;
+        EXPECT_EQ(at({1.3f, -0.2f}), n);
+    }
+}
+
+TEST(NormalMaps, HardCase_ColouredHeightsAreNormals) {
+    look_up("Eq. 8.9, coloured pictures");
+    EXPECT_TRUE(is_gray(Image<u8vec4>({3, 3}, {7, 7, 7, 1})));
+    EXPECT_TRUE(is_gray(Image<u8vec4>()));
+    EXPECT_FALSE(is_gray(Image<u8vec4>({3, 3}, {128, 128, 255, 255})));
+    for (int channel = 0; channel < 3; ++channel) {
+        Image<u8vec4> picture({3, 3}, {7, 7, 7, 255});
+        picture[{2, 2}][channel] = 8;
+        EXPECT_FALSE(is_gray(picture)) << channel;
+    }
+}

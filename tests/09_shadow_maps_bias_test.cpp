@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: MIT
+// What keeps a lit surface from shadowing itself, and what that costs.
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "09_shadow_maps/light_view.hpp"
+#include "09_shadow_maps/shadow_map.hpp"
+#include "support/light_maps.hpp"
+#include "support/look_up.hpp"
+#include "support/one_triangle.hpp"
+#include "support/printers.hpp"
+#include "support/reference.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr std::array fitted = {Bias::slope, Bias::plane, Bias::normal};
+constexpr std::array kinds = {LightKind::directional, LightKind::point, LightKind::spot};
+constexpr std::array tilts = {0.0f, 0.1f, 1.0f, 3.0f, 10.0f, 50.0f};
+
+/// A square of 2 x 2 around a point, cut into triangles of different sizes, and a light on it.
+struct TiltedPlane {
+    Mesh mesh;
+    Light light;
+
+    /// @param tilt  Tangent of the angle between the plane's normal and the light.
+    TiltedPlane(std::mt19937& random, LightKind kind, float tilt, vec3 middle) {
+        std::uniform_real_distribution<float> any(-1, 1);
+        const auto direction = [&] {
+            const float x = any(random), y = any(random), z = any(random);
+            return unit_or(vec3(x, y, z), vec3(0, 1, 0));
+        };
+        const vec3 normal = direction();
+        const vec3 along = unit_or(glm::cross(normal, direction()), vec3(1, 0, 0));
+        const vec3 across = glm::cross(normal, along);
+        std::vector<vec3> positions;
+        constexpr std::uint32_t side = 5;
+        for (std::uint32_t y = 0; y <= side; ++y)
+            for (std::uint32_t x = 0; x <= side; ++x) {
+                const vec2 at = 2.0f * vec2(x * x, y) / vec2(side * side, side) - 1.0f;
+                positions.push_back(middle + at.x * along + at.y * across);
+            }
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (std::uint32_t y = 0; y < side; ++y)
+            for (std::uint32_t x = 0; x < side; ++x) {
+                const std::uint32_t a = y * (side + 1) + x, b = a + side + 1;
+                triangles.push_back({a, a + 1, b + 1});
+                triangles.push_back({a, b + 1, b});
+            }
+        mesh = mesh_of(positions, triangles);
+        const vec3 toward = glm::normalize(normal + tilt * along);
+        light = {kind, vec3(1), toward};
+        if (kind == LightKind::directional) return;
+        light.position_world = middle + 2.5f * toward;
+        light.direction_world = -toward;
+        light.cos_none = std::cos(0.9f), light.cos_full = 1;
+    }
+};
+
+/// Points of a mesh with the triangles on which they lie, as fragments have them.
+struct PointOn {
+    Corners corners;
+    vec3 point;
+};
+
+std::vector<PointOn> points_on(const Mesh& mesh, std::mt19937& random, int of_each) {
+    std::uniform_real_distribution<float> any(0, 1);
+    std::vector<PointOn> points;
+    for (const Triangle& triangle : mesh.triangles)
+        for (int i = 0; i < of_each; ++i) {
+            const Corners corners = corners_in(mesh, triangle);
+            float b = any(random), c = any(random);
+            if (b + c > 1) b = 1 - b, c = 1 - c;
+            points.push_back({corners, (1 - b - c) * corners[0] + b * corners[1] + c * corners[2]});
+        }
+    return points;
+}
+
+/// Of a plane z_ndc = (a x_ndc + b y_ndc) / 2 in a map of so many texels over the cube from -1
+/// to 1.
+Corners plane_in_cube(float a, float b) {
+    const auto corner = [&](float x, float y) { return vec3(x, y, 0.5f * (a * x + b * y)); };
+    return {corner(-1, -1), corner(1, -1), corner(0, 1)};
+}
+
+ShadowMap map_of_cube(int size) { return {mat4(1), false, size, {vec3(-1), vec3(1)}}; }
+
+constexpr vec3 to_the_light(0, 0, -1);  ///< As map_of_cube() is seen.
+
+/// Roundings, snapping: what a bias has above the ideal formula, in the tests' maps.
+constexpr double beyond_ideal = 0.02;
+
+}  // namespace
+
+TEST(ShadowMaps, Eq9_8_SlopesOfAPlaneInAPerspective) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 200; ++i) {
+        const TiltedPlane plane(random, i % 2 == 0 ? LightKind::spot : LightKind::directional,
+                                tilts[static_cast<std::size_t>(i) % 5], vec3(0));
+        const LightMaps maps(plane.light, std::span(&plane.mesh, 1), 64);
+        ASSERT_EQ(maps.maps.size(), 1u);
+        const ShadowMap& map = maps.maps[0];
+        const Corners corners = corners_in(plane.mesh, plane.mesh.triangles[7]);
+        const Receiver at = receiver(map, Bias::plane, 0, corners, maps.toward(corners[0]));
+        // In long double: places of the three corners, and the plane through those.
+        std::array<lvec3, 3> place;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::mat<4, 4, real> m(map.texels_from_world);
+            const lvec4 homogeneous = m * lvec4(lvec3(corners[k]), 1);
+            place[k] = lvec3(homogeneous) / homogeneous.w;
+        }
+        const lvec3 normal = glm::cross(place[1] - place[0], place[2] - place[0]);
+        const real x = -normal.x / normal.z, y = -normal.y / normal.z;
+        // 3e-6: steep planes are found from corners in float.
+        EXPECT_TRUE(is_near(at.slope.x, x, 3e-6L * (std::abs(x) + std::abs(y)))) << "seed 1, " << i;
+        EXPECT_TRUE(is_near(at.slope.y, y, 3e-6L * (std::abs(x) + std::abs(y)))) << "seed 1, " << i;
+    }
+}
+
+TEST(ShadowMaps, Eq9_9_TheBiasIsHalfATexelTimesTheSlopes) {
+    // The worked example: 512 texels over 2, and z_ndc rises by x / 2: by 1/4 of x_ndc in depth.
+    constexpr int size = 512;
+    const ShadowMap map = map_of_cube(size);
+    for (const auto& [a, b] : {std::pair{1.0f, 0.0f}, {1.0f, 2.0f}, {-1.0f, 0.5f}}) {
+        const double of_a_texel = (std::abs(a) + std::abs(b)) / 2 / size;
+        for (const int radius : {0, 1, 2, 3}) {
+            const Receiver at =
+                receiver(map, Bias::slope, radius, plane_in_cube(a, b), to_the_light);
+            const double bias = at.bias + at.bias_per_w;
+            EXPECT_GE(bias, (radius + 0.5) * of_a_texel);
+            EXPECT_LE(bias, (radius + 0.5 + beyond_ideal) * of_a_texel);
+            EXPECT_EQ(at.slope, vec2(0));
+            EXPECT_EQ(at.offset, vec3(0));
+        }
+    }
+    const Receiver flat = receiver(map, Bias::slope, 3, plane_in_cube(0, 0), to_the_light);
+    EXPECT_LE(flat.bias + flat.bias_per_w, 3e-5f);  // roundings are left
+    EXPECT_GT(flat.bias + flat.bias_per_w, 0);
+}
+
+TEST(ShadowMaps, Eq9_10_HardCase_LitPlanesAtSlopesFrom0To50HaveNoShadow) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> any(-20, 20);
+    long asked = 0;
+    for (const int size : {256, 512, 1024, 2048, 4096})
+        for (const LightKind kind : kinds)
+            for (const float tilt : tilts) {
+                const float x = any(random), y = any(random), z = any(random);
+                const TiltedPlane plane(random, kind, tilt, size == 512 ? vec3(x, y, z) : vec3(0));
+                const LightMaps maps(plane.light, std::span(&plane.mesh, 1), size);
+                ASSERT_FALSE(maps.maps.empty());
+                for (const PointOn& p : points_on(plane.mesh, random, 8))
+                    for (const Bias bias : fitted)
+                        for (const int radius : {0, 1, 2, 3}) {
+                            ASSERT_EQ(maps.share(bias, radius, p.corners, p.point), 1)
+                                << "seed 2: size " << size << ", light " << int(kind) << ", tilt "
+                                << tilt << ", bias " << int(bias) << ", radius " << radius;
+                            ++asked;
+                        }
+            }
+    EXPECT_EQ(asked, 5L * 3 * 6 * 50 * 8 * 3 * 4);
+}
+
+TEST(ShadowMaps, Eq9_10_LessThanTheDerivedBiasIsTooLittle) {
+    // What a plane needs at worst comes close to what is derived: nothing is given away.
+    std::mt19937 random(3);
+    for (const LightKind kind : {LightKind::directional, LightKind::spot})
+        for (const int radius : {0, 1, 3}) {
+            const TiltedPlane plane(random, kind, 3, vec3(0));
+            const LightMaps maps(plane.light, std::span(&plane.mesh, 1), 128);
+            int dark_of_less = 0, dark_without = 0;
+            for (const PointOn& p : points_on(plane.mesh, random, 400)) {
+                const ShadowMap& map = maps.map_for(p.point);
+                Receiver at = receiver(map, Bias::slope, radius, p.corners, maps.toward(p.point));
+                const auto share = [&] {
+                    return radius == 0   ? lit_share<0>(map, at, p.point)
+                           : radius == 1 ? lit_share<1>(map, at, p.point)
+                                         : lit_share<3>(map, at, p.point);
+                };
+                EXPECT_EQ(share(), 1);
+                at.bias *= 0.9f, at.bias_per_w = 0;
+                dark_of_less += share() < 1;
+                at.bias = 0;
+                dark_without += share() < 1;
+            }
+            EXPECT_GT(dark_of_less, 20) << "light " << int(kind) << ", radius " << radius;
+            EXPECT_GT(dark_without, 9000) << "light " << int(kind) << ", radius " << radius;
+        }
+}
+
+TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
+    constexpr int size = 512;
+    const ShadowMap map = map_of_cube(size);
+    const Receiver at = receiver(map, Bias::plane, 3, plane_in_cube(1, -2), to_the_light);
+    EXPECT_NEAR(at.slope.x, 0.5 / size, 1e-9);
+    EXPECT_NEAR(at.slope.y, 1.0 / size, 1e-9);  // down is -y
+    // Snapping and roundings are left, whatever the radius.
+    EXPECT_LT(at.bias + at.bias_per_w, (1.0 / 512 + beyond_ideal) * 1.5 / size);
+    EXPECT_EQ(receiver(map, Bias::plane, 0, plane_in_cube(1, -2), to_the_light).bias, at.bias);
+
+    // A plate this little in front of a tilted plane shadows it; half a texel's slope would not.
+    ShadowMap with_plate = map_of_cube(size);
+    const auto depth_of_plane = [&](ivec2 texel) {
+        const vec2 center = (vec2(texel) + 0.5f) * (2.0f / size) - 1.0f;
+        return 0.5f + 0.25f * (center.x + 2 * center.y);
+    };
+    constexpr float gap = 0.1f * 1.5f / size;
+    for (int y = 200; y < 300; ++y)
+        for (int x = 200; x < 300; ++x)
+            with_plate.depths.test_and_write(ivec2(x, y) + most_pcf_radius,
+                                             depth_of_plane({x, y}) - gap);
+    for (const float side : {-0.45f, 0.0f, 0.45f}) {
+        const vec2 place = vec2(250.5f + side, 250.5f - side) * (2.0f / size) - 1.0f;
+        const vec3 point(place.x, -place.y, 0.5f * (place.x + 2 * place.y));
+        EXPECT_EQ(lit_share<3>(with_plate, at, point), 0) << side;
+        const Receiver sloped = receiver(map, Bias::slope, 0, plane_in_cube(1, -2), to_the_light);
+        EXPECT_EQ(lit_share<0>(with_plate, sloped, point), 1) << side;
+    }
+}
+
+TEST(ShadowMaps, Eq9_12_TheOffsetAlongTheNormal) {
+    // The sun's texels are 2/512 wide: a plane that leans by 3 : 4 along x moves by
+    // (r + 1/2) 2/512 3/5, and nothing is taken off its depth.
+    constexpr int size = 512;
+    const ShadowMap map = map_of_cube(size);
+    const Receiver at = receiver(map, Bias::normal, 1, plane_in_cube(1.5f, 0), to_the_light);
+    EXPECT_EQ(at.bias, 0);
+    const dvec3 offset = dvec3(at.offset) + dvec3(at.offset_times_w);
+    EXPECT_GE(glm::length(offset), 1.5 * 2 / size * 0.6);
+    EXPECT_LE(glm::length(offset), (1.5 + beyond_ideal) * 2 / size * 0.6);
+    EXPECT_NEAR(glm::dot(glm::normalize(offset), dvec3(0.6, 0, -0.8)), 1, 1e-6);  // to the light
+    // Even edge-on it is no longer than that of two sides of a texel.
+    const Corners edge_on = {vec3(0), vec3(1, 1, 0), vec3(0, 0, 1)};
+    const Receiver steep = receiver(map, Bias::normal, 1, edge_on, {1, -1, -1e-3f});
+    EXPECT_LE(glm::length(steep.offset + steep.offset_times_w), 1.51 * std::sqrt(2) * 2 / size);
+}
+
+TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
+    look_up("Eq. 9.8");
+    struct Row {
+        Corners corners;
+        bool is_edge_on;
+    };
+    std::vector<Row> triangles = {
+        {{vec3(0), vec3(1, 0, 0), vec3(0, 0, 1)}, true},     // 0/0 across y, infinite along it
+        {{vec3(0), vec3(0, 1, 0), vec3(0, 0, 1)}, true},     // the same along x
+        {{vec3(0.25f), vec3(0.25f), vec3(0.25f)}, true},     // no area
+        {{vec3(0), vec3(0, 0, 0.5f), vec3(0, 0, 1)}, true},  // a line along the light
+        {{vec3(0), vec3(1, 0, 1e-30f), vec3(0, 0, 1)}, true},
+        {{vec3(-1e30f), vec3(1e30f, 0, 0), vec3(0, 1, 1)}, false},
+        {{vec3(0), vec3(1e-38f, 0, 0), vec3(0, 1e-38f, 0)}, false}};
+    for (const float lean : {1e-3f, 1e-6f, 1e-9f, 1e-20f, 1e-38f})
+        for (const float side : {1.0f, -1.0f})
+            triangles.push_back({{vec3(0), vec3(1, 0, 0), vec3(0, lean * side, 1)}, true});
+    ShadowMap map = map_of_cube(64);
+    for (int i = 0; i < 64; ++i) map.depths.test_and_write(ivec2(i) + most_pcf_radius, 0.3f);
+    for (const auto& [corners, is_edge_on] : triangles)
+        for (const Bias bias : {Bias::none, Bias::constant, Bias::slope, Bias::plane, Bias::normal})
+            for (const vec3 outward : {to_the_light, vec3(0, 1, -1), vec3(0)}) {
+                const Receiver at = receiver(map, bias, 3, corners, outward);
+                for (const float number :
+                     {at.slope.x, at.slope.y, at.bias, at.bias_per_w, at.offset.x, at.offset.y,
+                      at.offset.z, at.offset_times_w.x, at.offset_times_w.y, at.offset_times_w.z})
+                    EXPECT_TRUE(std::abs(number) <= 3) << int(bias) << ": " << number;
+                for (const float depth : {0.0f, 0.3f, 1.0f}) {
+                    const float share = lit_share<3>(map, at, {0, 0, 2 * depth - 1});
+                    EXPECT_TRUE(share >= 0 && share <= 1) << share;
+                }
+                if (is_edge_on && (bias == Bias::slope || bias == Bias::plane)) {
+                    EXPECT_EQ(lit_share<3>(map, at, {0, 0, 1}), 1) << "edge-on is lit";
+                }
+            }
+}
+
+TEST(ShadowMaps, HardCase_ATriangleTurnedAwayIsLeftToItsNormals) {
+    look_up("Eq. 9.8");
+    ShadowMap map = map_of_cube(8);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) map.depths.test_and_write(ivec2(x, y) + most_pcf_radius, 0.0f);
+    const vec3 point(0.1f, 0.1f, 0.5f);
+    for (const Bias bias : fitted) {
+        const auto share = [&](vec3 outward) {
+            return lit_share<1>(map, receiver(map, bias, 1, plane_in_cube(1, 1), outward), point);
+        };
+        EXPECT_EQ(share(to_the_light), 0);
+        EXPECT_EQ(share(-to_the_light), 1);
+    }
+}
+
+TEST(ShadowMaps, Eq9_14_AThinWallLeaksAtItsFootNoMoreThanTheBias) {
+    // A wall of height 1 across x = 0 on a floor at 0; the sun shines from -x.
+    const Mesh floor =
+        mesh_of({{-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}}, {{0, 2, 1}, {0, 3, 2}});
+    const Mesh wall =
+        mesh_of({{0, 0, -2}, {0, 0, 2}, {0, 1, 2}, {0, 1, -2}}, {{0, 1, 2}, {0, 2, 3}});
+    const std::array meshes = {floor, wall};
+    for (const double elevation_degrees : {15.0, 30.0, 45.0, 60.0})
+        for (const int size : {256, 1024})
+            for (const int radius : {0, 1, 3}) {
+                const double e = glm::radians(elevation_degrees);
+                const Light light = sun(vec3(-std::cos(e), std::sin(e), 0));
+                const LightMaps maps(light, meshes, size);
+                const ShadowMap& map = maps.maps[0];
+                const Corners corners = corners_in(floor, floor.triangles[0]);
+                const dmat4 rows = glm::transpose(dmat4(map.texels_from_world));
+                const double depth_a_unit = glm::length(dvec3(rows[2]));
+                const double texel =
+                    1 / std::min(glm::length(dvec3(rows[0])), glm::length(dvec3(rows[1])));
+                for (const Bias bias : fitted) {
+                    const Receiver at = receiver(map, bias, radius, corners, {0, 1, 0});
+                    // In world: what is taken off along the ray; a shift along the floor's normal
+                    // lifts the point by as much as it is.
+                    const double along_ray =
+                        (at.bias + at.bias_per_w) / depth_a_unit +
+                        glm::length(dvec3(at.offset + at.offset_times_w)) / std::sin(e);
+                    const double height = along_ray * std::sin(e);
+                    const double blur = (radius + 1) * texel * std::sqrt(2) / std::sin(e);
+                    const double end_of_shadow = 1 / std::tan(e) - 2 * blur - height;
+                    const double bound = height / std::tan(e) + blur;
+                    double leak = 0;
+                    for (double x = 1e-4; x < end_of_shadow; x += texel / 7)
+                        for (const float z : {-0.73f, 0.11f, 1.01f})
+                            if (maps.share(bias, radius, corners, vec3(x, 0, z)) > 0) leak = x;
+                    EXPECT_LE(leak, bound) << elevation_degrees << " degrees, size " << size
+                                           << ", radius " << radius << ", bias " << int(bias);
+                    if (bias == Bias::slope && radius > 0) {
+                        EXPECT_GT(leak, 0.2 * height / std::tan(e)) << "the bound is not idle";
+                    }
+                }
+            }
+}
+
+TEST(ShadowMaps, HardCase_AThinSlabOnTheFloorHasItsShadowFromTwiceTheBiasOn) {
+    look_up("Eq. 9.14");
+    const Mesh floor =
+        mesh_of({{-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}}, {{0, 2, 1}, {0, 3, 2}});
+    const double e = glm::radians(40.0);
+    constexpr int size = 512, radius = 1;
+    for (const Bias bias : fitted)
+        for (const double heights : {0.05, bias == Bias::plane ? 1.1 : 2.1}) {
+            const auto with_slab = [&](float h) {
+                return std::array{floor, mesh_of({{-2, h, -2}, {1, h, -2}, {1, h, 2}, {-2, h, 2}},
+                                                 {{0, 2, 1}, {0, 3, 2}})};
+            };
+            const Light light = sun(vec3(-std::cos(e), std::sin(e), 0));
+            const Corners corners = corners_in(floor, floor.triangles[0]);
+            const LightMaps low(light, with_slab(0.01f), size);  // its map is much the same
+            const Receiver at = receiver(low.maps[0], bias, radius, corners, {0, 1, 0});
+            const dmat4 rows = glm::transpose(dmat4(low.maps[0].texels_from_world));
+            const double height =
+                (at.bias + at.bias_per_w) / glm::length(dvec3(rows[2])) * std::sin(e) +
+                glm::length(dvec3(at.offset + at.offset_times_w));
+            const auto h = static_cast<float>(heights * height);
+            const LightMaps maps(light, with_slab(h), size);
+            // Under the slab. Its own depth changes within the look-up, too, by as much as the bias
+            // allows for; compared at the texels' centres, it does not.
+            const float share = maps.share(bias, radius, corners, {-0.513f, 0, 0.271f});
+            if (heights > 1) {
+                EXPECT_EQ(share, 0) << int(bias);
+            } else if (bias == Bias::slope) {
+                EXPECT_GT(share, 0.3f) << int(bias);
+            }
+        }
+}
+
+TEST(ShadowMaps, Eq9_15_RoundingsStayBelowWhatIsAllowedForThem) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> any(-1, 1), share(0, 1);
+    double greatest = 0;
+    for (int i = 0; i < 60; ++i) {
+        const LightKind kind = kinds[static_cast<std::size_t>(i) % 3];
+        const float x = any(random), y = any(random), z = any(random);
+        const TiltedPlane plane(random, kind, 1, 50.0f * vec3(x, y, z));
+        const LightViews views =
+            light_views(plane.light, plane.mesh.bounds, plane.mesh.bounds, 512);
+        for (const PointOn& p : points_on(plane.mesh, random, 2)) {
+            const std::size_t face =
+                views.count == 6 ? cube_face(p.point - plane.light.position_world) : 0;
+            const ShadowMap map(views.clip_from_world[face], views.is_perspective, 512,
+                                plane.mesh.bounds);
+            const mat4& m = map.texels_from_world;
+            const vec4 computed = m[0] * p.point.x + m[1] * p.point.y + m[2] * p.point.z + m[3];
+            const glm::mat<4, 4, real> exact_m =
+                glm::mat<4, 4, real>(viewport<double>(ivec2(512))) *
+                glm::mat<4, 4, real>(map.clip_from_world);
+            const lvec4 exact = exact_m * lvec4(lvec3(p.point), 1);
+            const real w = exact.w;
+            for (int axis = 0; axis < 2; ++axis)
+                greatest = std::max(
+                    greatest, double(std::abs(computed[axis] / computed.w - exact[axis] / w) * w /
+                                     real(map.rounding_texels)));
+            greatest = std::max(greatest, double(std::abs(computed.z / computed.w - exact.z / w) *
+                                                 w / real(map.rounding_depth)));
+        }
+    }
+    EXPECT_LE(greatest, 0.5);    // the other half is for the map's side
+    EXPECT_GT(greatest, 0.005);  // and the bound is not out of proportion
+}

@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: MIT
+// What calls for shadows, shadows of scenes against rays, numbers of all kinds, and the pictures.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+// All that the lesson's main.cpp includes, so that it can be included within a namespace.
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "05_textures/textured_scene.hpp"
+#include "06_phong/fragments.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "08_normal_maps/bumpy_scene.hpp"
+#include "08_normal_maps/normal_map_variants.hpp"
+#include "09_shadow_maps/shadow_variants.hpp"
+#include "09_shadow_maps/shadowed_scene.hpp"
+#include "common/backdrop.hpp"
+#include "common/lesson_app.hpp"
+#include "common/obj.hpp"
+#include "support/golden.hpp"
+#include "support/light_maps.hpp"
+#include "support/look_up.hpp"
+#include "support/one_triangle.hpp"
+#include "support/printers.hpp"
+#include "support/shadow_points.hpp"
+
+namespace lesson {
+#define main main_of_lesson
+#include "09_shadow_maps/main.cpp"
+#undef main
+}  // namespace lesson
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path models = fs::path(RASTERBOOK_ASSETS) / "models";
+constexpr std::array kinds = {LightKind::directional, LightKind::point, LightKind::spot};
+
+lesson::Options small_picture() {
+    lesson::Options options;
+    options.size = {320, 180};
+    options.shadow.size = 256;
+    return options;
+}
+
+std::uint64_t count(const Counters& counters, Counter counter) {
+    return counters.values[static_cast<std::size_t>(counter)];
+}
+
+bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+bool is_finite(const Image<vec3>& picture) {
+    return std::ranges::all_of(picture.pixels(), [](vec3 c) {
+        return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+    });
+}
+
+Scene loaded(const char* name) { return load_obj(models / name); }
+
+/// The scene with a change of all of its materials.
+template <typename Change>
+Scene with_materials(Scene scene, Change&& change) {
+    for (Material& material : scene.materials) change(material);
+    return scene;
+}
+
+Mesh quad(vec3 a, vec3 b, vec3 c, vec3 d) { return mesh_of({a, b, c, d}, {{0, 1, 2}, {0, 2, 3}}); }
+
+/// The six sides of a box, seen from inside and outside.
+Mesh closed_box(vec3 low, vec3 high) {
+    std::vector<vec3> positions;
+    for (int i = 0; i < 8; ++i)
+        positions.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y,
+                               i & 4 ? high.z : low.z);
+    return mesh_of(positions, {{0, 1, 3},
+                               {0, 3, 2},
+                               {4, 5, 7},
+                               {4, 7, 6},
+                               {0, 1, 5},
+                               {0, 5, 4},
+                               {2, 3, 7},
+                               {2, 7, 6},
+                               {0, 2, 6},
+                               {0, 6, 4},
+                               {1, 3, 7},
+                               {1, 7, 5}});
+}
+
+Light lamp_at(vec3 position) { return {LightKind::point, vec3(1), vec3(0, 1, 0), position}; }
+
+}  // namespace
+
+TEST(ShadowMaps, Eq9_16_LightFadesOutWhereASurfaceTurnsAway) {
+    // A floor in the sun; the normals of its points say how they stand to it.
+    lesson::Options options = small_picture();
+    Scene scene;
+    scene.meshes.push_back(quad({-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}));
+    scene.materials.resize(1);
+    const ShadowedScene shadowed(scene, options);
+    const std::array lights = {sun({0, 1, 0}), sun({0, 1, 0})};
+    Counters counters;
+    const Shadows shadows(options.shadow, false, shadowed, lights, counters);
+    TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
+    LitPoints points;
+    const std::array cosines = {1.0f, 0.5f, 0.1f, 0.05f, 0.01f, 0.0f, -0.01f, -1.0f};
+    for (const float cosine : cosines) {
+        const vec3 normal(std::sqrt(1 - cosine * cosine), cosine, 0);
+        points.position_world.set(points.count, {-0.5f, 0, 0.3f});
+        points.normal_world.set(points.count, 3.0f * normal);  // of any length
+        ++points.count;
+    }
+    shadow.look_up(points, counters);
+    for (std::size_t i = 0; i < cosines.size(); ++i) {
+        EXPECT_NEAR(shadow(0, i), std::clamp(cosines[i] / 0.1f, 0.0f, 1.0f), 1e-6f) << cosines[i];
+        EXPECT_EQ(shadow(1, i), 1) << "the sky has no shadows";
+    }
+    EXPECT_EQ(count(counters, Counter::shadow_lookups), 5u) << "only of those that face the sun";
+}
+
+TEST(ShadowMaps, HardCase_OnlyWhatCallsForShadowsGetsThem) {
+    look_up("Eq. 9.3");
+    const auto unlit = [](Material& m) { m.illumination = 0; };
+    const auto glass = [](Material& m) { m.opacity = 0.5f; };
+    struct Row {
+        const char* name;
+        Scene scene;
+        bool has_shadows, has_light;
+    };
+    for (const auto& [name, scene, has_shadows, has_light] :
+         {Row{"scene_bumpy", loaded("scene_bumpy.obj"), true, true},
+          Row{"scene", loaded("scene.obj"), true, true},
+          Row{"floor", loaded("floor.obj"), true, true},
+          Row{"unlit", with_materials(loaded("scene.obj"), unlit), false, false},
+          Row{"glass", with_materials(loaded("scene.obj"), glass), false, true}})
+        for (const LightKind kind : kinds) {
+            lesson::Options options = small_picture();
+            options.shading.key_light = kind;
+            Counters counters, all;
+            lesson::render(options, ShadowedScene(scene, options), counters);
+            EXPECT_EQ(count(counters, Counter::shadow_passes) > 0, has_shadows) << name;
+            EXPECT_EQ(count(counters, Counter::shadow_fragments) > 0, has_shadows) << name;
+            EXPECT_EQ(count(counters, Counter::shadow_lookups) > 0, has_shadows) << name;
+            EXPECT_LE(count(counters, Counter::shadow_passes), kind == LightKind::point ? 6u : 1u);
+            EXPECT_LE(count(counters, Counter::shadow_lookups),
+                      count(counters, Counter::fragments_lit));
+
+            options.shading.all_effects = true;
+            lesson::render(options, ShadowedScene(scene, options), all);
+            EXPECT_GE(count(all, Counter::shadow_passes), 2u) << name;
+            EXPECT_EQ(count(all, Counter::shadow_fragments),
+                      count(counters, Counter::shadow_fragments))
+                << name << ": nothing is drawn into a map that nothing calls for";
+            EXPECT_EQ(
+                count(all, Counter::shadow_lookups) > count(counters, Counter::shadow_lookups),
+                has_light)
+                << name;
+        }
+}
+
+TEST(ShadowMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
+    look_up("Eq. 9.3");
+    const auto glass = [](Material& m) { m.opacity = 0.5f; };
+    const auto some_unlit = [](Material& m) { m.illumination = m.name == "brick" ? 0 : 2; };
+    NoCounters none;
+    for (const Scene& scene : {loaded("scene_bumpy.obj"), loaded("scene.obj"), loaded("crate.obj"),
+                               with_materials(loaded("scene.obj"), glass),
+                               with_materials(loaded("scene_bumpy.obj"), some_unlit)})
+        for (const LightKind kind : kinds) {
+            lesson::Options options = small_picture();
+            options.shading.key_light = kind;
+            const Image<vec3> picture =
+                lesson::render(options, ShadowedScene(scene, options), none);
+            options.shading.all_effects = true;
+            const Image<vec3> with_all =
+                lesson::render(options, ShadowedScene(scene, options), none);
+            EXPECT_TRUE(are_the_same_bits(picture, with_all)) << "light " << int(kind);
+        }
+}
+
+TEST(ShadowMaps, HardCase_UnlitAndClearMaterialsThrowNoShadow) {
+    look_up("Eq. 9.3");
+    // A plate above a floor; the point below it is looked up.
+    for (const auto& [illumination, opacity, is_dark] :
+         {std::tuple{2, 1.0f, true}, {1, 1.0f, true}, {0, 1.0f, false}, {2, 0.5f, false}}) {
+        lesson::Options options = small_picture();
+        Scene scene;
+        scene.meshes.push_back(quad({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}));
+        scene.meshes.push_back(quad({-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}));
+        scene.materials.resize(2);
+        for (Triangle& triangle : scene.meshes[1].triangles) triangle.material = 1;
+        scene.materials[1].illumination = illumination, scene.materials[1].opacity = opacity;
+        const ShadowedScene shadowed(scene, options);
+        const std::array lights = {sun({0, 1, 0}), sun({0, 1, 0})};
+        NoCounters none;
+        const Shadows shadows(options.shadow, false, shadowed, lights, none);
+        TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
+        LitPoints points;
+        points.position_world.set(0, {-0.3f, 0, 0.2f}), points.normal_world.set(0, {0, 1, 0});
+        points.position_world.set(1, {-2, 0, 2}), points.normal_world.set(1, {0, 1, 0});
+        points.count = 2;
+        shadow.look_up(points, none);
+        EXPECT_EQ(shadow(0, 0), is_dark ? 0 : 1) << illumination << ", " << opacity;
+        EXPECT_EQ(shadow(0, 1), 1);
+    }
+}
+
+TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {
+    look_up("Eq. 9.7");
+    lesson::Options options;
+    const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
+    const Camera camera = orbit_camera(options.orbit, scene.bounds());
+    const std::vector<SeenPoint> points = seen_points(scene.meshes, camera, {160, 90});
+    ASSERT_GT(points.size(), 5000u);
+    const double size = scene.bounds().radius();
+    constexpr int texels = 1024, radius = 1;
+    for (const LightKind kind : kinds) {
+        const Light light = raking_lights(kind, scene.bounds())[0];
+        const LightMaps maps(light, scene.meshes, texels);
+        const LightRays rays(light, RayCaster::of(scene.meshes, [](std::size_t) { return true; }),
+                             size);
+        int judged = 0, dark = 0;
+        std::array<int, 5> wrong{};
+        for (const SeenPoint& p : points) {
+            const vec3 toward = glm::normalize(maps.toward(p.position));
+            const float cosine = glm::dot(p.normal, toward);
+            // Where light grazes, triangles shadow each other as a smooth surface would not.
+            if (cosine < 0.25f) continue;
+            // Three texels on the surface; those of the lamp are up to 2/1024 of the way wide.
+            const double texel = 2.5 * size / texels;
+            if (!rays.is_far_from_edges(p.position, p.normal, 3 * texel / cosine)) continue;
+            const auto distance = rays.distance_to_caster(p.position);
+            if (distance && *distance < 10 * texel / cosine) continue;  // it may leak there
+            ++judged, dark += distance.has_value();
+            for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal})
+                wrong[static_cast<std::size_t>(bias)] +=
+                    maps.share(bias, radius, p.corners, p.position) != (distance ? 0 : 1);
+        }
+        // Where a surface is hollow, as between the body and the spout, a triangle's plane lies
+        // behind its neighbours: a few look-ups are a ninth too dark.
+        for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal})
+            EXPECT_LE(wrong[static_cast<std::size_t>(bias)], judged / 1000)
+                << "of " << judged << ", light " << int(kind) << ", bias " << int(bias);
+        EXPECT_GT(judged, 2000) << "light " << int(kind);
+        EXPECT_GT(dark, 200) << "light " << int(kind);
+    }
+}
+
+TEST(ShadowMaps, HardCase_SixMapsHaveNoSeams) {
+    look_up("Eq. 9.5");
+    // A lamp in a room, and a ball-like cloud of small plates around it: where the plates' shadows
+    // cross from one map into another, they go on.
+    const Mesh room = closed_box({-4, -3, -5}, {5, 4, 3});
+    Mesh plates = quad({0.5f, 0.5f, -1}, {0.5f, 0.7f, 1}, {0.7f, 0.5f, 1}, {0.7f, 0.5f, -1});
+    const Light lamp = lamp_at({0.1f, 0.2f, -0.3f});
+    const std::array with_plates = {room, plates};
+    const LightMaps empty(lamp, std::span(&room, 1), 256), maps(lamp, with_plates, 256);
+    const LightRays rays(lamp, RayCaster::of(with_plates, [](std::size_t) { return true; }), 8);
+    const RayCaster walls = RayCaster::of(std::span(&room, 1), [](std::size_t) { return true; });
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> any(-1, 1);
+    int judged = 0, dark = 0;
+    for (int i = 0; i < 40000; ++i) {
+        // Near the border of two faces: two components of the way are nearly as large.
+        vec3 way(any(random), any(random), any(random));
+        const int a = i % 3, b = (a + 1) % 3, c = (a + 2) % 3;
+        way[a] = i & 4 ? 1.0f : -1.0f;
+        way[b] = (i & 8 ? 1.0f : -1.0f) * (1 + 0.03f * way[b]);
+        way[c] *= 0.9f;
+        for (const RayTriangle& t : walls.triangles()) {
+            const auto distance = distance_to({dvec3(lamp.position_world), dvec3(way)}, t);
+            if (!distance) continue;
+            const Corners corners = {vec3(t[0]), vec3(t[1]), vec3(t[2])};
+            const vec3 point = lamp.position_world + static_cast<float>(*distance) * way;
+            const dvec3 normal = glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]));
+            // Where walls meet, the other one stands in front of this one's plane.
+            const vec3 to_walls =
+                glm::min(glm::abs(point - room.bounds.min), glm::abs(point - room.bounds.max));
+            if (to_walls.x + to_walls.y + to_walls.z -
+                    std::max({to_walls.x, to_walls.y, to_walls.z}) <
+                0.4f)
+                break;
+            for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal})
+                for (const int radius : {0, 3})
+                    ASSERT_EQ(empty.share(bias, radius, corners, point), 1) << "seed 5, ray " << i;
+            if (!rays.is_far_from_edges(point, normal, 0.35)) break;
+            const bool is_lit = rays.is_lit(point);
+            ++judged, dark += !is_lit;
+            ASSERT_EQ(maps.share(Bias::plane, 1, corners, point), is_lit ? 1 : 0)
+                << "seed 5, ray " << i;
+            break;
+        }
+    }
+    EXPECT_GT(judged, 10000);
+    EXPECT_GT(dark, 100);
+}
+
+TEST(ShadowMaps, HardCase_ALightInsideAMesh) {
+    look_up("Eq. 9.5");
+    // A lamp and a spot in a closed box, in a room: the box is lit inside, the room is dark.
+    const Mesh room = closed_box(vec3(-4), vec3(4)), chest = closed_box(vec3(-1), vec3(1));
+    const std::array meshes = {room, chest};
+    Light spot = lamp_at({0.2f, 0.1f, -0.3f});
+    spot.kind = LightKind::spot, spot.direction_world = {0, -1, 0}, spot.cos_none = 0.6f;
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> any(-0.95f, 0.95f);
+    for (const Light& light : {lamp_at({0.2f, 0.1f, -0.3f}), spot}) {
+        const LightMaps maps(light, meshes, 256);
+        for (int i = 0; i < 1000; ++i) {
+            const vec3 under(any(random), -1, any(random));
+            const Corners floor_of_chest = {vec3(-1, -1, -1), vec3(1, -1, -1), vec3(1, -1, 1)};
+            const Corners floor_of_room = {vec3(-4, -4, -4), vec3(4, -4, -4), vec3(4, -4, 4)};
+            for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal}) {
+                ASSERT_EQ(maps.share(bias, 1, floor_of_chest, under), 1) << i;
+                // On the way on through the chest's floor.
+                const vec3 beyond = light.position_world + (4 + light.position_world.y) /
+                                                               (1 + light.position_world.y) *
+                                                               (under - light.position_world);
+                if (std::max(std::abs(beyond.x), std::abs(beyond.z)) > 3.9f) continue;
+                ASSERT_EQ(maps.share(bias, 1, floor_of_room, beyond), 0) << i;
+            }
+        }
+    }
+}
+
+TEST(ShadowMaps, HardCase_SpecialNumbersAtTheEntry) {
+    look_up("Eq. 9.7");
+    constexpr float tiny = std::numeric_limits<float>::denorm_min(),
+                    infinity = std::numeric_limits<float>::infinity();
+    constexpr float special[] = {0, tiny, -tiny,  1e-38f, 1e-20f, -1e-6f, 1,        -1,        0.5f,
+                                 3, 1e6f, -1e15f, 1e30f,  3e38f,  -3e38f, infinity, -infinity, NAN};
+    std::mt19937 random(7);
+    const auto any = [&](std::size_t of) { return special[random() % of]; };
+    const auto any_vector = [&](std::size_t of) {
+        const float x = any(of), y = any(of), z = any(of);
+        return vec3(x, y, z);
+    };
+    constexpr std::size_t finite = std::size(special) - 3, all = std::size(special);
+    int with_maps = 0;
+    for (int i = 0; i < 20000; ++i) {
+        Light light{kinds[random() % 3], vec3(1), unit_or(any_vector(finite), vec3(0, 1, 0)),
+                    any_vector(finite)};
+        light.cos_full = std::clamp(any(finite), -0.9f, 1.0f);
+        light.cos_none =
+            std::clamp(light.cos_full - std::abs(any(finite)), -1.0f, light.cos_full - 1e-6f);
+        Mesh mesh = mesh_of({any_vector(all), any_vector(all), any_vector(all)}, {{0, 1, 2}});
+        const LightMaps maps(light, std::span(&mesh, 1), 16);
+        with_maps += !maps.maps.empty();
+        for (const ShadowMap& map : maps.maps)
+            for (const float depth : map.depths.depths().pixels())
+                ASSERT_TRUE(depth >= 0 && depth <= 1) << "seed 7, case " << i << ": " << depth;
+        if (maps.maps.empty()) continue;
+        for (const Bias bias :
+             {Bias::none, Bias::constant, Bias::slope, Bias::plane, Bias::normal}) {
+            const float share = maps.share(bias, static_cast<int>(random() % 4),
+                                           corners_in(mesh, mesh.triangles[0]), any_vector(all));
+            ASSERT_TRUE(share >= 0 && share <= 1) << "seed 7, case " << i << ": " << share;
+        }
+    }
+    EXPECT_GT(with_maps, 1000);
+}
+
+TEST(ShadowMaps, HardCase_ModelsOfAllSizes) {
+    look_up("Eq. 9.6");
+    NoCounters none;
+    for (const LightKind kind : kinds) {
+        lesson::Options options = small_picture();
+        options.shading.key_light = kind;
+        const auto picture_of = [&](float scale) {
+            Scene scene = loaded("scene.obj");
+            for (Mesh& mesh : scene.meshes) {
+                mesh.bounds = {};
+                for (vec3& position : mesh.positions) mesh.bounds.add(position *= scale);
+            }
+            return lesson::render(options, ShadowedScene(scene, options), none);
+        };
+        const Image<vec3> picture = picture_of(1);
+        ASSERT_TRUE(is_finite(picture));
+        // By powers of two, not a digit is lost; at the ends of float some are.
+        EXPECT_TRUE(are_the_same_bits(picture, picture_of(0x1p20f))) << int(kind);
+        EXPECT_TRUE(are_the_same_bits(picture, picture_of(0x1p-20f))) << int(kind);
+        for (const float scale : {1e-30f, 1e-20f, 1e15f}) {
+            const Image<vec3> other = picture_of(scale);
+            ASSERT_TRUE(is_finite(other)) << scale;
+            int differing = 0;
+            for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
+                const vec3 by = glm::abs(picture.pixels()[i] - other.pixels()[i]);
+                differing += std::max({by.x, by.y, by.z}) > 0.05f;
+            }
+            EXPECT_LT(differing, 60) << "light " << int(kind) << ", scale " << scale;  // at edges
+        }
+    }
+}
+
+TEST(ShadowMaps, PictureOfTheSceneInTheSun) {
+    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps"));
+}
+
+TEST(ShadowMaps, PictureOfASpot) {
+    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_spot", {"--light", "spot"}));
+}
+
+TEST(ShadowMaps, PictureOfALamp) {
+    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_lamp", {"--light", "lamp"}));
+}
+
+TEST(ShadowMaps, PictureOfAcne) {
+    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_none",
+                              {"--bias", "none", "--shadow-size", "512"}));
+}
+
+TEST(ShadowMaps, PictureOfDetachedShadows) {
+    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_constant",
+                              {"--bias", "constant", "--shadow-size", "256"}));
+}
+
+TEST(ShadowMaps, PictureOfHardEdges) {
+    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_hard",
+                              {"--shadow-size", "256", "--pcf", "1"}));
+}
+
+TEST(ShadowMaps, PictureOfSoftEdges) {
+    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_soft",
+                              {"--shadow-size", "256", "--pcf", "7"}));
+}

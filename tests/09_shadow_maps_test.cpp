@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+// How lights see the scene, and what a look-up finds.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "09_shadow_maps/light_view.hpp"
+#include "09_shadow_maps/shadow_map.hpp"
+#include "support/look_up.hpp"
+#include "support/printers.hpp"
+#include "support/reference.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+Bounds box(vec3 low, vec3 high) { return {low, high}; }
+
+Light sun_at(vec3 toward) {
+    return {LightKind::directional, vec3(1), unit_or(toward, vec3(0, 1, 0))};
+}
+
+Light spot_at(vec3 position, vec3 target, float half_angle_degrees) {
+    Light light{LightKind::spot, vec3(1), unit_or(target - position, vec3(0, -1, 0)), position};
+    light.cos_none = std::cos(glm::radians(half_angle_degrees));
+    light.cos_full = 1;
+    return light;
+}
+
+Light lamp_at(vec3 position) { return {LightKind::point, vec3(1), vec3(0, 1, 0), position}; }
+
+dvec3 ndc(const mat4& clip_from_world, dvec3 point) {
+    const dvec4 clip = dmat4(clip_from_world) * dvec4(point, 1);
+    return dvec3(clip) / clip.w;
+}
+
+/// Of matrices in float; places in the tests' boxes are up to 10.
+constexpr double float_tolerance = 1e-5;
+
+class Anywhere {
+  public:
+    explicit Anywhere(unsigned seed) : random_(seed) {}
+    float one(float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random_);
+    }
+    vec3 in(const Bounds& b) {
+        const float x = one(b.min.x, b.max.x), y = one(b.min.y, b.max.y), z = one(b.min.z, b.max.z);
+        return {x, y, z};
+    }
+    vec3 direction() { return unit_or(in(box(vec3(-1), vec3(1))), vec3(0, 1, 0)); }
+
+  private:
+    std::mt19937 random_;
+};
+
+/// A map of 4 x 4 texels over the cube from -1 to 1, seen along -z: x = 2 (x_world + 1),
+/// y = 2 (1 - y_world), depth = (z_world + 1) / 2.
+ShadowMap small_map() { return {mat4(1), false, 4, box(vec3(-1), vec3(1))}; }
+
+/// Where the texel's centre is, at a depth.
+vec3 at_texel(float column, float row, float depth) {
+    return {(column + 0.5f) / 2 - 1, 1 - (row + 0.5f) / 2, 2 * depth - 1};
+}
+
+void put(ShadowMap& map, ivec2 texel, float depth) {
+    map.depths.test_and_write(texel + most_pcf_radius, depth);
+}
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
+
+TEST(ShadowMaps, Eq9_1_WhatLiesOnOneRayOfTheSunLiesOnOnePlaceOfItsMap) {
+    Anywhere anywhere(1);
+    const Bounds casters = box({-1, 0, -2}, {2, 3, 1}), receivers = box({-6, -1, -6}, {6, 0.5f, 6});
+    for (int i = 0; i < 300; ++i) {
+        vec3 toward = anywhere.direction();
+        toward.y = std::abs(toward.y) + 0.1f;
+        const Light sun = sun_at(toward);
+        const LightViews views = light_views(sun, casters, receivers, 256);
+        ASSERT_EQ(views.count, 1u) << "seed 1, case " << i;
+        EXPECT_FALSE(views.is_perspective);
+        const dvec3 point = anywhere.in(casters);
+        const dvec3 here = ndc(views.clip_from_world[0], point);
+        const dvec3 nearer = ndc(views.clip_from_world[0], point + dvec3(sun.direction_world));
+        EXPECT_NEAR(here.x, nearer.x, float_tolerance) << "seed 1, case " << i;
+        EXPECT_NEAR(here.y, nearer.y, float_tolerance) << "seed 1, case " << i;
+        EXPECT_LT(nearer.z, here.z) << "seed 1, case " << i;
+        // Right-handed, up is up: as a camera would see it.
+        const dvec3 higher = ndc(views.clip_from_world[0], point + dvec3(0, 1, 0));
+        EXPECT_GT(higher.y, here.y - float_tolerance) << "seed 1, case " << i;
+        EXPECT_NEAR(higher.x, here.x, float_tolerance) << "seed 1, case " << i;
+    }
+}
+
+TEST(ShadowMaps, Eq9_2_TheBoxFillsTheCube) {
+    const dmat4 m = crop({2, -1, 10}, {6, 1, 30});
+    const auto cropped = [&](dvec3 p) { return dvec3(m * dvec4(p, 1)); };
+    EXPECT_EQ(cropped({2, -1, 10}), dvec3(-1));
+    EXPECT_EQ(cropped({6, 1, 30}), dvec3(1));
+    EXPECT_EQ(cropped({5, 0, 20}), dvec3(0.5, 0, 0));  // the worked example
+    // Clip space: what is cropped is the quotient, and w stays.
+    const dvec4 clip = m * dvec4(3.0 * dvec3(5, 0, 20), 3);
+    EXPECT_EQ(clip, dvec4(1.5, 0, 0, 3));
+}
+
+TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
+    const LightBox casters{{0, 0, -5}, {4, 3, -1}}, receivers{{2, -9, -8}, {10, 2, -2}};
+    const LightBox region = shadow_region(casters, receivers);
+    EXPECT_EQ(region.low, dvec3(2, 0, -5));  // the worked example
+    EXPECT_EQ(region.high, dvec3(4, 2, -1));
+
+    // All of the casters is in the map, from the nearest, where receivers are all around.
+    Anywhere anywhere(2);
+    const Bounds some = box({-1, 0, -2}, {2, 3, 1}), all_around = box(vec3(-50), vec3(50));
+    for (int i = 0; i < 100; ++i) {
+        const LightViews views = light_views(sun_at(anywhere.direction()), some, all_around, 256);
+        dvec3 low(infinity), high(-infinity);
+        for (int corner = 0; corner < 8; ++corner) {
+            const dvec3 place = ndc(views.clip_from_world[0],
+                                    {corner & 1 ? 2 : -1, corner & 2 ? 3 : 0, corner & 4 ? 1 : -2});
+            low = glm::min(low, place), high = glm::max(high, place);
+        }
+        // Inside, and no more than the half percent beside it that rounding is allowed.
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_TRUE(low[axis] >= -1 && low[axis] < -0.99) << "seed 2, case " << i;
+            EXPECT_TRUE(high[axis] <= 1 && high[axis] > 0.99) << "seed 2, case " << i;
+        }
+    }
+}
+
+TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
+    look_up("Eq. 9.3");
+    const Bounds none, some = box(vec3(-1), vec3(1)), above = box({-1, 5, -1}, {1, 6, 1}),
+                       beside = box({5, -1, 5}, {6, 1, 6}),
+                       endless = box(vec3(-infinity), vec3(infinity)),
+                       no_numbers = box(vec3(not_a_number), vec3(not_a_number));
+    const Light lights[] = {sun_at({0, 1, 0}), spot_at({0, 3, 0}, {0, 0, 0}, 30),
+                            lamp_at({0, 3, 0})};
+    for (const Light& light : lights) {
+        const auto maps = [&](const Bounds& casters, const Bounds& receivers) {
+            return light_views(light, casters, receivers, 256).count;
+        };
+        EXPECT_GT(maps(some, some), 0u);
+        for (const Bounds& unusable : {none, endless, no_numbers}) {
+            EXPECT_EQ(maps(unusable, some), 0u);
+            EXPECT_EQ(maps(some, unusable), 0u);
+        }
+        EXPECT_EQ(maps(none, none), 0u);
+    }
+    EXPECT_GT(light_views(lights[0], above, some, 256).count, 0u);
+    EXPECT_EQ(light_views(lights[0], some, above, 256).count, 0u) << "the caster is below";
+    EXPECT_EQ(light_views(lights[0], some, beside, 256).count, 0u);
+    EXPECT_EQ(light_views(lights[1], above, some, 256).count, 0u) << "behind the spot";
+    EXPECT_EQ(light_views(lights[1], some, above, 256).count, 0u) << "behind the spot";
+}
+
+TEST(ShadowMaps, Eq9_4_ASpotsMapReachesToTheBorderOfItsCone) {
+    const Bounds all_around = box(vec3(-20), vec3(20));
+    Anywhere anywhere(3);
+    for (const float half_angle : {5.0f, 30.0f, 60.0f, 74.0f})
+        for (int i = 0; i < 50; ++i) {
+            const vec3 position = anywhere.in(box(vec3(-5), vec3(5)));
+            const Light spot = spot_at(position, position + anywhere.direction(), half_angle);
+            const LightViews views = light_views(spot, all_around, all_around, 256);
+            ASSERT_EQ(views.count, 1u);
+            EXPECT_TRUE(views.is_perspective);
+            // A circle around the axis, a bit inside of the cone, and a bit outside.
+            const dvec3 axis = spot.direction_world;
+            const dvec3 across = glm::normalize(glm::cross(axis, dvec3(anywhere.direction())));
+            const auto greatest = [&](double degrees) {
+                const double way_out = std::tan(glm::radians(degrees));
+                const dvec3 place = ndc(views.clip_from_world[0],
+                                        dvec3(position) + 3.0 * (axis + way_out * across));
+                return std::hypot(place.x, place.y);
+            };
+            EXPECT_LT(greatest(half_angle - 0.1), 1) << "seed 3, case " << i;
+            EXPECT_GT(greatest(half_angle + 0.3), 1) << "seed 3, case " << i;
+        }
+}
+
+TEST(ShadowMaps, Eq9_4_ASpotsMapIsCutDownToCastersAndReceivers) {
+    // Straight down from 10 high; the caster is a plate from 4 to 5, the floor is at 0.
+    const Light spot = spot_at({0, 10, 0}, {0, 0, 0}, 45);
+    const LightViews views =
+        light_views(spot, box({-1, 4, -1}, {1, 5, 1}), box({-9, 0, -9}, {9, 0, 9}), 256);
+    ASSERT_EQ(views.count, 1u);
+    const mat4& clip = views.clip_from_world[0];
+    const dvec3 corner = glm::abs(ndc(clip, {1, 5, 1}));  // the plate's top fills the map
+    EXPECT_NEAR(corner.x, 1, 0.005);
+    EXPECT_NEAR(corner.y, 1, 0.005);
+    const double nearest = ndc(clip, {0, 5, 0}).z, farthest = ndc(clip, {0, 4, 0}).z;
+    EXPECT_TRUE(nearest >= -1 && nearest < -0.95) << nearest;
+    EXPECT_TRUE(farthest <= 1 && farthest > 0.95) << farthest;
+}
+
+TEST(ShadowMaps, HardCase_AWideSpotGetsSixMaps) {
+    look_up("Eq. 9.4");
+    const Bounds around = box(vec3(-9), vec3(9));
+    for (const float half_angle : {76.0f, 90.0f, 120.0f, 179.0f}) {
+        const LightViews views =
+            light_views(spot_at({0, 3, 0}, {0, 0, 0}, half_angle), around, around, 64);
+        EXPECT_EQ(views.count, 6u) << half_angle;
+    }
+}
+
+TEST(ShadowMaps, Eq9_5_EachWayLiesWellInsideOfItsFace) {
+    constexpr int size = 64;
+    const vec3 position(1, 2, -3);
+    const Bounds around = box(vec3(-9), vec3(9));
+    const LightViews views = light_views(lamp_at(position), around, around, size);
+    ASSERT_EQ(views.count, 6u);
+    EXPECT_EQ(cube_face({0.5f, -0.8f, 0.3f}), 3u);  // the worked example: down
+    EXPECT_EQ(cube_face({2, 1, -1}), 0u);
+    EXPECT_EQ(cube_face({-2, 1, -1}), 1u);
+    EXPECT_EQ(cube_face({1, 2, -1}), 2u);
+    EXPECT_EQ(cube_face({1, 1, 3}), 4u);
+    EXPECT_EQ(cube_face({1, 1, -3}), 5u);
+    Anywhere anywhere(4);
+    // What a look-up of radius 3 asks beside a face's border, cube_margin - 3 texels are left.
+    constexpr double most = 1 - 2.0 * cube_margin / size + float_tolerance;
+    double greatest = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const vec3 way = anywhere.direction() * anywhere.one(0.5f, 6);
+        const dvec3 place =
+            ndc(views.clip_from_world[cube_face(way)], dvec3(position) + dvec3(way));
+        ASSERT_LE(std::abs(place.x), most) << "seed 4, case " << i;
+        ASSERT_LE(std::abs(place.y), most) << "seed 4, case " << i;
+        ASSERT_LE(std::abs(place.z), 1) << "seed 4, case " << i;
+        greatest = std::max({greatest, std::abs(place.x), std::abs(place.y)});
+    }
+    EXPECT_GT(greatest, most - 0.01);  // and no wider than that
+}
+
+TEST(ShadowMaps, HardCase_LightParallelToUp) {
+    look_up("Eq. 9.1");
+    const Bounds casters = box({-1, 0, -2}, {2, 3, 1}), around = box(vec3(-9), vec3(9));
+    std::vector<Light> lights;
+    for (const float tilt : {0.0f, 1e-30f, 1e-8f, 1e-6f, 1e-4f})
+        for (const float side : {1.0f, -1.0f}) {
+            lights.push_back(sun_at({tilt, side, 0}));
+            lights.push_back(sun_at({0, side, -tilt}));
+            lights.push_back(spot_at({0.5f, 5 * side, 0}, {0.5f, 5 * side - side, tilt}, 60));
+        }
+    for (const Light& light : lights) {
+        const LightViews views = light_views(light, casters, around, 256);
+        ASSERT_EQ(views.count, 1u);
+        const mat4& clip = views.clip_from_world[0];
+        // The map sees the casters from inside of it, with an area.
+        const dvec3 o = ndc(clip, {0, 1, 0}), x = ndc(clip, {1, 1, 0}), z = ndc(clip, {0, 1, -1});
+        for (const dvec3 place : {o, x, z})
+            EXPECT_TRUE(std::abs(place.x) <= 1 && std::abs(place.y) <= 1 && std::abs(place.z) <= 1)
+                << testing::PrintToString(vec3(place));
+        const double area = (x.x - o.x) * (z.y - o.y) - (x.y - o.y) * (z.x - o.x);
+        EXPECT_GT(std::abs(area), 0.1);
+    }
+}
+
+TEST(ShadowMaps, Eq9_6_PlacesAndDepthsInTheMap) {
+    const ShadowMap map = small_map();
+    const vec4 place = map.texels_from_world * vec4(0.25f, -0.5f, 0.5f, 1);
+    EXPECT_EQ(place, vec4(2.5f, 3, 0.75f, 1));  // the worked example
+    EXPECT_EQ(map.depths.depths().size(), ivec2(4 + 2 * most_pcf_radius));
+    for (const float depth : map.depths.depths().pixels()) EXPECT_EQ(depth, 1);
+}
+
+TEST(ShadowMaps, Eq9_7_LitIsWhatIsNotBehindTheMap) {
+    ShadowMap map = small_map();
+    put(map, {1, 2}, 0.5f);
+    Receiver none;
+    const auto is_lit = [&](vec3 point) { return lit_share<0>(map, none, point) == 1; };
+    EXPECT_TRUE(is_lit(at_texel(1, 2, 0.25f)));
+    EXPECT_TRUE(is_lit(at_texel(1, 2, 0.5f)));
+    EXPECT_FALSE(is_lit(at_texel(1, 2, 0.5001f)));
+    EXPECT_FALSE(is_lit(at_texel(1, 2, 7.0f))) << "far behind";
+    EXPECT_TRUE(is_lit(at_texel(1, 2, -7.0f))) << "far in front";
+    none.bias = 0.01f;
+    EXPECT_TRUE(is_lit(at_texel(1, 2, 0.505f)));
+    EXPECT_FALSE(is_lit(at_texel(1, 2, 0.515f)));
+    none.bias = 0;
+    // All of the texel, and none of its neighbours.
+    for (const float side : {-0.49f, 0.49f}) {
+        EXPECT_FALSE(is_lit(at_texel(1 + side, 2 - side, 0.75f)));
+        EXPECT_TRUE(is_lit(at_texel(1 + 1.1f * side, 2, 0.75f)));
+        EXPECT_TRUE(is_lit(at_texel(1, 2 + 1.1f * side, 0.75f)));
+    }
+    for (const float depth : {0.75f, 1.0f, 1.5f, 1e30f})
+        EXPECT_TRUE(is_lit(at_texel(2, 2, depth))) << "nothing is in front, " << depth;
+}
+
+TEST(ShadowMaps, HardCase_OutsideOfTheMapAllIsLit) {
+    look_up("Eq. 9.7");
+    ShadowMap map = small_map();
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) put(map, {x, y}, 0);
+    EXPECT_EQ(lit_share<3>(map, {}, at_texel(1, 1, 0.5f)), 33 / 49.0f);
+    EXPECT_EQ(lit_share<0>(map, {}, at_texel(0, 3, 0.5f)), 0);
+    for (const float beyond : {-0.6f, -3.0f, -1e9f, -1e38f, 3.6f, 4.0f, 1e9f, 1e38f, infinity,
+                               -infinity, not_a_number}) {
+        EXPECT_EQ(lit_share<3>(map, {}, at_texel(beyond, 1, 0.5f)), 1) << beyond;
+        EXPECT_EQ(lit_share<3>(map, {}, at_texel(1, beyond, 0.5f)), 1) << beyond;
+    }
+    EXPECT_EQ(lit_share<3>(map, {}, vec3(not_a_number)), 1);
+}
+
+TEST(ShadowMaps, HardCase_BehindASpotAllIsLit) {
+    look_up("Eq. 9.7");
+    const Light spot = spot_at({0, 0, 0}, {0, 0, -1}, 40);
+    const Bounds around = box(vec3(-5), vec3(5));
+    const LightViews views = light_views(spot, around, around, 16);
+    ASSERT_EQ(views.count, 1u);
+    ShadowMap map(views.clip_from_world[0], true, 16, around);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) put(map, {x, y}, 0);
+    EXPECT_EQ(lit_share<0>(map, {}, {0, 0, -2}), 0);
+    EXPECT_EQ(lit_share<0>(map, {}, {0, 0, 2}), 1);
+    EXPECT_EQ(lit_share<0>(map, {}, {0, 0, 0}), 1) << "in the light itself";
+    EXPECT_EQ(lit_share<0>(map, {}, {1, 1, 0}), 1) << "beside it";
+}
+
+TEST(ShadowMaps, Eq9_13_TheShareOfTexelsFromWhichThereIsLight) {
+    ShadowMap map = small_map();
+    for (const ivec2 texel : {ivec2(0, 0), ivec2(1, 1), ivec2(2, 1), ivec2(3, 3)})
+        put(map, texel, 0.5f);
+    const vec3 point = at_texel(1.3f, 0.8f, 0.75f);
+    EXPECT_EQ(lit_share<0>(map, {}, point), 0);
+    EXPECT_EQ(lit_share<1>(map, {}, point), 6 / 9.0f);  // the worked example
+    EXPECT_EQ(lit_share<2>(map, {}, point), 21 / 25.0f);
+    EXPECT_EQ(lit_share<3>(map, {}, point), 45 / 49.0f);
+    EXPECT_EQ(lit_share<1>(map, {}, at_texel(0, 3, 0.75f)), 1) << "at the map's corner";
+    // Comparisons, not depths, are averaged: the point in front is lit, however near the others.
+    EXPECT_EQ(lit_share<1>(map, {}, at_texel(1, 1, 0.4f)), 1);
+}

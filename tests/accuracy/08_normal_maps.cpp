@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Normal maps: where frames are computed, and how normals are stored. Also draws the picture of
+/// the page: how far each pixel's normal is off, in colour.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "accuracy/accuracy.hpp"
+#include "common/image_io.hpp"
+#include "support/bumpy_torus.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+struct Way {
+    const char* name;
+    NormalMapVariant variant;
+};
+
+const std::array<Way, 4> ways{{{"face", {.frame = FrameOf::face}},
+                               {"vertex", {}},
+                               {"vertex, mixed", {.orthonormal = Orthonormal::at_corners}},
+                               {"pixel", {.frame = FrameOf::pixel}}}};
+
+void add_frames() {
+    static Image<vec3> normals(BumpyTorus::size);
+    for (const auto& [name, variant] : ways)
+        for (const auto& [mesh, around, across] : {std::tuple{"coarse", 16, 8}, {"fine", 64, 32}}) {
+            const auto torus = std::make_shared<BumpyTorus>(around, across, variant);
+            const NormalErrors errors = normal_errors(*torus);
+            add_variant(
+                "frames", std::string(name) + ", " + mesh, errors.fragments,
+                {{"RMS error, degrees", errors.rms}, {"greatest", errors.greatest}}, [=] {
+                    torus->draw([](ivec2 pixel, vec3 normal, vec2) { normals[pixel] = normal; });
+                });
+        }
+}
+
+/// Directions out of a surface, evenly spread over half a sphere.
+std::vector<dvec3> directions(int count) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> any;
+    std::vector<dvec3> drawn;
+    for (int i = 0; i < count; ++i) {
+        dvec3 n(any(random), any(random), any(random));
+        n.z = std::abs(n.z);
+        drawn.push_back(glm::normalize(n));
+    }
+    return drawn;
+}
+
+using Codes = glm::vec<3, std::uint16_t>;
+
+/// @param code    Called as code(component, -1 to 1): the nearest code.
+/// @param decode  Called as decode(codes): the normal, of any length.
+template <typename Code, typename Decode>
+void add_storage(const char* name, Code code, Decode decode) {
+    const auto codes_of = [&](dvec3 n) { return Codes(code(n.x), code(n.y), code(n.z)); };
+    double greatest = 0, greatest_to_60 = 0, squares = 0;
+    const std::vector<dvec3> all = directions(1'000'000);
+    for (const dvec3 n : all) {
+        const auto off =
+            static_cast<double>(degrees_off(decode(codes_of(n)), TrueTorus::lvec3(n.x, n.y, n.z)));
+        greatest = std::max(greatest, off), squares += off * off;
+        if (n.z >= 0.5) greatest_to_60 = std::max(greatest_to_60, off);
+    }
+    const double flat =
+        static_cast<double>(degrees_off(decode(codes_of({0, 0, 1})), TrueTorus::lvec3(0, 0, 1)));
+    std::vector<Codes> some;
+    for (const dvec3 n : directions(4096)) some.push_back(codes_of(n));
+    add_variant("storage", name, static_cast<double>(some.size()),
+                {{"greatest error, degrees", greatest},
+                 {"greatest up to 60", greatest_to_60},
+                 {"RMS", std::sqrt(squares / static_cast<double>(all.size()))},
+                 {"flat", flat}},
+                [=] {
+                    [[maybe_unused]] volatile float sink;
+                    for (const Codes& codes : some) {
+                        const vec3 n = decode(codes);
+                        sink = n.x + n.y + n.z;
+                    }
+                });
+}
+
+template <int bits>
+void add_bits(const char* name, const char* name_of_two) {
+    const auto code = [](double component) {
+        return static_cast<std::uint16_t>(code_from_component(static_cast<float>(component), bits));
+    };
+    const auto decoded = [](Codes c) {
+        return vec3(component_from_code(c.x, bits), component_from_code(c.y, bits),
+                    component_from_code(c.z, bits));
+    };
+    add_storage(name, code, decoded);
+    add_storage(name_of_two, code, [=](Codes c) { return with_z(vec2(decoded(c))); });
+}
+
+/// From black over blue and red to yellow, in eight steps; an error of `most` and above is white.
+vec3 colour_of(double degrees, double most) {
+    static const std::array<vec3, 6> stops{vec3(0.02f, 0.02f, 0.05f), vec3(0.1f, 0.16f, 0.55f),
+                                           vec3(0.5f, 0.12f, 0.6f),   vec3(0.92f, 0.3f, 0.22f),
+                                           vec3(1.0f, 0.78f, 0.2f),   vec3(1.0f)};
+    const double step = std::min(std::floor(degrees / most * 8), 8.0) / 8 * 5;
+    const auto low = static_cast<std::size_t>(std::min(std::floor(step), 4.0));
+    return glm::mix(stops[low], stops[low + 1],
+                    static_cast<float>(step - static_cast<double>(low)));
+}
+
+/// Face and vertex above, mixed and pixel below, all of the coarse mesh; each 416 x 300. Below them
+/// the scale, 0 degrees on the left.
+void draw_angles(const std::filesystem::path& file) {
+    constexpr double most = 6;
+    constexpr int scale = 20;
+    const ivec2 each = BumpyTorus::size;
+    Image<u8vec3> picture({2 * each.x, 2 * each.y + scale}, {30, 34, 42});
+    const auto written = [](vec3 color) { return u8vec3(255.0f * color + 0.5f); };
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        const ivec2 corner(static_cast<int>(i % 2) * each.x, static_cast<int>(i / 2) * each.y);
+        BumpyTorus(16, 8, ways[i].variant).draw([&](ivec2 pixel, vec3 normal, vec2 uv) {
+            const auto off = degrees_off(normal, TrueTorus::normal(uv.x, uv.y));
+            picture[corner + pixel] = written(colour_of(static_cast<double>(off), most));
+        });
+    }
+    for (int x = 0; x < picture.size().x; ++x)
+        for (int y = 0; y < scale; ++y)
+            picture[{x, 2 * each.y + y}] =
+                written(colour_of(most * (9.0 / 8) * x / picture.size().x, most));
+    write_image(file, picture);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    draw_angles(std::filesystem::path(RASTERBOOK_ASSETS).parent_path() /
+                "docs/accuracy/08_normal_maps-angles.png");
+    add_frames();
+    add_bits<8>("8 bits", "8 bits, x y");
+    add_bits<10>("10 bits", "10 bits, x y");
+    add_bits<16>("16 bits", "16 bits, x y");
+    add_storage(
+        "8 bits, no 0",
+        [](double x) { return static_cast<std::uint16_t>(std::floor(127.5 * (x + 1) + 0.5)); },
+        [](Codes c) { return vec3(c) * (2 / 255.0f) - 1.0f; });
+    return measure_variants(argc, argv);
+}
