@@ -458,6 +458,6 @@ TEST(NormalMaps, PictureOfMapsInTheModelsSpace) {
         equals_golden("08_normal_maps", "08_normal_maps_object", {"--normal-map", "object"}));
 }
 
-TEST(NormalMaps, PictureWithoutMaps) {
+TEST(NormalMaps, PictureOfTheSceneWithoutMaps) {
     EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps_none", {"--normal-map", "none"}));
 }
