@@ -206,8 +206,7 @@ class TriangleRelief {
     float side_ = 1;       ///< -1 as seen from behind.
     float steepness_ = 1;  ///< -bm
     std::array<vec2, 3> uvs_;
-    std::array<vec3, 3>
-        tangents_;  ///< Of the corners; for FrameOf::pixel three times that of the face.
+    std::array<vec3, 3> tangents_;  ///< Of the corners, or thrice that of the face.
     float handedness_ = 1;
     TangentFrame face_;  ///< For FrameOf::face.
 };

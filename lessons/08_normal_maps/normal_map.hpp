@@ -15,8 +15,7 @@
 
 namespace rasterbook {
 
-/// Which way green leads in a normal map: up in the picture, as OpenGL has it, or down, as
-/// Direct3D.
+/// Which way green leads in a normal map: up in the picture as in OpenGL, or down as in Direct3D.
 enum class Green { up, down };
 
 /// A component of a normal, -1 to 1 (Eq. 8.1). The code in the middle is exactly 0, the greatest
@@ -93,8 +92,7 @@ inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentU
 /// @param frame       Of the surface; finite.
 /// @param normal_map  In that frame.
 /// @param normal      The surface's own, not yet scaled: it is left as it is, to the last bit,
-/// where
-///                    x and y are 0.
+///                    where x and y are 0.
 /// @return            Of any length; scaling comes last.
 inline vec3 tilted(const TangentFrame& frame, vec3 normal_map, vec3 normal) {
     const vec3 sum =

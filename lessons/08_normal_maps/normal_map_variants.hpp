@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Where frames are computed and how exactly, and how normals are stored, to be seen with
-/// `--frame`,
-/// `--orthonormal`, `--channels` and `--bits`, and measured in docs/accuracy/08_normal_maps.md; and
-/// what a map's codes mean: `--normal-map`, `--green`.
+/// `--frame`, `--orthonormal`, `--channels` and `--bits`, and measured in
+/// docs/accuracy/08_normal_maps.md; and what a map's codes mean: `--normal-map`, `--green`.
 #pragma once
 
 #include <cmath>
