@@ -229,6 +229,32 @@ TEST(NormalMaps, Eq8_4_HandednessSaysWhereTheBitangentLies) {
     }
 }
 
+TEST(NormalMaps, Eq8_4_HandednessIsExactWhereProductsAgree) {
+    // Two corners far out on the line u = v, and one near the origin, a little beside that line or
+    // on it. The determinant's products agree in all digits of a double, or nearly.
+    std::mt19937 random(6);
+    const auto whole = [&](int least, int most) {
+        return static_cast<float>(std::uniform_int_distribution(least, most)(random));
+    };
+    int agree = 0;
+    for (int i = 0; i < 10'000; ++i) {
+        const float first = 0x1p20f * whole(0x800000, 0xfffff0),
+                    second = first + 0x1p20f * whole(-3, 3);
+        const float u = whole(0, 0xfffff), v = u + whole(-3, 3);
+        const std::array<vec3, 3> p{vec3(0), along_x, along_y};
+        const std::array<vec2, 3> t{vec2(u, v), vec2(first), vec2(second)};
+        // The determinant is (first - second) (u - v): multiply it out.
+        const int expected = ((first > second) - (first < second)) * ((u > v) - (u < v));
+        EXPECT_EQ(uv_directions(p, t).handedness, expected) << "seed 6, case " << i;
+        // From each corner the same.
+        EXPECT_EQ(uv_directions(p, {t[1], t[2], t[0]}).handedness, expected) << "case " << i;
+        EXPECT_EQ(uv_directions(p, {t[2], t[0], t[1]}).handedness, expected) << "case " << i;
+        const dvec2 d1 = dvec2(t[1]) - dvec2(t[0]), d2 = dvec2(t[2]) - dvec2(t[0]);
+        agree += expected != 0 && d1.x * d2.y == d2.x * d1.y;
+    }
+    EXPECT_GT(agree, 5000);
+}
+
 TEST(NormalMaps, Eq8_5_WorkedExample) {
     const vec3 n(0.6f, 0.8f, 0);
     EXPECT_TRUE(are_near(across(along_x, n), {0.64f, -0.48f, 0}));

@@ -35,17 +35,17 @@ struct UvDirections {
 ///
 /// @param positions,uvs  Of the corners. Any numbers: what is not finite has no area.
 /// @return  Of one texture and surface whatever its size. The sides are taken from the first
-/// corner:
-///          another one that comes first changes roundings. In double, an error of 2^-51 times
-///          (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is exact
-///          where the differences of the uvs are: between numbers less than 2^29 times each other.
+///          corner: another one that comes first changes roundings. In double, an error of 2^-51
+///          times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is
+///          exact where the differences of the uvs are: between numbers that are 0 or less than
+///          2^29 times each other.
 inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
                                   const std::array<vec2, 3>& uvs) {
     // double: products of floats may overflow or vanish
     const dvec3 e1 = dvec3(positions[1]) - dvec3(positions[0]);
     const dvec3 e2 = dvec3(positions[2]) - dvec3(positions[0]);
     const dvec2 d1 = dvec2(uvs[1]) - dvec2(uvs[0]), d2 = dvec2(uvs[2]) - dvec2(uvs[0]);
-    const double determinant = d1.x * d2.y - d2.x * d1.y;
+    const double determinant = difference_of_products(d1.x, d2.y, d2.x, d1.y);
     const int handedness = (determinant > 0) - (determinant < 0);  // Eq. 8.4
     if (handedness == 0 || !std::isfinite(determinant)) return {};
     // Eq. 8.3. Only directions count: of what they are divided by, the sign is enough.
@@ -141,8 +141,8 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
                      {0, 0, 0}};
     const vec3 left = across(tangent, n);
     if (!(glm::dot(left, left) > 0x1p-40f)) return own;
-    const double angle = corner_angle_radians(mesh, triangle, corner);
-    const dvec3 share = angle * dvec3(unit_across(tangent, n));
+    const double angle_radians = corner_angle_radians(mesh, triangle, corner);
+    const dvec3 share = angle_radians * dvec3(unit_across(tangent, n));
     own.share = {std::llround(0x1p40 * share.x), std::llround(0x1p40 * share.y),
                  std::llround(0x1p40 * share.z)};
     return own;

@@ -35,14 +35,14 @@ struct UvDirections {
 ///
 /// @param positions,uvs  Of the corners. Any numbers: what is not finite has no area.
 /// @return  Of one texture and surface whatever its size. The sides are taken from the first
-/// corner:
-///          another one that comes first changes roundings. In double, an error of 2^-51 times
-///          (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is exact
-///          where the differences of the uvs are: between numbers less than 2^29 times each other.
+///          corner: another one that comes first changes roundings. In double, an error of 2^-51
+///          times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is
+///          exact where the differences of the uvs are: between numbers that are 0 or less than
+///          2^29 times each other.
 inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
                                   const std::array<vec2, 3>& uvs) {
-    // TODO: Eq. 8.3 and 8.4, in double, since products of floats may overflow or vanish. Where the
-    // determinant is 0 or not finite: {}.
+    // TODO: Eq. 8.3 and 8.4, in double, since products of floats may overflow or vanish; the
+    // determinant by difference_of_products(), for its sign. Where it is 0 or not finite: {}.
     return {};
 }
 
