@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A little robot of rounded shapes, that stands on a round platform with a crate behind it.
+/// A little robot of rounded shapes, that stands on a round platform and leans on a crate.
 #pragma once
 
 #include <cmath>
@@ -158,29 +158,29 @@ inline std::vector<Part> figure() {
         ellipsoid("lamp", {0, 1.3, 0.8}, {0.11, 0.11, 0.09}, 12),
         ring("trim", {0, 2.14, 0}, 0.4, 0.12),
         ellipsoid("cream", {0, 2.78, 0}, {0.92, 0.7, 0.78}, 32),
-        ellipsoid("glass", {0, 2.76, 0.52}, {0.7, 0.44, 0.39}, 24),
-        limb("steel", {0, 3.4, 0}, {0.06, 3.82, 0}, 0.07, 0.07, 8),
-        ellipsoid("lamp", {0.08, 3.94, 0}, {0.16, 0.16, 0.16}, 16),
-        limb("coat", {-0.6, 1.8, 0}, {-1.0, 1.16, 0.24}, 0.19, 0.16, 16),
-        ellipsoid("trim", {-1.04, 1.03, 0.29}, {0.24, 0.24, 0.24}, 16),
+        ellipsoid("glass", {0, 2.76, 0.5}, {0.7, 0.41, 0.45}, 24),
+        limb("steel", {0, 3.4, 0}, {0.06, 3.68, 0}, 0.1, 0.1, 8),
+        ellipsoid("lamp", {0.08, 3.82, 0}, {0.17, 0.17, 0.17}, 16),
+        limb("coat", {-0.6, 1.8, 0}, {-1.08, 1.47, 0.2}, 0.19, 0.16, 16),
+        ellipsoid("trim", {-1.2, 1.37, 0.25}, {0.24, 0.24, 0.24}, 16),
         limb("coat", {0.6, 1.8, 0}, {1.3, 2.24, 0.2}, 0.19, 0.16, 16),
         ellipsoid("trim", {1.42, 2.36, 0.24}, {0.24, 0.24, 0.24}, 16),
     };
     for (const double side : {-1.0, 1.0}) {
-        parts.push_back(ellipsoid("eyes", {0.26 * side, 2.8, 0.85}, {0.12, 0.17, 0.09}, 12));
+        parts.push_back(ellipsoid("eyes", {0.23 * side, 2.79, 0.91}, {0.14, 0.19, 0.16}, 12));
         parts.push_back(ellipsoid("trim", {0.92 * side, 2.78, 0}, {0.16, 0.3, 0.3}, 16));
         parts.push_back(
             limb("steel", {0.34 * side, 0.3, 0}, {0.32 * side, 0.9, 0}, 0.17, 0.17, 12));
         parts.push_back(ellipsoid("trim", {0.38 * side, 0.42, 0.14}, {0.32, 0.22, 0.46}, 16));
     }
-    for (Part& part : parts) part = placed(std::move(part), 12.0 / 13, -5.0 / 13, {0.5, 0, 0.2});
+    for (Part& part : parts) part = placed(std::move(part), 12.0 / 13, -5.0 / 13, {0.42, 0, 0});
     Part box = placed(crate("box"), 0.8, 0.6, {-2.4, 0.25, -2.2});
     for (Polygon& face : box.faces)
         for (Vertex& vertex : face)
             vertex.position =
-                dvec3(-1.05, 0.25, -0.8) + 0.46 * (vertex.position - dvec3(-2.4, 0.25, -2.2));
+                dvec3(-0.88, 0.25, -0.28) + 0.38 * (vertex.position - dvec3(-2.4, 0.25, -2.2));
     parts.push_back(std::move(box));
-    Part platform = revolved("platform", disc_profile(2.1, 0.25, 0.08, 2), 48, {});
+    Part platform = revolved("platform", disc_profile(1.75, 0.25, 0.03, 2), 48, {});
     platform.group = "platform";
     parts.push_back(std::move(platform));
     return parts;

@@ -22,7 +22,7 @@ struct Options : LessonOptions {
     TextureOptions texture;
     ToonVariant shading;
 
-    Options() { model = "figure.obj", orbit.distance = 2.25f, orbit.pitch_degrees = 13; }
+    Options() { model = "figure.obj", orbit.distance = 2.75f, orbit.pitch_degrees = 13; }
     void declare(Knobs& knobs) {
         knobs.flag("--depth", show_depth,
                    "Show the depth buffer: near is bright, nothing is black");
