@@ -57,7 +57,7 @@ inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3
 /// Draws the outline of a closed body: the faces on its far side, pushed outwards, in ink. What is
 /// in front hides all of them but for a rim of `width_px` pixels (Eq. 7.9).
 ///
-/// The rim is as wide everywhere that the body is round; at the sides of a cube it is 0.7 to 1
+/// The rim is as wide everywhere that the body is round; at the sides of a cube it is 0.577 to 1
 /// times as wide. A sheet that is not closed has no rim where it shows its front.
 ///
 /// @param normals  hull_normals() of the mesh.

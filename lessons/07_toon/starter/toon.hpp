@@ -56,10 +56,10 @@ constexpr float least_highlight = 0.5f;
 /// colours in the light of a level (Eq. 7.4). The colour of the lamps does not count, so that a
 /// band has one colour.
 ///
-/// @param color          Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
+/// @param color            Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
 /// @param from_all_around  Light, 0 to 1.
-/// @param level          Of the diffuse light, 0 to 1.
-/// @param is_highlight   Whether the fragment lies in a highlight.
+/// @param level            Of the diffuse light, 0 to 1.
+/// @param is_highlight     Whether the fragment lies in a highlight.
 inline vec3 paint(const SurfaceColor& color, vec3 from_all_around, float level, bool is_highlight) {
     // TODO: Eq. 7.4, when it is known whether there is a highlight.
     return color.diffuse;
