@@ -158,6 +158,9 @@ TEST(Toon, Eq7_14_Thresholds) {
     // From 10 to 10.3: 3% nearer and farther.
     EXPECT_EQ(ones(step_of(10.3f).edges(2, {0.02f, 9})), 2 * size.y);
     EXPECT_EQ(ones(step_of(10.3f).edges(2, {0.04f, 9})), 0);
+    // The worked examples; and between them a step that is above 2% only as seen from behind it.
+    EXPECT_EQ(ones(step_of(10.5f).edges(2)), 2 * size.y);
+    EXPECT_EQ(ones(step_of(10.202f).edges(2)), size.y);
     EXPECT_EQ(ones(step_of(10.1f).edges(2)), 0);
     // Normals 20 and 40 degrees apart: 0.35 and 0.68.
     for (const auto& [degrees, expected] : {std::pair{20.0f, 0}, {40.0f, 2 * size.y}}) {

@@ -295,6 +295,35 @@ TEST(NormalMaps, Eq8_5_FramesAreOrthonormal) {
     }
 }
 
+TEST(NormalMaps, Eq8_5_WhereNothingIsLeftAnAxisIsTaken) {
+    // That to which the normal leans least; of equals the first.
+    EXPECT_EQ(any_across(along_x), along_y);
+    EXPECT_EQ(any_across(along_y), along_x);
+    EXPECT_EQ(any_across(along_z), along_x);
+    EXPECT_TRUE(are_near(any_across({0.6f, 0, -0.8f}), along_y));
+    EXPECT_TRUE(are_near(any_across({0.48f, -0.64f, 0.6f}), {0.877f, 0.350f, -0.328f}, 0.0005f));
+    std::mt19937 random(7);
+    std::normal_distribution<float> normal;
+    double least_degrees = 90;
+    for (int i = 0; i < 100'000; ++i) {
+        const vec3 n = unit_or({normal(random), normal(random), normal(random)}, along_x);
+        const vec3 size = glm::abs(n), found = any_across(n);
+        EXPECT_NEAR(glm::dot(found, n), 0, 1e-6f) << "seed 7, case " << i;
+        EXPECT_NEAR(glm::length(found), 1, 1e-6f) << "seed 7, case " << i;
+        const float least = std::min({size.x, size.y, size.z});
+        least_degrees = std::min(least_degrees, glm::degrees(std::acos(double{least})));
+        // It leads along that axis as far as it can: by the sine of the angle to n.
+        EXPECT_NEAR(std::max({found.x, found.y, found.z}), std::sqrt(1 - least * least), 1e-6f)
+            << "seed 7, case " << i;
+    }
+    EXPECT_NEAR(least_degrees, 54.7, 0.3);
+    // So little of the tangent may be left, and no less.
+    for (const float sign : {1.0f, -1.0f}) {
+        EXPECT_EQ(unit_across({0, sign * 0x1p-19f, 1}, along_z), sign * along_y);
+        EXPECT_EQ(unit_across({0, sign * 0x1p-21f, 1}, along_z), along_x);
+    }
+}
+
 TEST(NormalMaps, Eq8_6_WorkedExample) {
     // On the floor, around the origin: 90 degrees with u along x, 45 degrees with u along
     // (0.8, 0, -0.6). The uv of the second triangle: as far as its corners lie along that, and
@@ -596,5 +625,11 @@ TEST(NormalMaps, HardCase_ModelsThatAreTurnedAndStretched) {
         const TangentFrame frame = tangent_frame(m * before.tangent, normal_matrix(m) * out, 1.0f);
         EXPECT_TRUE(is_orthonormal(frame));
         EXPECT_TRUE(are_near(frame.tangent, after.tangent, 1e-6f)) << "already across";
+        // Outwards is -C N if M mirrors, and the handedness changes: B still leads where v grows.
+        const vec3 outwards = mirror * (normal_matrix(m) * out);
+        const float h = mirror * static_cast<float>(before.handedness);
+        const TangentFrame outside = tangent_frame(m * before.tangent, outwards, h);
+        EXPECT_NEAR(glm::dot(outside.bitangent, after.bitangent),
+                    glm::length(glm::cross(after.tangent, after.bitangent)), 1e-6f);
     }
 }

@@ -82,6 +82,7 @@ TEST(NormalMapVariants, TangentsOfCornersAreNearestToTheTruth) {
 }
 
 TEST(NormalMapVariants, CodesAreTheNearest) {
+    EXPECT_EQ(code_from_component(-0.504f, 8), 64u);  // the worked example
     for (const int bits : {4, 5, 6, 8, 10, 16}) {
         const std::uint32_t middle = 1u << (bits - 1);
         EXPECT_EQ(code_from_component(0, bits), middle);
