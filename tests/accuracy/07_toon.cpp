@@ -170,11 +170,16 @@ void add_bands() {
     const Camera camera = orbit_camera({}, scene.bounds());
     const auto lights = studio_lights(LightKind::directional, scene.bounds());
     const auto exact = exact_levels(camera, lights);
-    // What is wrong, of three variants, where two bands meet.
+    // Where the two brightest bands meet, of three variants: as drawn, and below what is wrong.
     constexpr int zoom = 6;
     constexpr ivec2 part_from(316, 334);
     const Image<float> part({44, 44});
-    Image<vec3> picture(zoom * part.size() * ivec2(3, 1));
+    const ivec2 step = part.size() + 1;  // a pixel between two pieces
+    Image<vec3> picture(zoom * (step * ivec2(3, 2) - 1), vec3(1));
+    const auto show = [&](ivec2 at, vec3 color) {
+        for (int j = 0; j < zoom * zoom; ++j)
+            picture[zoom * at + ivec2(j % zoom, j / zoom)] = color;
+    };
     int panel = 0;
     const std::tuple<const char*, bool, int> variants[] = {{"hard", false, 1},
                                                            {"smooth", true, 1},
@@ -194,10 +199,11 @@ void add_bands() {
             if (panel == 3 || !part.contains(shown)) continue;
             const float strength = std::min(1.0f, 5 * static_cast<float>(std::abs(error)));
             const vec3 wrong = error > 0 ? vec3(1.0f, 0.05f, 0.0f) : vec3(0.0f, 0.1f, 1.0f);
-            const vec3 seen = glm::mix(vec3(0.3f + 0.5f * levels[pixel]), wrong, strength);
-            for (int j = 0; j < zoom * zoom; ++j)
-                picture[zoom * (shown + ivec2(panel * part.size().x, 0)) +
-                        ivec2(j % zoom, j / zoom)] = seen;
+            const ivec2 at = shown + ivec2(panel * step.x, 0);
+            const float of_brightest = glm::clamp(3 * levels[pixel] - 2, 0.0f, 1.0f);
+            show(at, glm::mix(vec3(0.3f, 0.04f, 0.03f), vec3(0.85f, 0.2f, 0.09f), of_brightest));
+            show(at + ivec2(0, step.y),
+                 glm::mix(vec3(0.3f + 0.5f * levels[pixel]), wrong, strength));
         }
         ++panel;
         add_variant("bands", name, double(size.x) * size.y,

@@ -116,24 +116,26 @@ vec3 colour_of(double degrees, double most) {
 }
 
 /// Face and vertex above, mixed and pixel below, all of the coarse mesh; each 416 x 300. Below them
-/// the scale, 0 degrees on the left.
+/// the scale, 0 degrees on the left. (A torus leaves more room above than below.)
 void draw_angles(const std::filesystem::path& file) {
     constexpr double most = 6;
-    constexpr int scale = 20;
+    constexpr int upwards = 24, margin = 40, scale = 14;
     const ivec2 each = BumpyTorus::size;
-    Image<u8vec3> picture({2 * each.x, 2 * each.y + scale}, {30, 34, 42});
+    Image<u8vec3> picture({2 * each.x, 2 * each.y + upwards}, {30, 34, 42});
     const auto written = [](vec3 color) { return u8vec3(255.0f * color + 0.5f); };
     for (std::size_t i = 0; i < ways.size(); ++i) {
-        const ivec2 corner(static_cast<int>(i % 2) * each.x, static_cast<int>(i / 2) * each.y);
+        const ivec2 corner(static_cast<int>(i % 2) * each.x,
+                           static_cast<int>(i / 2) * each.y - upwards);
         BumpyTorus(16, 8, ways[i].variant).draw([&](ivec2 pixel, vec3 normal, vec2 uv) {
             const auto off = degrees_off(normal, TrueTorus::normal(uv.x, uv.y));
             picture[corner + pixel] = written(colour_of(static_cast<double>(off), most));
         });
     }
-    for (int x = 0; x < picture.size().x; ++x)
+    const int width = picture.size().x - 2 * margin;
+    for (int x = 0; x < width; ++x)
         for (int y = 0; y < scale; ++y)
-            picture[{x, 2 * each.y + y}] =
-                written(colour_of(most * (9.0 / 8) * x / picture.size().x, most));
+            picture[ivec2(margin, 2 * each.y - upwards / 2) + ivec2(x, y)] =
+                written(colour_of(most * (9.0 / 8) * x / width, most));
     write_image(file, picture);
 }
 
