@@ -587,6 +587,89 @@ TEST(NormalMaps, HardCase_OrderDoesNotMatter) {
     }
 }
 
+TEST(NormalMaps, Eq8_6_FansOfLeaningFaces) {
+    // Faces that lean against the corner's normal, with textures of their own each: by the formula.
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> any(-1, 1);
+    const auto unit = [](dvec3 v) { return v / std::sqrt(glm::dot(v, v)); };
+    for (int i = 0; i < 500; ++i) {
+        constexpr std::uint32_t count = 5;
+        std::vector<vec3> positions{vec3(0)}, normals{vec3(any(random), any(random), 3)};
+        std::vector<vec2> uvs{vec2(0)};
+        std::vector<std::array<std::uint32_t, 3>> faces;
+        const dvec3 n = unit(normals[0]);
+        dvec3 sum(0);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const vec3 e1(any(random), any(random), any(random)),
+                e2(any(random), any(random), any(random));
+            const vec2 d1(1 + 0.4f * any(random), 0.4f * any(random));
+            const vec2 d2(0.4f * any(random), 1 + 0.4f * any(random));
+            positions.insert(positions.end(), {e1, e2});
+            normals.insert(normals.end(), {along_z, along_z});
+            uvs.insert(uvs.end(), {d1, d2});
+            faces.push_back({0, 2 * k + 1, 2 * k + 2});
+            const dvec3 tangent =
+                unit(double{d2.y} * dvec3(e1) - double{d1.y} * dvec3(e2));  // det > 0
+            const double angle = std::acos(glm::dot(unit(e1), unit(e2)));
+            sum += angle * unit(tangent - glm::dot(tangent, n) * n);
+        }
+        if (glm::length(sum) < 0.5) continue;  // they nearly cancel
+        const Patch patch(positions, uvs, faces, normals);
+        for (std::size_t k = 0; k < count; ++k) {
+            const vec4 found = patch.tangents()[patch.mesh.triangles[k].corners[0].normal];
+            // Some roundings of each of five terms up to pi, over the length of their sum.
+            EXPECT_TRUE(are_near(vec3(found), vec3(unit(sum)), 5e-5f)) << "seed 8, case " << i;
+            EXPECT_EQ(found.w, 1);
+        }
+    }
+}
+
+TEST(NormalMaps, HardCase_ZeroIsOnePlaceWhateverItsSign) {
+    look_up("Eq. 8.6, -0 is 0");
+    // The square of two triangles, of which the second has its own corners, with -0 for 0.
+    const float c = 0.6f, s = 0.8f;  // its texture is turned
+    const Patch patch(
+        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0f, -0.0f, -0.0f}, {1, 1, -0.0f}, {-0.0f, 1, -0.0f}},
+        {{0, 0}, {1, 0}, {1, 1}, {-0.0f, -0.0f}, {c - s, c + s}, {-s, c}}, {{0, 1, 2}, {3, 4, 5}},
+        std::vector<vec3>(6, vec3(0, -0.0f, 1)));
+    const Patch plain({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 1, 0}},
+                      {{0, 0}, {1, 0}, {1, 1}, {-s, c}, {c - s, c + s}}, {{0, 1, 2}, {0, 4, 3}},
+                      std::vector<vec3>(5, along_z));
+    EXPECT_EQ(patch.frame(0, 0).tangent, patch.frame(1, 0).tangent);
+    EXPECT_EQ(patch.frame(0, 0).tangent, plain.frame(0, 0).tangent);
+    EXPECT_GT(degrees_between(patch.frame(0, 0).tangent, along_x), 10) << "a mean of two";
+}
+
+TEST(NormalMaps, HardCase_AnyCornerMayComeFirst) {
+    look_up("Eq. 8.6, no order");
+    // Needles, in space and in the texture: what is left of Eq. 8.3's difference is mostly
+    // rounding, and another corner to start from would round otherwise.
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> any(-1, 1);
+    for (int i = 0; i < 5000; ++i) {
+        const float share = 0.5f + 0.4f * any(random);
+        const auto some = [&](float size) {
+            return size * vec3(any(random), any(random), any(random));
+        };
+        const vec3 p = some(1e-3f), q = some(1);
+        const vec2 t(some(1e-3f)), u(some(1));
+        const std::vector<vec3> places{p, q, p + share * (q - p) + some(1e-6f)};
+        const std::vector<vec2> uvs{t, u, t + share * (u - t) + vec2(some(1e-6f))};
+        const std::vector<vec3> normals(3, vec3(0.1f, 0.2f, 1));
+        const Patch first(places, uvs, {{0, 1, 2}}, normals);
+        const Patch second(places, uvs, {{1, 2, 0}}, normals);
+        const Patch third(places, uvs, {{2, 0, 1}}, normals);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto tangent_of = [&](const Patch& patch, std::size_t corner) {
+                return patch.tangents()[patch.mesh.triangles[0].corners[corner].normal];
+            };
+            const vec4 expected = tangent_of(first, k);
+            ASSERT_EQ(tangent_of(second, (k + 2) % 3), expected) << "seed 9, case " << i;
+            ASSERT_EQ(tangent_of(third, (k + 1) % 3), expected) << "seed 9, case " << i;
+        }
+    }
+}
+
 TEST(NormalMaps, HardCase_TangentsThatCancel) {
     look_up("Eq. 8.6");
     // Two triangles on one place and uv, with textures turned against each other.

@@ -306,6 +306,10 @@ TEST(NormalMaps, HardCase_MapsInTheModelsSpaceNeedNoFrame) {
     EXPECT_EQ(share_that_differs(picture_of(square_of(flat, floor), options), plain), 0);
     EXPECT_EQ(count(counters_of(square_of(flat, floor), options), Counter::meshes_with_tangents),
               0u);
+    // How steep relief is in its frame says nothing here.
+    const std::string slanted = plain_picture("slanted_up.png", {190, 230, 128}) + "\n";
+    EXPECT_EQ(picture_of(square_of("norm -bm 3 " + slanted, floor), options),
+              picture_of(square_of("norm " + slanted, floor), options));
     // From below it is the other side.
     options.orbit.pitch_degrees = -30;
     options.shading.two_sided = true;
