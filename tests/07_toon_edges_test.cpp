@@ -162,6 +162,8 @@ TEST(Toon, Eq7_14_Thresholds) {
     EXPECT_EQ(ones(step_of(10.5f).edges(2)), 2 * size.y);
     EXPECT_EQ(ones(step_of(10.202f).edges(2)), size.y);
     EXPECT_EQ(ones(step_of(10.1f).edges(2)), 0);
+    ByHand rows = ByHand::of(size, [](ivec2 p) { return p.y < 4 ? 10.0f : 10.5f; });
+    EXPECT_EQ(ones(rows.edges(2)), 2 * size.x);
     // Normals 20 and 40 degrees apart: 0.35 and 0.68.
     for (const auto& [degrees, expected] : {std::pair{20.0f, 0}, {40.0f, 2 * size.y}}) {
         ByHand fold = step_of(10);

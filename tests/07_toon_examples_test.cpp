@@ -211,6 +211,19 @@ TEST(Toon, HardCase_ASheetHasNoRimWhereItShowsItsFront) {
     }
 }
 
+TEST(Toon, HardCase_ASheetSeenFromBehindFacesTheEye) {
+    look_up("Eq. 7.6, normals of backs");
+    Scene sheet = scene_of_one(cube_mesh(true));
+    sheet.meshes[0].triangles.erase(sheet.meshes[0].triangles.begin(),
+                                    sheet.meshes[0].triangles.end() - 2);  // z = 1 is left
+    lesson::Options options = before_the_cube(180);
+    options.shading.outline = Outline::facing;
+    options.shading.two_sided = true;
+    const Image<Seen> seen = seen_in(toon_picture(sheet, options));
+    EXPECT_EQ(count_of(seen, Seen::ink), 0);
+    EXPECT_GT(count_of(seen, Seen::body), 5000);
+}
+
 TEST(Toon, HardCase_TheHullAlsoDrawsLinesWithinThePicture) {
     look_up("Eq. 7.10, an arm in front of the body");
     // A small cube in front of a large one, and the same one that sticks half in it.
