@@ -259,6 +259,25 @@ TEST(TriangleFill, Eq2_4_WeightsDoNotDependOnThePicturesSize) {
     EXPECT_EQ(visited, 31 * 17);
 }
 
+TEST(TriangleFill, Eq2_4_PartsOfAPictureTogetherShowAllOfIt) {
+    constexpr ivec2 size(64, 48);
+    const ScreenTriangle t = snap_triangle({-9.3f, 3.1f}, {30.1f, 51.9f}, {60.7f, -7.2f});
+    const vec3 unseen(-1);
+    Image<vec3> whole(size, unseen), parts(size, unseen);
+    fill_triangle(t, size, [&](ivec2 p, vec3 weights) { whole[p] = weights; });
+    for (const ivec2 first : {ivec2(0, 0), ivec2(40, 0), ivec2(0, 7), ivec2(40, 7)}) {
+        const ivec2 last(first.x == 0 ? 39 : 63, first.y == 0 ? 6 : 47);
+        fill_triangle(t, first, last, [&](ivec2 p, vec3 weights) {
+            EXPECT_EQ(glm::clamp(p, first, last), p);
+            EXPECT_EQ(parts[p], unseen) << "visited twice";
+            parts[p] = weights;
+        });
+    }
+    EXPECT_EQ(parts, whole);
+    EXPECT_NE(whole, Image<vec3>(size, unseen));
+    fill_triangle(t, {40, 7}, {39, 47}, [](ivec2, vec3) { FAIL() << "in nothing"; });
+}
+
 TEST(TriangleFill, Eq2_7_SharedSideBelongsToOneOfTwoNeighbours) {
     EXPECT_TRUE(
         same_pixels(covered(a, b, c, {8, 8}), {{1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2}, {1, 3}}));

@@ -91,25 +91,26 @@ struct EdgeWalk {
     }
 };
 
-/// Visits each pixel of a picture whose centre the triangle covers.
+/// Visits each pixel of a picture, or of a part of one, whose centre the triangle covers.
 ///
 /// A centre on a side belongs to the triangle when the side is a left or a top one, so that
 /// triangles which share sides visit each pixel once (Eq. 2.7). The order of the corners does not
 /// matter.
 ///
 /// @param triangle  A triangle of no area visits nothing.
-/// @param size      Width and height in pixels, each 0 to 2^22.
+/// @param first     The part's upper left pixel, from 0 on.
+/// @param last      Its lower right one, below 2^22. Before `first` there is nothing to visit.
 /// @param emit      Called as emit(ivec2 pixel, vec3 weights), row by row, once for each pixel.
 ///                  The weights are the corners' shares at the pixel's centre: >= 0, each within 2
-///                  ulp of its exact value (Eq. 2.4), and the same whatever the picture's size.
+///                  ulp of its exact value (Eq. 2.4), and the same whatever the part.
 template <std::invocable<ivec2, vec3> Emit>
-void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
+void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
     if (triangle.twice_area == 0) return;
     const auto [a, b, c] = triangle.corners;
     const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
     // The first centre at or after `low`, the last at or before `high`; >> rounds down.
-    const ivec2 first_pixel = glm::max((low + (subpixels / 2 - 1)) >> subpixel_bits, ivec2(0));
-    const ivec2 last_pixel = glm::min((high - subpixels / 2) >> subpixel_bits, size - 1);
+    const ivec2 first_pixel = glm::max((low + (subpixels / 2 - 1)) >> subpixel_bits, first);
+    const ivec2 last_pixel = glm::min((high - subpixels / 2) >> subpixel_bits, last);
     if (first_pixel.x > last_pixel.x) return;
 
     const int winding = triangle.twice_area > 0 ? 1 : -1;
@@ -121,13 +122,13 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
         static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
 
     for (int y = first_pixel.y; y <= last_pixel.y; ++y) {
-        std::int64_t first = 0, last = last_pixel.x - first_pixel.x;  // from first_pixel.x
-        for (const EdgeWalk* edge : {&edge_a, &edge_b, &edge_c}) edge->narrow(first, last);
-        std::int64_t share_a = edge_a.value + first * edge_a.step_x;
-        std::int64_t share_b = edge_b.value + first * edge_b.step_x;
-        std::int64_t share_c = edge_c.value + first * edge_c.step_x;
-        const int last_x = first_pixel.x + static_cast<int>(last);
-        for (int x = first_pixel.x + static_cast<int>(first); x <= last_x; ++x) {
+        std::int64_t left = 0, right = last_pixel.x - first_pixel.x;  // from first_pixel.x
+        for (const EdgeWalk* edge : {&edge_a, &edge_b, &edge_c}) edge->narrow(left, right);
+        std::int64_t share_a = edge_a.value + left * edge_a.step_x;
+        std::int64_t share_b = edge_b.value + left * edge_b.step_x;
+        std::int64_t share_c = edge_c.value + left * edge_c.step_x;
+        const int last_x = first_pixel.x + static_cast<int>(right);
+        for (int x = first_pixel.x + static_cast<int>(left); x <= last_x; ++x) {
             emit(ivec2(x, y), vec3(share_a, share_b, share_c) * per_area);  // Eq. 2.4
             share_a += edge_a.step_x;
             share_b += edge_b.step_x;
@@ -135,6 +136,14 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
         }
         for (EdgeWalk* edge : {&edge_a, &edge_b, &edge_c}) edge->value += edge->step_y;
     }
+}
+
+/// The same of a whole picture.
+///
+/// @param size  Width and height in pixels, each 0 to 2^22.
+template <std::invocable<ivec2, vec3> Emit>
+void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
+    fill_triangle(triangle, ivec2(0), size - 1, emit);
 }
 
 }  // namespace rasterbook

@@ -86,7 +86,7 @@ Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy
                                      perspective.at(screen_weights).here, color, counters);
                 };
                 Fragments visible(shade);
-                fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
+                fill_in_bands(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
                     counters.add(Counter::fragments_tested);
                     if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
                     counters.add(Counter::fragments_shaded);

@@ -179,7 +179,10 @@ class TriangleRelief {
     /// so
     ///          short that its square is not a usable number, or a tangent leads along a normal.
     bool tilt_at_once(BumpyPoints& points) const {
-        // No step of the loop leaves it: the compiler takes many i at once.
+        // No step of the loop leaves it, or reads what the loop might write: the compiler takes many
+        // i at once.
+        const std::array tangents = tangents_;
+        const float handedness = handedness_;
         int unusable = 0;
         Vectors all;
         for (std::size_t i = 0; i < points.count; ++i) {
@@ -187,13 +190,13 @@ class TriangleRelief {
             const float squared = glm::dot(mixed, mixed);
             unusable |= (squared > 1e-30f ? 0 : 1) | (squared < 1e30f ? 0 : 1);
             const vec3 n = mixed * (1 / std::sqrt(squared));
-            const vec3 tangent = interpolate(tangents_, points.weights[i]);
+            const vec3 tangent = interpolate(tangents, points.weights[i]);
             const vec3 left = across(tangent, n);
             const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);
             unusable |= (of_length > mostly * of_all ? 0 : 1) | (of_length > 1e-30f ? 0 : 1) |
                         (of_all < 1e30f ? 0 : 1);
             const vec3 t = left * (1 / std::sqrt(of_length));  // Eq. 8.5
-            const TangentFrame frame{t, handedness_ * glm::cross(n, t), n};
+            const TangentFrame frame{t, handedness * glm::cross(n, t), n};
             all.set(i, tilted(frame, in_map, mixed));
         }
         if (unusable == 0) points.normal_world = all;

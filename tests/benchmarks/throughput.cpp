@@ -221,22 +221,23 @@ void textured_and_lit(benchmark::State& state) {
                     if (!is_front_facing(on_screen)) continue;
                     const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
                     const PerspectiveWeights perspective(on_screen, clipped);
-                    const auto fill = [&](auto&& emit) {
-                        fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+                    const auto emit_visible = [&](auto&& emit) {
+                        return [&](ivec2 pixel, vec3 screen_weights) {
                             if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights)))
                                 return;
                             counters.add(Counter::fragments_shaded);
                             emit(pixel, screen_weights);
-                        });
+                        };
                     };
                     if (!with_light) {
-                        fill([&](ivec2 pixel, vec3 screen_weights) {
+                        const auto paint = [&](ivec2 pixel, vec3 screen_weights) {
                             color[pixel] = surface.material.diffuse;
                             if (surface.texture != nullptr)
                                 color[pixel] *= vec3(sample(
                                     *surface.texture, knobs.texture.filter,
                                     fragment_uv(surface.uvs, perspective.at(screen_weights))));
-                        });
+                        };
+                        fill_triangle(on_screen, size, emit_visible(paint));
                         continue;
                     }
                     const TriangleLight light(knobs.shading, lights, camera.position_world, mesh,
@@ -256,9 +257,10 @@ void textured_and_lit(benchmark::State& state) {
                                 phong(own[i], ambient_light, points.light(i));
                     };
                     Fragments visible(shade);
-                    fill([&](ivec2 pixel, vec3 screen_weights) {
+                    const auto gather = [&](ivec2 pixel, vec3 screen_weights) {
                         visible.add({pixel, screen_weights});
-                    });
+                    };
+                    fill_in_bands(on_screen, size, emit_visible(gather));
                     visible.finish();
                 }
             }

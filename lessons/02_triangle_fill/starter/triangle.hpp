@@ -74,20 +74,29 @@ struct EdgeWalk {
     }
 };
 
-/// Visits each pixel of a picture whose centre the triangle covers.
+/// Visits each pixel of a picture, or of a part of one, whose centre the triangle covers.
 ///
 /// A centre on a side belongs to the triangle when the side is a left or a top one, so that
 /// triangles which share sides visit each pixel once (Eq. 2.7). The order of the corners does not
 /// matter.
 ///
 /// @param triangle  A triangle of no area visits nothing.
-/// @param size      Width and height in pixels, each 0 to 2^22.
+/// @param first     The part's upper left pixel, from 0 on.
+/// @param last      Its lower right one, below 2^22. Before `first` there is nothing to visit.
 /// @param emit      Called as emit(ivec2 pixel, vec3 weights), row by row, once for each pixel.
 ///                  The weights are the corners' shares at the pixel's centre: >= 0, each within 2
-///                  ulp of its exact value (Eq. 2.4), and the same whatever the picture's size.
+///                  ulp of its exact value (Eq. 2.4), and the same whatever the part.
+template <std::invocable<ivec2, vec3> Emit>
+void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
+    // TODO: the five steps at the end of the derivation.
+}
+
+/// The same of a whole picture.
+///
+/// @param size  Width and height in pixels, each 0 to 2^22.
 template <std::invocable<ivec2, vec3> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
-    // TODO: the five steps at the end of the derivation.
+    fill_triangle(triangle, ivec2(0), size - 1, emit);
 }
 
 }  // namespace rasterbook
