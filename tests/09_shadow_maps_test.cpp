@@ -86,17 +86,17 @@ TEST(ShadowMaps, Eq9_1_WhatLiesOnOneRayOfTheSunLiesOnOnePlaceOfItsMap) {
         const Light sun = sun_at(toward);
         const LightViews views = light_views(sun, casters, receivers, 256);
         ASSERT_EQ(views.count, 1u) << "seed 1, case " << i;
-        EXPECT_FALSE(views.is_perspective);
+        ASSERT_FALSE(views.is_perspective);
         const dvec3 point = anywhere.in(casters);
         const dvec3 here = ndc(views.clip_from_world[0], point);
         const dvec3 nearer = ndc(views.clip_from_world[0], point + dvec3(sun.direction_world));
-        EXPECT_NEAR(here.x, nearer.x, float_tolerance) << "seed 1, case " << i;
-        EXPECT_NEAR(here.y, nearer.y, float_tolerance) << "seed 1, case " << i;
-        EXPECT_LT(nearer.z, here.z) << "seed 1, case " << i;
+        ASSERT_NEAR(here.x, nearer.x, float_tolerance) << "seed 1, case " << i;
+        ASSERT_NEAR(here.y, nearer.y, float_tolerance) << "seed 1, case " << i;
+        ASSERT_LT(nearer.z, here.z) << "seed 1, case " << i;
         // Right-handed, up is up: as a camera would see it.
         const dvec3 higher = ndc(views.clip_from_world[0], point + dvec3(0, 1, 0));
-        EXPECT_GT(higher.y, here.y - float_tolerance) << "seed 1, case " << i;
-        EXPECT_NEAR(higher.x, here.x, float_tolerance) << "seed 1, case " << i;
+        ASSERT_GT(higher.y, here.y - float_tolerance) << "seed 1, case " << i;
+        ASSERT_NEAR(higher.x, here.x, float_tolerance) << "seed 1, case " << i;
     }
 }
 
@@ -114,8 +114,8 @@ TEST(ShadowMaps, Eq9_2_TheBoxFillsTheCube) {
 TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
     const LightBox casters{{0, 0, -5}, {4, 3, -1}}, receivers{{2, -9, -8}, {10, 2, -2}};
     const LightBox region = shadow_region(casters, receivers);
-    EXPECT_EQ(region.low, dvec3(2, 0, -5));  // the worked example
-    EXPECT_EQ(region.high, dvec3(4, 2, -1));
+    ASSERT_EQ(region.low, dvec3(2, 0, -5));  // the worked example
+    ASSERT_EQ(region.high, dvec3(4, 2, -1));
 
     // All of the casters is in the map, from the nearest, where receivers are all around.
     constexpr int size = 256;
@@ -133,8 +133,8 @@ TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
         // Inside, and no more than the half percent beside it that rounding is allowed.
         for (int axis = 0; axis < 3; ++axis) {
             const double most = axis == 2 ? 1 : end;
-            EXPECT_TRUE(low[axis] >= -most && low[axis] < -0.99 * most) << "seed 2, case " << i;
-            EXPECT_TRUE(high[axis] <= most && high[axis] > 0.99 * most) << "seed 2, case " << i;
+            ASSERT_TRUE(low[axis] >= -most && low[axis] < -0.99 * most) << "seed 2, case " << i;
+            ASSERT_TRUE(high[axis] <= most && high[axis] > 0.99 * most) << "seed 2, case " << i;
         }
     }
 }
@@ -205,7 +205,7 @@ TEST(ShadowMaps, Eq9_4_ASpotsMapReachesToTheBorderOfItsCone) {
             const Light spot = spot_at(position, position + anywhere.direction(), half_angle);
             const LightViews views = light_views(spot, all_around, all_around, 256);
             ASSERT_EQ(views.count, 1u);
-            EXPECT_TRUE(views.is_perspective);
+            ASSERT_TRUE(views.is_perspective);
             // A circle around the axis, a bit inside of the cone, and a bit outside.
             const dvec3 axis = spot.direction_world;
             const dvec3 across = glm::normalize(glm::cross(axis, dvec3(anywhere.direction())));
@@ -215,8 +215,8 @@ TEST(ShadowMaps, Eq9_4_ASpotsMapReachesToTheBorderOfItsCone) {
                                         dvec3(position) + 3.0 * (axis + way_out * across));
                 return std::hypot(place.x, place.y);
             };
-            EXPECT_LT(greatest(half_angle - 0.1), end) << "seed 3, case " << i;
-            EXPECT_GT(greatest(half_angle + 0.3), end) << "seed 3, case " << i;
+            ASSERT_LT(greatest(half_angle - 0.1), end) << "seed 3, case " << i;
+            ASSERT_GT(greatest(half_angle + 0.3), end) << "seed 3, case " << i;
         }
 }
 
