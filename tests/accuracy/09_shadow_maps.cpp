@@ -146,13 +146,21 @@ double edge_off_by(Bias bias, int size, int radius) {
     return 1000 * static_cast<double>(wrong) * step * step / perimeter;
 }
 
+/// Whether the flat triangle looks away from the light, to which its mixed normals lean.
+bool is_turned_away(const SeenPoint& p, vec3 toward_light) {
+    const vec3 face = glm::cross(p.corners[1] - p.corners[0], p.corners[2] - p.corners[0]);
+    return glm::dot(face, toward_light) * glm::dot(face, p.normal) <= 0;
+}
+
 Errors errors_of(Bias bias, int size, int radius) {
     const Reference& exact = reference();
     const ShadowMap& map = maps_of(size).maps[0];
-    std::size_t i = 0, falsely_lit = 0, falsely_dark = 0;
+    std::size_t i = 0, falsely_lit = 0, falsely_dark = 0, turned_away = 0;
     double squares = 0;
     look_up_all(exact, map, bias, radius, [&](float share) {
+        const SeenPoint& p = exact.points[i];
         const bool is_lit = exact.is_lit[i++], seems_lit = share >= 0.5f;
+        turned_away += seems_lit && !is_lit && is_turned_away(p, exact.light.direction_world);
         falsely_lit += seems_lit && !is_lit, falsely_dark += !seems_lit && is_lit;
         squares += (share - is_lit) * (share - is_lit);
     });
@@ -176,6 +184,7 @@ Errors errors_of(Bias bias, int size, int radius) {
     return {{"wrong, % of pixels", percent(falsely_lit + falsely_dark)},
             {"falsely lit, %", percent(falsely_lit)},
             {"falsely dark, %", percent(falsely_dark)},
+            {"falsely lit on faces turned away, %", percent(turned_away)},
             {"RMS error", std::sqrt(squares / static_cast<double>(exact.points.size()))},
             {"edge off by, thousandths", edge_off_by(bias, size, radius)},
             {"first pass, ms", passes_ms[3]}};
