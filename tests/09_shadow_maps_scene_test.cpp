@@ -168,6 +168,22 @@ TEST(ShadowMaps, Eq9_16_LightFadesAlikeInAllOfALampsFaces) {
     }
 }
 
+TEST(ShadowMaps, Eq9_16_ReliefDoesNotChangeWhoIsAsked) {
+    // On the pot's dark side bumps lean towards the light, on its bright side away from it.
+    for (const LightKind kind : kinds) {
+        Counters bumpy, flat;
+        lesson::Options options = small_picture();
+        options.shading.key_light = kind;
+        lesson::render(options, ShadowedScene(loaded("scene_bumpy.obj"), options), bumpy);
+        options.normal_map.space = MapSpace::none;
+        lesson::render(options, ShadowedScene(loaded("scene_bumpy.obj"), options), flat);
+        EXPECT_GT(count(bumpy, Counter::normal_map_samples), 1000u);
+        EXPECT_EQ(count(flat, Counter::normal_map_samples), 0u);
+        EXPECT_EQ(count(bumpy, Counter::shadow_lookups), count(flat, Counter::shadow_lookups))
+            << "light " << int(kind);
+    }
+}
+
 TEST(ShadowMaps, HardCase_OnlyWhatCallsForShadowsGetsThem) {
     look_up("Eq. 9.3");
     const auto unlit = [](Material& m) { m.illumination = 0; };
