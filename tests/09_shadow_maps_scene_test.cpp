@@ -134,6 +134,56 @@ TEST(ShadowMaps, Eq9_16_LightFadesOutWhereASurfaceTurnsAway) {
     EXPECT_EQ(count(counters, Counter::shadow_lookups), 5u) << "only of those that face the sun";
 }
 
+TEST(ShadowMaps, Eq9_16_LightFadesAlikeInAllOfALampsFaces) {
+    // The one caster is seen through the lamp's +x; the glass floor below has no map.
+    lesson::Options options = small_picture();
+    options.shading.key_light = LightKind::point;
+    Scene scene;
+    scene.meshes.push_back(quad({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}));
+    scene.meshes.push_back(quad({2, 0.6f, 0}, {2, 0.6f, 1}, {2, 0.8f, 1}, {2, 0.8f, 0}));
+    scene.materials.resize(2);
+    scene.materials[0].opacity = 0.5f;
+    for (Triangle& triangle : scene.meshes[1].triangles) triangle.material = 1;
+    const ShadowedScene shadowed(scene, options);
+    const std::array lights = {lamp_at({0, 1, 0}), sun({0, 1, 0})};
+    Counters counters;
+    const Shadows shadows(options.shadow, false, shadowed, lights, counters);
+    EXPECT_EQ(count(counters, Counter::shadow_passes), 1u);
+    TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
+    LitPoints points;
+    for (const vec3 position : {vec3(0.9f, 0, -0.1f), vec3(1.1f, 0, -0.1f)})
+        for (const float cosine : {0.5f, 0.05f}) {
+            const vec3 toward = glm::normalize(lights[0].position_world - position);
+            const vec3 across = glm::normalize(glm::cross(toward, vec3(0, 0, 1)));
+            points.position_world.set(points.count, position);
+            points.normal_world.set(points.count,
+                                    cosine * toward + std::sqrt(1 - cosine * cosine) * across);
+            ++points.count;
+        }
+    shadow.look_up(points, counters);
+    EXPECT_EQ(count(counters, Counter::shadow_lookups), 2u);
+    for (const std::size_t face : {0u, 2u}) {
+        EXPECT_EQ(shadow(0, face), 1);
+        EXPECT_NEAR(shadow(0, face + 1), 0.5f, 1e-5f);  // a cosine of float in twentieths
+    }
+}
+
+TEST(ShadowMaps, Eq9_16_ReliefDoesNotChangeWhoIsAsked) {
+    // On the pot's dark side bumps lean towards the light, on its bright side away from it.
+    for (const LightKind kind : kinds) {
+        Counters bumpy, flat;
+        lesson::Options options = small_picture();
+        options.shading.key_light = kind;
+        lesson::render(options, ShadowedScene(loaded("scene_bumpy.obj"), options), bumpy);
+        options.normal_map.space = MapSpace::none;
+        lesson::render(options, ShadowedScene(loaded("scene_bumpy.obj"), options), flat);
+        EXPECT_GT(count(bumpy, Counter::normal_map_samples), 1000u);
+        EXPECT_EQ(count(flat, Counter::normal_map_samples), 0u);
+        EXPECT_EQ(count(bumpy, Counter::shadow_lookups), count(flat, Counter::shadow_lookups))
+            << "light " << int(kind);
+    }
+}
+
 TEST(ShadowMaps, HardCase_OnlyWhatCallsForShadowsGetsThem) {
     look_up("Eq. 9.3");
     const auto unlit = [](Material& m) { m.illumination = 0; };
@@ -253,9 +303,9 @@ TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {
                     maps.share(bias, radius, p.corners, p.position) != (distance ? 0 : 1);
         }
         // Where a surface is hollow, as between the body and the spout, a triangle's plane lies
-        // behind its neighbours: a few look-ups are a ninth too dark.
+        // behind its neighbours: of a thousand look-ups one or two are a ninth too dark.
         for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal})
-            EXPECT_LE(wrong[static_cast<std::size_t>(bias)], judged / 1000)
+            EXPECT_LE(wrong[static_cast<std::size_t>(bias)], judged / 500)
                 << "of " << judged << ", light " << int(kind) << ", bias " << int(bias);
         EXPECT_GT(judged, 2000) << "light " << int(kind);
         EXPECT_GT(dark, 200) << "light " << int(kind);

@@ -11,6 +11,7 @@
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
 #include "support/look_up.hpp"
+#include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
 
@@ -85,17 +86,17 @@ TEST(ShadowMaps, Eq9_1_WhatLiesOnOneRayOfTheSunLiesOnOnePlaceOfItsMap) {
         const Light sun = sun_at(toward);
         const LightViews views = light_views(sun, casters, receivers, 256);
         ASSERT_EQ(views.count, 1u) << "seed 1, case " << i;
-        EXPECT_FALSE(views.is_perspective);
+        ASSERT_FALSE(views.is_perspective);
         const dvec3 point = anywhere.in(casters);
         const dvec3 here = ndc(views.clip_from_world[0], point);
         const dvec3 nearer = ndc(views.clip_from_world[0], point + dvec3(sun.direction_world));
-        EXPECT_NEAR(here.x, nearer.x, float_tolerance) << "seed 1, case " << i;
-        EXPECT_NEAR(here.y, nearer.y, float_tolerance) << "seed 1, case " << i;
-        EXPECT_LT(nearer.z, here.z) << "seed 1, case " << i;
+        ASSERT_NEAR(here.x, nearer.x, float_tolerance) << "seed 1, case " << i;
+        ASSERT_NEAR(here.y, nearer.y, float_tolerance) << "seed 1, case " << i;
+        ASSERT_LT(nearer.z, here.z) << "seed 1, case " << i;
         // Right-handed, up is up: as a camera would see it.
         const dvec3 higher = ndc(views.clip_from_world[0], point + dvec3(0, 1, 0));
-        EXPECT_GT(higher.y, here.y - float_tolerance) << "seed 1, case " << i;
-        EXPECT_NEAR(higher.x, here.x, float_tolerance) << "seed 1, case " << i;
+        ASSERT_GT(higher.y, here.y - float_tolerance) << "seed 1, case " << i;
+        ASSERT_NEAR(higher.x, here.x, float_tolerance) << "seed 1, case " << i;
     }
 }
 
@@ -113,14 +114,16 @@ TEST(ShadowMaps, Eq9_2_TheBoxFillsTheCube) {
 TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
     const LightBox casters{{0, 0, -5}, {4, 3, -1}}, receivers{{2, -9, -8}, {10, 2, -2}};
     const LightBox region = shadow_region(casters, receivers);
-    EXPECT_EQ(region.low, dvec3(2, 0, -5));  // the worked example
-    EXPECT_EQ(region.high, dvec3(4, 2, -1));
+    ASSERT_EQ(region.low, dvec3(2, 0, -5));  // the worked example
+    ASSERT_EQ(region.high, dvec3(4, 2, -1));
 
     // All of the casters is in the map, from the nearest, where receivers are all around.
+    constexpr int size = 256;
+    constexpr double end = 1 - 2.0 * margin_texels / size;
     Anywhere anywhere(2);
     const Bounds some = box({-1, 0, -2}, {2, 3, 1}), all_around = box(vec3(-50), vec3(50));
     for (int i = 0; i < 100; ++i) {
-        const LightViews views = light_views(sun_at(anywhere.direction()), some, all_around, 256);
+        const LightViews views = light_views(sun_at(anywhere.direction()), some, all_around, size);
         dvec3 low(infinity), high(-infinity);
         for (int corner = 0; corner < 8; ++corner) {
             const dvec3 place = ndc(views.clip_from_world[0],
@@ -129,10 +132,41 @@ TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
         }
         // Inside, and no more than the half percent beside it that rounding is allowed.
         for (int axis = 0; axis < 3; ++axis) {
-            EXPECT_TRUE(low[axis] >= -1 && low[axis] < -0.99) << "seed 2, case " << i;
-            EXPECT_TRUE(high[axis] <= 1 && high[axis] > 0.99) << "seed 2, case " << i;
+            const double most = axis == 2 ? 1 : end;
+            ASSERT_TRUE(low[axis] >= -most && low[axis] < -0.99 * most) << "seed 2, case " << i;
+            ASSERT_TRUE(high[axis] <= most && high[axis] > 0.99 * most) << "seed 2, case " << i;
         }
     }
+}
+
+TEST(ShadowMaps, Eq9_3_UnderALargeRoofAllOfASmallFloorIsDark) {
+    // The map's border is the floor's; the roof goes on, and every look-up there has to find it.
+    const Mesh roof =
+        mesh_of({{-30, 1, -30}, {-30, 1, 30}, {30, 1, 30}, {30, 1, -30}}, {{0, 1, 2}, {0, 2, 3}});
+    const Bounds floor = box({-1, 0, -1}, {1, 0, 1});
+    NoCounters none;
+    const Light lights[] = {sun_at({0, 1, 0}), sun_at({0.3f, 1, -0.5f}),
+                            spot_at({0.2f, 4, 0.1f}, {0, 0, 0}, 60),
+                            spot_at({0.2f, 4, 0.1f}, {0, 0, 0}, 10)};  // less than the floor
+    for (const Light& light : lights)
+        for (const int size : {16, 64, 256}) {
+            const LightViews views = light_views(light, roof.bounds, floor, size);
+            ASSERT_EQ(views.count, 1u);
+            ShadowMap map(views.clip_from_world[0], views.is_perspective, size, roof.bounds);
+            draw_casters(map, roof, [](std::size_t) { return true; }, none);
+            for (int y = -20; y <= 20; ++y)
+                for (int x = -20; x <= 20; ++x) {
+                    const vec3 point = vec3(x, 0, y) / 20.0f;
+                    const vec3 way = glm::normalize(point - light.position_world);
+                    if (light.kind == LightKind::spot &&
+                        glm::dot(way, light.direction_world) <= light.cos_none)
+                        continue;  // beyond its cone
+                    ASSERT_EQ(lit_share<0>(map, {}, point), 0)
+                        << size << testing::PrintToString(point);
+                    ASSERT_EQ(lit_share<3>(map, {}, point), 0)
+                        << size << testing::PrintToString(point);
+                }
+        }
 }
 
 TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
@@ -163,6 +197,7 @@ TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
 
 TEST(ShadowMaps, Eq9_4_ASpotsMapReachesToTheBorderOfItsCone) {
     const Bounds all_around = box(vec3(-20), vec3(20));
+    constexpr double end = 1 - 2.0 * margin_texels / 256;
     Anywhere anywhere(3);
     for (const float half_angle : {5.0f, 30.0f, 60.0f, 74.0f})
         for (int i = 0; i < 50; ++i) {
@@ -170,7 +205,7 @@ TEST(ShadowMaps, Eq9_4_ASpotsMapReachesToTheBorderOfItsCone) {
             const Light spot = spot_at(position, position + anywhere.direction(), half_angle);
             const LightViews views = light_views(spot, all_around, all_around, 256);
             ASSERT_EQ(views.count, 1u);
-            EXPECT_TRUE(views.is_perspective);
+            ASSERT_TRUE(views.is_perspective);
             // A circle around the axis, a bit inside of the cone, and a bit outside.
             const dvec3 axis = spot.direction_world;
             const dvec3 across = glm::normalize(glm::cross(axis, dvec3(anywhere.direction())));
@@ -180,8 +215,8 @@ TEST(ShadowMaps, Eq9_4_ASpotsMapReachesToTheBorderOfItsCone) {
                                         dvec3(position) + 3.0 * (axis + way_out * across));
                 return std::hypot(place.x, place.y);
             };
-            EXPECT_LT(greatest(half_angle - 0.1), 1) << "seed 3, case " << i;
-            EXPECT_GT(greatest(half_angle + 0.3), 1) << "seed 3, case " << i;
+            ASSERT_LT(greatest(half_angle - 0.1), end) << "seed 3, case " << i;
+            ASSERT_GT(greatest(half_angle + 0.3), end) << "seed 3, case " << i;
         }
 }
 
@@ -193,8 +228,9 @@ TEST(ShadowMaps, Eq9_4_ASpotsMapIsCutDownToCastersAndReceivers) {
     ASSERT_EQ(views.count, 1u);
     const mat4& clip = views.clip_from_world[0];
     const dvec3 corner = glm::abs(ndc(clip, {1, 5, 1}));  // the plate's top fills the map
-    EXPECT_NEAR(corner.x, 1, 0.005);
-    EXPECT_NEAR(corner.y, 1, 0.005);
+    constexpr double end = 1 - 2.0 * margin_texels / 256;
+    EXPECT_NEAR(corner.x, end, 0.005);
+    EXPECT_NEAR(corner.y, end, 0.005);
     const double nearest = ndc(clip, {0, 5, 0}).z, farthest = ndc(clip, {0, 4, 0}).z;
     EXPECT_TRUE(nearest >= -1 && nearest < -0.95) << nearest;
     EXPECT_TRUE(farthest <= 1 && farthest > 0.95) << farthest;
@@ -223,8 +259,8 @@ TEST(ShadowMaps, Eq9_5_EachWayLiesWellInsideOfItsFace) {
     EXPECT_EQ(cube_face({1, 1, 3}), 4u);
     EXPECT_EQ(cube_face({1, 1, -3}), 5u);
     Anywhere anywhere(4);
-    // What a look-up of radius 3 asks beside a face's border, cube_margin - 3 texels are left.
-    constexpr double most = 1 - 2.0 * cube_margin / size + float_tolerance;
+    // Beside a face's border there are as many texels as a look-up may ask.
+    constexpr double most = 1 - 2.0 * margin_texels / size + float_tolerance;
     double greatest = 0;
     for (int i = 0; i < 20000; ++i) {
         const vec3 way = anywhere.direction() * anywhere.one(0.5f, 6);
@@ -236,6 +272,27 @@ TEST(ShadowMaps, Eq9_5_EachWayLiesWellInsideOfItsFace) {
         greatest = std::max({greatest, std::abs(place.x), std::abs(place.y)});
     }
     EXPECT_GT(greatest, most - 0.01);  // and no wider than that
+}
+
+TEST(ShadowMaps, HardCase_ASmallMapSeesTheNearestCasterInItsCorners) {
+    look_up("Eq. 9.5");
+    // In the smallest map the margin is half of all. A plate across the way into each corner has to
+    // be there, however little of the way leads along the axis.
+    for (const float corner : {1.99f, 1.0f, 0.5f}) {
+        const vec3 way = glm::normalize(vec3(corner, corner, -1));
+        const vec3 u = 0.02f * glm::normalize(glm::cross(way, vec3(0, 1, 0)));
+        const vec3 v = glm::cross(way, u);
+        const Bounds around = box(vec3(-9), vec3(9));
+        const Bounds plate = {glm::min(glm::min(way - u - v, way + u - v), way - u + v),
+                              glm::max(glm::max(way + u + v, way + u - v), way - u + v)};
+        const LightViews views = light_views(lamp_at({0, 0, 0}), plate, around, 16);
+        ASSERT_EQ(views.count, 6u);
+        const double depth = ndc(views.clip_from_world[5], way).z;
+        EXPECT_TRUE(depth >= -1 && depth <= 1) << corner << ": " << depth;
+        if (corner > 1.9f) {
+            EXPECT_LT(depth, -0.85) << "nor is it any farther from the border than need be";
+        }
+    }
 }
 
 TEST(ShadowMaps, HardCase_LightParallelToUp) {

@@ -26,6 +26,8 @@
 #include "07_toon/toon_variants.hpp"
 #include "08_normal_maps/bumpy_scene.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
+#include "09_shadow_maps/shadow_variants.hpp"
+#include "09_shadow_maps/shadowed_scene.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 
@@ -45,6 +47,9 @@ namespace lesson_07 {
 }
 namespace lesson_08 {
 #include "08_normal_maps/main.cpp"
+}
+namespace lesson_09 {
+#include "09_shadow_maps/main.cpp"
 }
 #undef main
 
@@ -216,6 +221,26 @@ TEST(Allocations, OfLesson08DoNotDependOnTriangles) {
                 const std::size_t count =
                     allocations_of([&] { lesson_08::render(options, bumpy, counters); });
                 EXPECT_GT(counters.values[std::size_t(Counter::normal_map_samples)], 1000u);
+                return count;
+            }));
+    }
+}
+
+TEST(Allocations, OfLesson09DoNotDependOnTriangles) {
+    for (const LightKind light : {LightKind::directional, LightKind::spot, LightKind::point}) {
+        lesson_09::Options knobs;
+        knobs.shading.key_light = light, knobs.shadow.size = 64;
+        knobs.shading.all_effects = true;  // maps for each mesh and light
+        EXPECT_TRUE(
+            does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
+                ShadowedScene shadowed(scene, options);
+                shadowed.normal_textures[1] = std::make_shared<const Texture>(
+                    make_texture(Image<vec4>({16, 16}, vec4(0.6f, 0, 0.8f, 1)), Wrap::repeat));
+                Counters counters;
+                const std::size_t count =
+                    allocations_of([&] { lesson_09::render(options, shadowed, counters); });
+                EXPECT_GT(counters.values[std::size_t(Counter::shadow_fragments)], 1000u);
+                EXPECT_GT(counters.values[std::size_t(Counter::shadow_lookups)], 1000u);
                 return count;
             }));
     }

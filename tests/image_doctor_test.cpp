@@ -417,7 +417,10 @@ TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAKnobShows) {
           Case{"06_phong", {"--highlight", "blinn"}, "Eq. 6.3 and 6.4"},
           Case{"07_toon", {"--outline-width", "6"}, "Eq. 7.14"},
           Case{"08_normal_maps", {"--green", "down"}, "Eq. 8.1 and 8.5"},
-          Case{"08_normal_maps", {"--normal-map", "object"}, "Eq. 8.7"}}) {
+          Case{"08_normal_maps", {"--normal-map", "object"}, "Eq. 8.7"},
+          Case{"09_shadow_maps", {"--bias", "none"}, "Eq. 9.9"},
+          Case{"09_shadow_maps", {"--bias", "constant"}, "Eq. 9.10"},
+          Case{"09_shadow_maps", {"--pcf", "1"}, "Eq. 9.13"}}) {
         std::vector<std::string> arguments = knob;
         arguments.insert(arguments.end(), {"--yaw", "10", "--size", "160x90", "--out", file});
         ASSERT_EQ(run_program(lesson, arguments).exit_status, 0);

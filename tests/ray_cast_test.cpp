@@ -65,12 +65,17 @@ TEST(RayCast, FindsTheSameAsALoopOverAllTriangles) {
             Ray ray{2.0 * any_in_cube(random), any_in_cube(random)};
             if (i % 3 == 0) ray.direction[i / 3 % 3] = 0;
             if (i % 4 == 0) ray.from = 0.3, ray.to = 1.5;
+            if (i % 5 == 0 && count > 0) {  // met at 1; by chance few are
+                const auto all = caster.triangles();
+                const RayTriangle& aim = all[static_cast<std::size_t>(i) % all.size()];
+                ray.direction = (aim[0] + aim[1] + aim[2]) / 3.0 - ray.origin;
+            }
             const auto expected = nearest_of_all(ray, caster);
             ASSERT_EQ(caster.nearest(ray), expected) << count << " triangles, seed 1, ray " << i;
             ASSERT_EQ(caster.is_blocked(ray), expected.has_value()) << count << ", ray " << i;
             hits += expected.has_value();
         }
-        EXPECT_EQ(hits > 0, count >= 4) << count;
+        EXPECT_TRUE(count == 0 ? hits == 0 : hits >= 600) << count << ": " << hits;
     }
 }
 

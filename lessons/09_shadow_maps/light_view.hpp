@@ -79,12 +79,25 @@ inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers
     return region;
 }
 
-/// The box a little larger, so that rounding puts nothing outside, and no side of it 0.
-inline LightBox widened(const LightBox& box) {
+/// Texels by which each map reaches beyond what it is for, on each side: what is looked up around a
+/// point near the border lies inside. One more than the largest look-up takes.
+constexpr int margin_texels = 4;
+
+/// By how much the margin makes a map wider (Eq. 9.3).
+///
+/// @param size  Of the map in texels, > 2 margin_texels.
+inline double widened_by_margin(int size) {
+    return static_cast<double>(size) / (size - 2 * margin_texels);
+}
+
+/// The box a little larger, so that rounding puts nothing outside, no side of it 0, and sideways
+/// with a margin.
+inline LightBox widened(const LightBox& box, int size) {
     const dvec3 half = 0.5 * (box.high - box.low), middle = 0.5 * (box.high + box.low);
     const double largest = std::max({half.x, half.y, half.z});
     const double least = largest > 0 ? 1e-3 * largest : 1;
-    const dvec3 wider = glm::max(1.002 * half, dvec3(least));
+    const double margin = widened_by_margin(size);
+    const dvec3 wider = dvec3(margin, margin, 1) * glm::max(1.002 * half, dvec3(least));
     return {middle - wider, middle + wider};
 }
 
@@ -97,12 +110,13 @@ inline dmat4 looking(dvec3 eye, dvec3 direction) {
 /// The sun's map: parallel to its light, and of what casts on what receives (Eq. 9.1).
 ///
 /// @return  Of count 0 when no receiver lies behind a caster, as the light goes.
-inline LightViews sun_views(const Light& light, const Bounds& casters, const Bounds& receivers) {
+inline LightViews sun_views(const Light& light, const Bounds& casters, const Bounds& receivers,
+                            int size) {
     const dmat4 view = looking(casters.center(), -light.direction_world);
     const LightBox caster_box = box_in(view, casters), receiver_box = box_in(view, receivers);
     const LightBox region = shadow_region(caster_box, receiver_box);
     if (!caster_box.is_usable() || !receiver_box.is_usable() || !region.is_usable()) return {};
-    const LightBox box = widened(region);
+    const LightBox box = widened(region, size);
     // Towards the light is near: z changes its sign.
     const dmat4 clip = scaling(dvec3(1, 1, -1)) * crop(box.low, box.high) * view;
     return {{mat4(clip)}, 1, false};
@@ -121,7 +135,8 @@ inline DepthRange depth_range(double nearest_caster, double farthest) {
 /// A spot's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
 ///
 /// @return  Of count 0 when in front of the spot no receiver lies behind a caster.
-inline LightViews spot_views(const Light& light, const Bounds& casters, const Bounds& receivers) {
+inline LightViews spot_views(const Light& light, const Bounds& casters, const Bounds& receivers,
+                             int size) {
     const dvec3 eye = light.position_world;
     const dmat4 view = looking(eye, light.direction_world);
     const LightBox caster_box = box_in(view, casters), receiver_box = box_in(view, receivers);
@@ -150,14 +165,10 @@ inline LightViews spot_views(const Light& light, const Bounds& casters, const Bo
     region.low = glm::max(region.low, dvec3(-1)), region.high = glm::min(region.high, dvec3(1));
     if (!(region.low.x < region.high.x && region.low.y < region.high.y)) return {};
     region.low.z = -1, region.high.z = 1;  // near and far are fitted already
-    LightBox box = widened(region);
+    LightBox box = widened(region, size);
     box.low.z = -1, box.high.z = 1;
     return {{mat4(crop(box.low, box.high) * clip)}, 1, true};
 }
-
-/// Texels by which each of a lamp's six maps reaches over its neighbours: what is looked up near a
-/// border lies inside.
-constexpr int cube_margin = 4;
 
 /// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5).
 inline std::size_t cube_face(vec3 way) {
@@ -167,8 +178,6 @@ inline std::size_t cube_face(vec3 way) {
 }
 
 /// A lamp's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
-///
-/// @param size  Of a map in texels, > 2 cube_margin.
 inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bounds& receivers,
                              int size) {
     const dvec3 eye = light.position_world;
@@ -181,9 +190,10 @@ inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bo
         glm::length(eye - glm::clamp(eye, dvec3(casters.min), dvec3(casters.max)));
     constexpr double most = std::numeric_limits<float>::max();
     if (!(farthest > 0 && farthest < most && nearest_caster <= farthest)) return {};
-    // Along the axis of its face, a way in its corner is 1/sqrt(3) as long, a bit less in a margin.
-    const auto [near, far] = depth_range(0.5 * nearest_caster, farthest);
-    const double half_width = static_cast<double>(size) / (size - 2 * cube_margin);
+    const double half_width = widened_by_margin(size);
+    // A way of length 1 to a map's corner leads so far along its axis: 1/sqrt(3) without a margin.
+    const double axis_share = 1 / std::sqrt(1 + 2 * half_width * half_width);
+    const auto [near, far] = depth_range(axis_share * nearest_caster, farthest);
     const dmat4 projection = perspective(2 * std::atan(half_width), 1.0, near, far);
     LightViews views{{}, 6, true};
     for (std::size_t face = 0; face < 6; ++face) {
@@ -199,14 +209,14 @@ inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bo
 /// @param light      Finite numbers; one parallel to the y axis is as good as any.
 /// @param casters    World space; with receivers, all that the maps have to show. May be empty.
 /// @param receivers  World space; what lies outside of the maps is lit.
-/// @param size       Of a map in texels.
+/// @param size       Of a map in texels, > 2 margin_texels.
 inline LightViews light_views(const Light& light, const Bounds& casters, const Bounds& receivers,
                               int size) {
     const auto is_usable = [](const Bounds& b) { return LightBox{b.min, b.max}.is_usable(); };
     if (!is_usable(casters) || !is_usable(receivers)) return {};
-    if (light.kind == LightKind::directional) return sun_views(light, casters, receivers);
+    if (light.kind == LightKind::directional) return sun_views(light, casters, receivers, size);
     if (light.kind == LightKind::spot && light.cos_none > std::cos(widest_spot_radians))
-        return spot_views(light, casters, receivers);
+        return spot_views(light, casters, receivers, size);
     return lamp_views(light, casters, receivers, size);
 }
 

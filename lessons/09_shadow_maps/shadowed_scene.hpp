@@ -70,6 +70,8 @@ inline std::array<Light, 2> raking_lights(LightKind key, const Bounds& bounds) {
 /// The key light throws shadows. The sky throws none: what comes from all sides has no edges.
 constexpr std::array<bool, 2> light_casts = {true, false};
 
+static_assert(margin_texels > most_pcf_radius);
+
 /// The depth maps of all lights that call for some.
 class Shadows {
   public:
@@ -148,6 +150,10 @@ class Shadows {
 constexpr float full_cosine = 0.1f;
 
 /// How much of each light reaches points of a triangle.
+///
+/// The bias in a map is fitted at the triangle's first look-up there, with that point's normal as
+/// `outward`. Normals of one triangle that lie on both sides of it are rare; there the first
+/// decides.
 class TriangleShadows {
   public:
     TriangleShadows(const Shadows& shadows, const Mesh& mesh, const Triangle& triangle)
@@ -182,15 +188,15 @@ class TriangleShadows {
         const float cosine = glm::dot(unit_or(normal, vec3(0)), toward);
         if (!(cosine > 0)) return of_light.is_drawn ? 0 : 1;
         const std::size_t map = of_light.map_of_view[of_light.has_faces ? cube_face(way) : 0];
-        if (map == Shadows::no_map) return 1;
+        const float faded = of_light.is_drawn ? std::min(cosine / full_cosine, 1.0f) : 1;
+        if (map == Shadows::no_map) return faded;
         counters.add(Counter::shadow_lookups);
         if (!is_known_[l][map]) {  // most triangles of a lamp are seen in one map
             receivers_[l][map] =
                 receiver(of_light.maps[map], shadows_.bias_, shadows_.radius_, corners_, normal);
             is_known_[l][map] = true;
         }
-        const float lit = shadows_.lit(of_light.maps[map], receivers_[l][map], position);
-        return of_light.is_drawn ? lit * std::min(cosine / full_cosine, 1.0f) : lit;
+        return faded * shadows_.lit(of_light.maps[map], receivers_[l][map], position);
     }
 
     const Shadows& shadows_;

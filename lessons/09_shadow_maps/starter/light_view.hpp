@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How a light sees the scene: the matrices of its depth maps. Introduced in lesson 09;
+/// derivation: docs/derivations/09_shadow_maps.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "04_mvp/clip.hpp"
+#include "04_mvp/transform.hpp"
+#include "06_phong/light.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// The matrices under which a light's depth maps are drawn.
+struct LightViews {
+    std::array<mat4, 6> clip_from_world{};
+    std::size_t count = 0;  ///< 0: nothing can throw a shadow on anything; 1; 6: see cube_face().
+    bool is_perspective = false;
+};
+
+/// What lies from `low` to `high`, moved and stretched to the cube from -1 to 1 (Eq. 9.2). Without
+/// shear, so that a w stays what it was.
+///
+///     2/(h.x-l.x)  0            0            -(h.x+l.x)/(h.x-l.x)
+///     0            2/(h.y-l.y)  0            -(h.y+l.y)/(h.y-l.y)
+///     0            0            2/(h.z-l.z)  -(h.z+l.z)/(h.z-l.z)
+///     0            0            0            1
+///
+/// @param low,high  low < high in each component.
+inline dmat4 crop(dvec3 low, dvec3 high) {
+    // TODO: Eq. 9.2.
+    return dmat4(1);
+}
+
+/// Nearer to a lamp or spot than this share of the farthest caster or receiver, nothing casts.
+constexpr double least_near = 0.001;
+
+/// A spot whose light ends farther than this from its axis gets six maps, as a lamp.
+constexpr float widest_spot_radians = 75 * std::numbers::pi_v<float> / 180;
+
+/// A box in the light's view: x right, y up, z the way from the light, w 1 (or the same after the
+/// division by w).
+struct LightBox {
+    dvec3 low{std::numeric_limits<double>::infinity()};
+    dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(dvec3 p) { low = glm::min(low, p), high = glm::max(high, p); }
+    bool is_usable() const {  // false for NaN and infinity
+        constexpr double most = std::numeric_limits<float>::max();
+        return glm::all(glm::lessThanEqual(low, high)) &&
+               glm::all(glm::lessThan(glm::max(glm::abs(low), glm::abs(high)), dvec3(most)));
+    }
+};
+
+/// The box around a box's corners in another space.
+inline LightBox box_in(const dmat4& view_from_world, const Bounds& bounds) {
+    LightBox box;
+    for (int i = 0; i < 8; ++i)
+        box.add(view_from_world * dvec4(i & 1 ? bounds.max.x : bounds.min.x,
+                                        i & 2 ? bounds.max.y : bounds.min.y,
+                                        i & 4 ? bounds.max.z : bounds.min.z, 1));
+    return box;
+}
+
+/// Where a shadow can begin and end: sideways where there are both casters and receivers, and from
+/// the nearest caster to where casters or receivers end (Eq. 9.3).
+///
+/// z grows towards the light, as view space does.
+inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers) {
+    // TODO: Eq. 9.3.
+    return casters;
+}
+
+/// Texels by which each map reaches beyond what it is for, on each side: what is looked up around a
+/// point near the border lies inside. One more than the largest look-up takes.
+constexpr int margin_texels = 4;
+
+/// By how much the margin makes a map wider (Eq. 9.3).
+///
+/// @param size  Of the map in texels, > 2 margin_texels.
+inline double widened_by_margin(int size) {
+    // TODO: what the text says behind Eq. 9.3.
+    return 1;
+}
+
+/// The box a little larger, so that rounding puts nothing outside, no side of it 0, and sideways
+/// with a margin.
+inline LightBox widened(const LightBox& box, int size) {
+    const dvec3 half = 0.5 * (box.high - box.low), middle = 0.5 * (box.high + box.low);
+    const double largest = std::max({half.x, half.y, half.z});
+    const double least = largest > 0 ? 1e-3 * largest : 1;
+    const double margin = widened_by_margin(size);
+    const dvec3 wider = dvec3(margin, margin, 1) * glm::max(1.002 * half, dvec3(least));
+    return {middle - wider, middle + wider};
+}
+
+/// view_from_world from a place into a direction. (In `eye + direction`, a far eye would swallow
+/// the direction's digits.)
+inline dmat4 looking(dvec3 eye, dvec3 direction) {
+    return look_at(dvec3(0), direction, dvec3(0, 1, 0)) * translation(-eye);
+}
+
+/// The sun's map: parallel to its light, and of what casts on what receives (Eq. 9.1).
+///
+/// @return  Of count 0 when no receiver lies behind a caster, as the light goes.
+inline LightViews sun_views(const Light& light, const Bounds& casters, const Bounds& receivers,
+                            int size) {
+    // TODO: Eq. 9.1 by looking(), the two boxes in this view by box_in(), and Eq. 9.3, widened();
+    // then crop() and S(1, 1, -1). Where a box is not usable: {}.
+    return {{mat4(1)}, 1, false};
+}
+
+/// From the nearest caster, or a thousandth of the way, to where casters or receivers end.
+struct DepthRange {
+    double near, far;
+};
+
+inline DepthRange depth_range(double nearest_caster, double farthest) {
+    // TODO: the second line of Eq. 9.4.
+    return {least_near, 1};
+}
+
+/// A spot's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
+///
+/// @return  Of count 0 when in front of the spot no receiver lies behind a caster.
+inline LightViews spot_views(const Light& light, const Bounds& casters, const Bounds& receivers,
+                             int size) {
+    // TODO: Eq. 9.4. Find both boxes in the spot's view and the depths first: z grows towards the
+    // spot. Then the boxes in NDC, a box that begins behind the nearest depth taken for all of the
+    // cone, what both have in common, widened(), and crop(). Where there can be no shadow: {}.
+    return {{mat4(1)}, 1, true};
+}
+
+/// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5).
+inline std::size_t cube_face(vec3 way) {
+    // TODO: the left of Eq. 9.5.
+    return 0;
+}
+
+/// A lamp's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
+inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bounds& receivers,
+                             int size) {
+    // TODO: the right of Eq. 9.5 and depth_range(), with distances in whatever direction; a view
+    // along each axis by looking(). Where there can be no shadow, or a distance is not finite: {}.
+    LightViews views{{}, 6, true};
+    views.clip_from_world.fill(mat4(1));
+    return views;
+}
+
+/// The matrices of a light's depth maps.
+///
+/// @param light      Finite numbers; one parallel to the y axis is as good as any.
+/// @param casters    World space; with receivers, all that the maps have to show. May be empty.
+/// @param receivers  World space; what lies outside of the maps is lit.
+/// @param size       Of a map in texels, > 2 margin_texels.
+inline LightViews light_views(const Light& light, const Bounds& casters, const Bounds& receivers,
+                              int size) {
+    const auto is_usable = [](const Bounds& b) { return LightBox{b.min, b.max}.is_usable(); };
+    if (!is_usable(casters) || !is_usable(receivers)) return {};
+    if (light.kind == LightKind::directional) return sun_views(light, casters, receivers, size);
+    if (light.kind == LightKind::spot && light.cos_none > std::cos(widest_spot_radians))
+        return spot_views(light, casters, receivers, size);
+    return lamp_views(light, casters, receivers, size);
+}
+
+}  // namespace rasterbook

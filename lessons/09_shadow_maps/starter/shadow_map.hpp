@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a light sees first, and whether a point lies behind it. Introduced in lesson 09;
+/// derivation: docs/derivations/09_shadow_maps.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <glm/matrix.hpp>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/clip.hpp"
+#include "04_mvp/transform.hpp"
+#include "common/counters.hpp"
+#include "common/math/numerics.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// A look-up averages up to 2 * 3 + 1 texels a side.
+constexpr int most_pcf_radius = 3;
+
+/// By how much fill_triangle may see a corner beside its place, in texels: half a snapping step.
+constexpr double snapping = 0.5 / subpixels;
+
+/// Roundings on the way from a corner to a map's depth and to a fragment's: at most 64 of 2^-24,
+/// relative to the sizes of what is added up (Eq. 9.15).
+constexpr double rounding = 64 * 0x1p-24;
+
+/// Depths between 0 and 1 have 24 digits or more; the fill's weights and the depth's sum round a
+/// few times.
+constexpr double depth_quanta = 8 * 0x1p-24;
+
+/// The depth of what a light sees first, for each texel; 1 where it sees nothing.
+struct ShadowMap {
+    int size;                ///< Texels a side.
+    mat4 clip_from_world;    ///< As light_view.hpp makes it.
+    mat4 texels_from_world;  ///< x right, y down in texels, depth 0 to 1, all times w (Eq. 9.6).
+    dmat4 plane_from_world;  ///< For planes as rows of four numbers (Eq. 9.8).
+    bool is_perspective;     ///< Else w is 1.
+    double rounding_texels;  ///< By how much a place may be off, times w (Eq. 9.15).
+    double rounding_depth;   ///< By how much a depth may be off, times w.
+    double slope_in_middle;  ///< |dz/dx| + |dz/dy| of a surface tilted by arctan 2.
+    DepthBuffer depths;      ///< With most_pcf_radius texels around it, in which nothing is seen.
+
+    /// @param reach  World space: a box around all casters and receivers.
+    ShadowMap(const mat4& clip, bool perspective, int texels, const Bounds& reach)
+        : size(texels),
+          clip_from_world(clip),
+          texels_from_world(1),  // TODO: Eq. 9.6; viewport<double>() is its left matrix
+          plane_from_world(1),   // TODO: the left of Eq. 9.8
+          is_perspective(perspective),
+          depths(ivec2(texels + 2 * most_pcf_radius)) {
+        [[maybe_unused]] const dvec4 farthest(
+            glm::max(glm::abs(dvec3(reach.min)), glm::abs(dvec3(reach.max))), 1);
+        const dmat4 rows = glm::transpose(dmat4(texels_from_world));
+        // TODO: Eq. 9.15; the sum for a row i is the dot product of |rows[i]| and `farthest`.
+        rounding_texels = 0;
+        rounding_depth = 0;
+        slope_in_middle = slope_at(reach.center(), rows);
+    }
+
+  private:
+    /// |dz/dx| + |dz/dy| of a surface tilted to the right by arctan 2, on the map's axis and as far
+    /// from the light as a point.
+    double slope_at(dvec3 point, const dmat4& rows) const {
+        const dmat4 world_from_texels = glm::inverse(dmat4(texels_from_world));
+        const double half = 0.5 * size;
+        const dvec3 into = glm::normalize(dvec3(is_perspective ? rows[3] : rows[2]));
+        dvec3 place(world_from_texels * dvec4(half, half, 0.5, 1));
+        if (is_perspective) {
+            const dvec3 eye = dvec3(world_from_texels[2]) / world_from_texels[2].w;  // x y w = 0
+            place = eye + glm::distance(point, eye) * into;
+        }
+        const dvec3 right = glm::normalize(dvec3(rows[0]) - half * dvec3(rows[3]));
+        const dvec3 normal = 2.0 * right - into;
+        const dvec4 plane = plane_from_world * dvec4(normal, -glm::dot(normal, place));  // Eq. 9.8
+        const double slope = (std::abs(plane.x) + std::abs(plane.y)) / std::abs(plane.z);
+        return slope <= 1 ? slope : 1;
+    }
+};
+
+/// Draws the depth of a mesh as the light sees it, fronts and backs.
+///
+/// @param casts  Called as casts(material): whether triangles of this material throw shadows.
+template <typename Casts, typename CounterPolicy>
+void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
+    if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
+    // TODO: as lesson 04 draws a mesh, but that only what casts is drawn, fronts and backs alike,
+    // and nothing but depths. Texel (0, 0) is at (most_pcf_radius, most_pcf_radius) of map.depths.
+    // Count Counter::shadow_fragments.
+}
+
+/// What keeps a lit surface from shadowing itself.
+enum class Bias { none, constant, slope, plane, normal };
+
+/// What a look-up has to know of the triangle on which a shadow falls.
+struct Receiver {
+    vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
+    float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.10); leaks: Eq. 9.14.
+    float bias_per_w = 0;  ///< The same, divided by w.
+    vec3 offset{0};        ///< World space: moves the point (Eq. 9.12).
+    vec3 offset_times_w{0};  ///< The same, multiplied by w.
+};
+
+/// A plane's slopes beyond which a depth passes through all of the map within a texel. Such a
+/// surface is seen edge-on by the light, gets hardly any, and all of that.
+constexpr double most_slope = 1;
+
+/// Fits the bias to a triangle.
+///
+/// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
+/// lit of a triangle of no area, edge-on, not finite, or turned away from the light: that one gets
+/// no light anyway, or next to none by normals that are mixed between its corners.
+///
+/// @param radius   Of the look-up's square of texels: 0 to most_pcf_radius.
+/// @param corners  World space.
+/// @param outward  Any vector to that side of the triangle which is seen.
+inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
+                         const std::array<vec3, 3>& corners, vec3 outward) {
+    Receiver result;
+    const double reach_texels = 0;  // TODO: to the farthest texel's centre, Eq. 9.9
+    if (bias == Bias::constant)
+        result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
+    if (bias == Bias::none || bias == Bias::constant) return result;
+
+    // TODO: the triangle's plane as the map sees it, Eq. 9.8, turned so that `outward` is in front
+    // of it. Where it is edge-on or turned away, the bias is 2. Else Eq. 9.12 for Bias::normal,
+    // Eq. 9.10 for Bias::slope, and Eq. 9.11 for Bias::plane.
+    return result;
+}
+
+/// The share of a square of texels, around a point's place in the map, from which it is lit: 0 to 1
+/// (Eq. 9.7 and 9.13).
+///
+/// @tparam radius         0 to most_pcf_radius: 1, 9, 25 or 49 texels.
+/// @param position_world  Outside of the map, behind the light or not a number: lit.
+template <int radius>
+float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+    static_assert(radius >= 0 && radius <= most_pcf_radius);
+    // TODO: move the point by its offsets (Eq. 9.12), find its place (Eq. 9.6), and what it is
+    // compared with at the centre of its texel (Eq. 9.10 and 9.11). Then Eq. 9.7 for each texel of
+    // the square, and Eq. 9.13. What is outside of the map is lit, but texels around it are there.
+    return 1;
+}
+
+}  // namespace rasterbook
