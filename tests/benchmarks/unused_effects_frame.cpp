@@ -191,7 +191,7 @@ Image<vec3> copy_of_render(const AnyOptions& options, const AnyScene& scene,
                     }
                 };
                 Fragments visible(shade);
-                fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
+                fill_in_bands(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
                     counters.add(Counter::fragments_tested);
                     if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
                     counters.add(Counter::fragments_shaded);
