@@ -147,7 +147,7 @@ class TriangleLight {
           eye_world_(eye_world),
           has_highlight_(surface.effects.highlight),
           shininess_(surface.material.shininess),
-          least_cosine_(least_seen_cosine(variant.power, shininess_)),
+          least_cosine_(has_highlight_ ? least_seen_cosine(variant.power, shininess_) : 1.0f),
           at_once_(variant.shading == Shading::phong && variant.highlight == Highlight::phong &&
                    variant.normals == NormalScaling::exact) {
         for (std::size_t i = 0; i < 3; ++i) {
