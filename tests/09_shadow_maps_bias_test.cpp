@@ -284,7 +284,8 @@ TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
         {{vec3(0), vec3(0, 0, 0.5f), vec3(0, 0, 1)}, true},  // a line along the light
         {{vec3(0), vec3(1, 0, 1e-30f), vec3(0, 0, 1)}, true},
         {{vec3(-1e30f), vec3(1e30f, 0, 0), vec3(0, 1, 1)}, false},
-        {{vec3(0), vec3(1e-38f, 0, 0), vec3(0, 1e-38f, 0)}, false}};
+        {{vec3(0), vec3(1e-38f, 0, 0), vec3(0, 1e-38f, 0)}, false},
+        {{vec3(NAN), vec3(1, 0, 0), vec3(0, 1, 0)}, true}};
     for (const float lean : {1e-3f, 1e-6f, 1e-9f, 1e-20f, 1e-38f})
         for (const float side : {1.0f, -1.0f})
             triangles.push_back({{vec3(0), vec3(1, 0, 0), vec3(0, lean * side, 1)}, true});
