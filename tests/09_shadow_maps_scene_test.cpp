@@ -246,7 +246,8 @@ TEST(ShadowMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
 
 TEST(ShadowMaps, HardCase_UnlitAndClearMaterialsThrowNoShadow) {
     look_up("Eq. 9.3");
-    // A plate above a floor; the point below it is looked up.
+    // A plate above a floor; the point below it is looked up. The map reaches up to the plate in
+    // any case, as opaque ones are above two corners.
     for (const auto& [illumination, opacity, is_dark] :
          {std::tuple{2, 1.0f, true}, {1, 1.0f, true}, {0, 1.0f, false}, {2, 0.5f, false}}) {
         lesson::Options options = small_picture();
@@ -256,6 +257,12 @@ TEST(ShadowMaps, HardCase_UnlitAndClearMaterialsThrowNoShadow) {
         scene.materials.resize(2);
         for (Triangle& triangle : scene.meshes[1].triangles) triangle.material = 1;
         scene.materials[1].illumination = illumination, scene.materials[1].opacity = opacity;
+        const ShadowedScene two(scene, options);
+        EXPECT_EQ(two.casters.max.y, is_dark ? 1 : 0) << illumination << ", " << opacity;
+        EXPECT_EQ(two.receivers.max.y, illumination > 0 ? 1 : 0) << "glass gets shadows";
+        for (const float x : {-3.0f, 2.8f})
+            scene.meshes.push_back(
+                quad({x, 2, x}, {x, 2, x + 0.2f}, {x + 0.2f, 2, x + 0.2f}, {x + 0.2f, 2, x}));
         const ShadowedScene shadowed(scene, options);
         const std::array lights = {sun({0, 1, 0}), sun({0, 1, 0})};
         NoCounters none;
@@ -269,6 +276,27 @@ TEST(ShadowMaps, HardCase_UnlitAndClearMaterialsThrowNoShadow) {
         EXPECT_EQ(shadow(0, 0), is_dark ? 0 : 1) << illumination << ", " << opacity;
         EXPECT_EQ(shadow(0, 1), 1);
     }
+}
+
+TEST(ShadowMaps, HardCase_ATriangleSeenInSeveralMapsHasABiasInEach) {
+    look_up("Eq. 9.5");
+    lesson::Options options = small_picture();
+    Scene scene;
+    scene.meshes.push_back(quad({-4, 0, -4}, {-4, 0, 4}, {4, 0, 4}, {4, 0, -4}));
+    scene.materials.resize(1);
+    const ShadowedScene shadowed(scene, options);
+    const std::array lights = {lamp_at({0.3f, 1, 0.2f}), sun({0, 1, 0})};
+    NoCounters none;
+    const Shadows shadows(options.shadow, false, shadowed, lights, none);
+    TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
+    LitPoints points;
+    for (int i = 0; i < 60; ++i) {  // from the first map across two more
+        points.position_world.set(points.count, {3.9f - 0.13f * static_cast<float>(i), 0, 0.1f});
+        points.normal_world.set(points.count, {0, 1, 0});
+        ++points.count;
+    }
+    shadow.look_up(points, none);
+    for (std::size_t i = 0; i < points.count; ++i) EXPECT_EQ(shadow(0, i), 1) << i;
 }
 
 TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {

@@ -236,6 +236,20 @@ TEST(ShadowMaps, Eq9_4_ASpotsMapIsCutDownToCastersAndReceivers) {
     EXPECT_TRUE(farthest <= 1 && farthest > 0.95) << farthest;
 }
 
+TEST(ShadowMaps, Eq9_4_ASpotsMapIsNoWiderThanItsCone) {
+    // Plate and floor lie in front of the spot, and reach far beyond its light on all sides.
+    const Light spot = spot_at({0, 10, 0}, {0, 0, 0}, 45);
+    const LightViews views =
+        light_views(spot, box({-40, 4, -40}, {40, 5, 40}), box({-40, 0, -40}, {40, 0, 40}), 256);
+    ASSERT_EQ(views.count, 1u);
+    constexpr double end = 1 - 2.0 * margin_texels / 256;
+    for (const dvec3 border :
+         {dvec3(10, 0, 0), dvec3(-10, 0, 0), dvec3(0, 0, 10), dvec3(0, 0, -10)}) {
+        const dvec3 place = glm::abs(ndc(views.clip_from_world[0], border));
+        EXPECT_NEAR(std::max(place.x, place.y), end, 0.005);
+    }
+}
+
 TEST(ShadowMaps, HardCase_AWideSpotGetsSixMaps) {
     look_up("Eq. 9.4");
     const Bounds around = box(vec3(-9), vec3(9));
