@@ -128,18 +128,28 @@ class TriangleRelief {
         face_ = tangent_frame(tangents_[0], normal, handedness_);
     }
 
-    /// Reads the map for the point that was added last.
+    /// Reads the map for all points.
+    ///
+    /// @param weights  Theirs.
     template <typename CounterPolicy>
-    void add(const FragmentWeights& weights, Filter filter, BumpyPoints& points,
+    void add(const ManyWeights& weights, Filter filter, BumpyPoints& points,
              CounterPolicy& counters) const {
         if (!texture_) return;
-        const std::size_t i = points.count - 1;
-        counters.add(Counter::normal_map_samples);
-        vec3 in_map = sample_normal(*texture_, filter, fragment_uv(uvs_, weights));
-        if (variant_.channels == Channels::xy) in_map = with_z(vec2(in_map));
-        if (space_ == MapSpace::tangent) in_map.x *= steepness_, in_map.y *= steepness_;
-        points.in_map.set(i, in_map);
-        points.weights.set(i, weights.here);
+        points.weights = weights.here;
+        sample_many(*texture_, filter, uvs_, weights, [&](std::size_t i, vec4 texel) {
+            counters.add(Counter::normal_map_samples);
+            points.in_map.set(i, vec3(texel));
+        });
+        if (texture_->wrap == Wrap::mirror)
+            for (std::size_t i = 0; i < weights.count; ++i)
+                points.in_map.set(i,
+                                  unmirrored(points.in_map[i], interpolate(uvs_, weights.here[i])));
+        for (std::size_t i = 0; i < weights.count; ++i) {
+            vec3 in_map = points.in_map[i];
+            if (variant_.channels == Channels::xy) in_map = with_z(vec2(in_map));
+            if (space_ == MapSpace::tangent) in_map.x *= steepness_, in_map.y *= steepness_;
+            points.in_map.set(i, in_map);
+        }
     }
 
     /// Tilts the normals of points as the map has it. Their lengths are not 1.
@@ -179,8 +189,8 @@ class TriangleRelief {
     /// so
     ///          short that its square is not a usable number, or a tangent leads along a normal.
     bool tilt_at_once(BumpyPoints& points) const {
-        // No step of the loop leaves it, or reads what the loop might write: the compiler takes many
-        // i at once.
+        // No step of the loop leaves it, or reads what the loop might write: the compiler takes
+        // many i at once.
         const std::array tangents = tangents_;
         const float handedness = handedness_;
         int unusable = 0;
