@@ -302,7 +302,7 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
 }
 
 TEST(NormalMaps, HardCase_ManyPointsAtOnceAreTiltedAsOne) {
-    look_up("Eq. 8.7");
+    look_up("Eq. 8.5 and 8.7");
     std::mt19937 random(6);
     std::uniform_real_distribution<float> any(-1, 1);
     const auto some = [&] { return vec3(any(random), any(random), any(random)); };
@@ -349,6 +349,8 @@ TEST(NormalMaps, HardCase_ManyPointsAtOnceAreTiltedAsOne) {
         }
         relief.tilt(together);
         for (std::size_t k = 0; k < alone.size(); ++k)
-            ASSERT_EQ(together.normal_world[k], alone[k]) << "seed 6, case " << i << ", " << k;
+            ASSERT_EQ(together.normal_world[k], alone[k])
+                << "seed 6, case " << i << ", " << k
+                << "; TriangleRelief takes the steps that unit_across() documents";
     }
 }

@@ -183,11 +183,11 @@ class TriangleRelief {
         return tangent_frame(tangent, mixed_normal, handedness_);
     }
 
-    /// The same bits as of frame_at() and tilted(), many points at a time.
+    /// The same bits as of frame_at() and tilted(), many points at a time: the steps of unit_or()
+    /// and unit_across() in their usual case.
     ///
     /// @return  Whether all is done: false, and nothing has changed, where a vector is so long or
-    /// so
-    ///          short that its square is not a usable number, or a tangent leads along a normal.
+    ///          so short that its square is not a usable number, or a tangent leads along a normal.
     bool tilt_at_once(BumpyPoints& points) const {
         // No step of the loop leaves it, or reads what the loop might write: the compiler takes
         // many i at once.
