@@ -77,29 +77,19 @@ inline vec4 sample_bilinear(const TextureLevel& level, vec2 place) {
     return in_upper + share.y * (in_lower - in_upper);
 }
 
-/// The square of the longer side of a pixel's footprint, in texels (Eq. 5.8).
+/// The level at which a pixel's footprint is one texel long, by its longer side (Eq. 5.8).
 ///
 /// @param step_x,step_y  How fast uv changes here, a pixel to the right and a pixel down.
 /// @param size           Of level 0, in texels.
-/// @return               0 where any of the four numbers is NaN; may be infinite.
-inline float footprint_squared(vec2 step_x, vec2 step_y, ivec2 size) {
+/// @return               0 where the footprint is a texel or less, and where any of the four
+///                       numbers is NaN; else it may be infinite.
+inline float level_of_detail(vec2 step_x, vec2 step_y, ivec2 size) {
     const vec2 across = step_x * vec2(size), down = step_y * vec2(size);
     const float across_squared = glm::dot(across, across), down_squared = glm::dot(down, down);
     // std::max(25, NaN) is 25; a sum is NaN where either is.
-    const float sum = across_squared + down_squared;
-    return sum == sum ? std::max(across_squared, down_squared) : 0.0f;
-}
-
-/// The level at which a footprint is one texel long (Eq. 5.8).
-///
-/// @return  0 where the footprint is a texel or less; may be infinite.
-inline float level_of_detail(float squared) {
-    return squared > 1 ? 0.5f * std::log2(squared) : 0.0f;
-}
-
-/// @param step_x,step_y,size  As of footprint_squared().
-inline float level_of_detail(vec2 step_x, vec2 step_y, ivec2 size) {
-    return level_of_detail(footprint_squared(step_x, step_y, size));
+    if (std::isnan(across_squared + down_squared)) return 0;
+    const float longer_squared = std::max(across_squared, down_squared);
+    return longer_squared > 1 ? 0.5f * std::log2(longer_squared) : 0.0f;
 }
 
 /// The mean of what two levels have at a place, by how near they are to `level` (Eq. 5.10).

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Weights and texture colours of many fragments at once: the same steps as for one, and the same
+/// Weights and textures' colours of many fragments at once: the same steps as for one, and the same
 /// bits. Introduced in lesson 06.
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "05_textures/interpolation.hpp"
@@ -15,23 +14,27 @@
 
 namespace rasterbook {
 
-/// Weights on the surface of up to most_points fragments: FragmentWeights, number by number.
+/// FragmentWeights of up to most_points fragments, number by number.
 struct ManyWeights {
-    std::size_t count;
+    std::size_t count = 0;
     Vectors here, step_x, step_y;
 
-    ManyWeights(const PerspectiveWeights& perspective, const ManyFragments& fragments)
-        : count(fragments.count) {
-        const PerspectiveWeights weights =
-            perspective;  // a copy, which no step of the loop changes
-        for (std::size_t i = 0; i < count; ++i) {
-            const FragmentWeights at = weights.at(fragments.screen_weights[i]);
-            here.set(i, at.here), step_x.set(i, at.step_x), step_y.set(i, at.step_y);
-        }
-    }
-
     FragmentWeights operator[](std::size_t i) const { return {here[i], step_x[i], step_y[i]}; }
+    void set(std::size_t i, const FragmentWeights& weights) {
+        here.set(i, weights.here), step_x.set(i, weights.step_x), step_y.set(i, weights.step_y);
+    }
 };
+
+/// The weights on the surface of all fragments.
+inline ManyWeights weights_of(const ManyFragments& fragments,
+                              const PerspectiveWeights& perspective) {
+    const PerspectiveWeights at = perspective;  // a copy, which no step of the loop can change
+    ManyWeights weights;
+    weights.count = fragments.count;
+    for (std::size_t i = 0; i < fragments.count; ++i)
+        weights.set(i, at.at(fragments.screen_weights[i]));
+    return weights;
+}
 
 /// What sample() gives for each of many fragments.
 ///
@@ -54,13 +57,11 @@ void sample_many(const Texture& texture, Filter filter, const std::array<vec2, 3
     if (filter == Filter::bilinear)
         for (std::size_t i = 0; i < count; ++i) take(i, sample_bilinear(finest, {x[i], y[i]}));
     if (filter != Filter::trilinear) return;
-    const ivec2 size = finest.size;
-    Numbers footprint;
-    for (std::size_t i = 0; i < count; ++i)
-        footprint[i] = footprint_squared(interpolate(corners, weights.step_x[i]),
-                                         interpolate(corners, weights.step_y[i]), size);
-    for (std::size_t i = 0; i < count; ++i)
-        take(i, sample_trilinear(texture, {x[i], y[i]}, level_of_detail(footprint[i])));
+    for (std::size_t i = 0; i < count; ++i) {
+        const float level = level_of_detail(interpolate(corners, weights.step_x[i]),
+                                            interpolate(corners, weights.step_y[i]), finest.size);
+        take(i, sample_trilinear(texture, {x[i], y[i]}, level));
+    }
 }
 
 }  // namespace rasterbook

@@ -8,6 +8,7 @@
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
+#include "06_phong/many_samples.hpp"
 #include "07_toon/toon_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
@@ -66,7 +67,7 @@ Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy
                 const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
                                           triangle, is_back, surface);
                 const auto shade = [&](const ManyFragments& fragments) {
-                    const ManyWeights weights(perspective, fragments);
+                    const ManyWeights weights = weights_of(fragments, perspective);
                     const auto own = surface.colors(weights, options.texture.filter, counters);
                     ToonPoints points;
                     if (surface.effects.light)

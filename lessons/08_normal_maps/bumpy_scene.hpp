@@ -136,20 +136,21 @@ class TriangleRelief {
              CounterPolicy& counters) const {
         if (!texture_) return;
         points.weights = weights.here;
-        sample_many(*texture_, filter, uvs_, weights, [&](std::size_t i, vec4 texel) {
+        const auto take = [&](std::size_t i, vec4 texel) {
             counters.add(Counter::normal_map_samples);
             points.in_map.set(i, vec3(texel));
-        });
+        };
         if (texture_->wrap == Wrap::mirror)
             for (std::size_t i = 0; i < weights.count; ++i)
-                points.in_map.set(i,
-                                  unmirrored(points.in_map[i], interpolate(uvs_, weights.here[i])));
-        for (std::size_t i = 0; i < weights.count; ++i) {
-            vec3 in_map = points.in_map[i];
-            if (variant_.channels == Channels::xy) in_map = with_z(vec2(in_map));
-            if (space_ == MapSpace::tangent) in_map.x *= steepness_, in_map.y *= steepness_;
-            points.in_map.set(i, in_map);
-        }
+                take(i, vec4(sample_normal(*texture_, filter, fragment_uv(uvs_, weights[i])), 1));
+        else
+            sample_many(*texture_, filter, uvs_, weights, take);
+        if (variant_.channels == Channels::xy)
+            for (std::size_t i = 0; i < weights.count; ++i)
+                points.in_map.set(i, with_z(vec2(points.in_map[i])));
+        if (space_ == MapSpace::object || steepness_ == 1) return;
+        for (std::size_t i = 0; i < weights.count; ++i)
+            points.in_map.x[i] *= steepness_, points.in_map.y[i] *= steepness_;
     }
 
     /// Tilts the normals of points as the map has it. Their lengths are not 1.

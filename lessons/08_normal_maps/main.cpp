@@ -7,6 +7,7 @@
 #include "04_mvp/clip.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/bumpy_scene.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
@@ -70,7 +71,7 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
                 const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
                                           triangle, is_back, surface);
                 const auto shade = [&](const ManyFragments& fragments) {
-                    const ManyWeights weights(perspective, fragments);
+                    const ManyWeights weights = weights_of(fragments, perspective);
                     const auto own = surface.colors(weights, options.texture.filter, counters);
                     BumpyPoints points;
                     if (surface.effects.light) {

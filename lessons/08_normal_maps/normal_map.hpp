@@ -74,13 +74,16 @@ inline bool is_gray(const Image<u8vec4>& picture) {
 /// long for one.
 inline vec3 with_z(vec2 xy) { return {xy, std::sqrt(std::max(0.0f, 1 - glm::dot(xy, xy)))}; }
 
-/// A normal as a mirrored map has it, in the directions in which the texture's coordinates grow: in
-/// each second copy of the picture its right is on the left.
-inline vec3 unmirrored(vec3 normal, vec2 uv) {
-    for (int axis = 0; axis < 2; ++axis) {
-        const float there_and_back = 0.5f * uv[axis];
-        if (there_and_back - std::floor(there_and_back) >= 0.5f) normal[axis] = -normal[axis];
-    }
+/// What a normal map has in a fragment, in the directions in which the texture's coordinates grow.
+/// It is shorter than 1 where different normals are mixed.
+inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentUv& uv) {
+    vec3 normal(sample(texture, filter, uv));
+    // In each second copy of a mirrored picture its right is on the left.
+    if (texture.wrap == Wrap::mirror)
+        for (int axis = 0; axis < 2; ++axis) {
+            const float there_and_back = 0.5f * uv.here[axis];
+            if (there_and_back - std::floor(there_and_back) >= 0.5f) normal[axis] = -normal[axis];
+        }
     return normal;
 }
 

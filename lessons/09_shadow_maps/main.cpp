@@ -7,6 +7,7 @@
 #include "04_mvp/clip.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/bumpy_scene.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
@@ -76,7 +77,7 @@ Image<vec3> render(const Options& options, const ShadowedScene& scene, CounterPo
                                           triangle, is_back, surface);
                 TriangleShadows shadow(shadows, mesh, triangle);
                 const auto shade = [&](const ManyFragments& fragments) {
-                    const ManyWeights weights(perspective, fragments);
+                    const ManyWeights weights = weights_of(fragments, perspective);
                     const auto own = surface.colors(weights, options.texture.filter, counters);
                     BumpyPoints points;
                     if (surface.effects.light) {

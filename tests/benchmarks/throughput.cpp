@@ -22,6 +22,7 @@
 #include "04_mvp/clip.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/counters.hpp"
 #include "common/obj.hpp"
@@ -243,7 +244,7 @@ void textured_and_lit(benchmark::State& state) {
                     const TriangleLight light(knobs.shading, lights, camera.position_world, mesh,
                                               triangle, false, surface);
                     const auto shade = [&](const ManyFragments& fragments) {
-                        const ManyWeights weights(perspective, fragments);
+                        const ManyWeights weights = weights_of(fragments, perspective);
                         const auto own = surface.colors(weights, knobs.texture.filter, counters);
                         LitPoints points;
                         light.add(weights, points, counters);
