@@ -71,9 +71,12 @@ void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera&
 }
 
 /// From where on a change counts as an edge.
+///
+/// That of normals is none that an edge of a box, a common prism or a regular solid can have,
+/// however it runs over the picture: rounding would decide what is inked there (Eq. 7.14).
 struct EdgeThresholds {
-    float depth = 0.02f;   ///< In units of the distance to what is seen.
-    float normals = 0.5f;  ///< Of unit vectors: 0.5 is a turn of 29 degrees.
+    float depth = 0.02f;    ///< In units of the distance to what is seen.
+    float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
 };
 
 /// How near what is seen in a pixel is: 1 / w, which of a plane is linear on the screen (Eq. 7.11).
