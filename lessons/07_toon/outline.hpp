@@ -85,13 +85,14 @@ inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3
 /// times as wide. A sheet that is not closed has no rim where it shows its front.
 ///
 /// @param normals  hull_normals() of the mesh.
-/// @param depth    All bodies are drawn already. Keeps the hull's depths where it is seen.
+/// @param depth    All bodies are drawn already. Takes the hull's depths where it is seen.
+/// @param counters outline_tests: each fragment of the hull; outline_pixels: each one inked.
 template <typename CounterPolicy>
 void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
                float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
     const ivec2 size = color.size();
     const mat4 clip_from_world = camera.clip_from_world(size);
-    if (is_outside_frustum(mesh.bounds, clip_from_world)) return;
+    // No test of the bounds: of a body just outside of the picture, the rim may reach into it.
     std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
     for (std::size_t i = 0; i < positions_clip.size(); ++i)
         positions_clip[i] =
@@ -157,7 +158,9 @@ vec3 sobel(At&& at, ivec2 along) {
 /// (Eq. 7.14): silhouettes, sharp edges, and where one body touches another.
 ///
 /// @param normals   Of what is seen, length 1; 0 where nothing is.
-/// @param width_px  Of the lines, rounded up to an even number; 0: none.
+/// @param width_px  Of lines along rows and columns, rounded up to an even number; slanted ones are
+///                  0.71 to 1.41 times as wide. 0: none. A picture that is not wider and higher
+///                  than that has none, and is not asked.
 template <typename CounterPolicy>
 void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
                 float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,
