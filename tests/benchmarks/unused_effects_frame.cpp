@@ -52,8 +52,11 @@ struct UntexturedSurface {
           own_color(surface_color(material)) {}
 
     template <typename CounterPolicy>
-    SurfaceColor color(const FragmentWeights&, Filter, CounterPolicy&) const {
-        return own_color;
+    std::array<SurfaceColor, most_points> colors(const ManyWeights& weights, Filter,
+                                                 CounterPolicy&) const {
+        std::array<SurfaceColor, most_points> colors;
+        for (std::size_t i = 0; i < weights.count; ++i) colors[i] = own_color;
+        return colors;
     }
 };
 
