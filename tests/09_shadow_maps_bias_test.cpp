@@ -271,6 +271,56 @@ TEST(ShadowMaps, Eq9_12_InAPerspectiveTheMovedPointIsNearerByTheBias) {
     }
 }
 
+TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
+    // In a small map of a wide view an offset grows along its own way as much as it is long, or
+    // more: K g of 1 and above.
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> any(-1, 1);
+    const auto any_vector = [&] {
+        const float x = any(random), y = any(random), z = any(random);
+        return vec3(x, y, z);
+    };
+    long asked = 0;
+    int beyond = 0;
+    for (const int size : {16, 24, 32, 64})
+        for (const LightKind kind : {LightKind::spot, LightKind::point})
+            for (int i = 0; i < 250; ++i) {
+                vec3 middle = 3.0f * any_vector();
+                middle.z = -std::abs(middle.z) - 0.2f;  // in front of the spot
+                vec3 normal = unit_or(any_vector(), vec3(0, 1, 0));
+                if (glm::dot(normal, middle) > 0) normal = -normal;  // the light is at 0
+                const vec3 along = unit_or(glm::cross(normal, any_vector()), vec3(1, 0, 0));
+                const vec3 across = glm::cross(normal, along);
+                const Mesh mesh = mesh_of({middle - along - across, middle + along - across,
+                                           middle + along + across, middle - along + across},
+                                          {{0, 1, 2}, {0, 2, 3}});
+                Light light{kind, vec3(1), vec3(0, 0, -1)};
+                light.cos_full = 1,
+                light.cos_none = std::cos(glm::radians(59.5f + 14.5f * any(random)));
+                // Other things around widen the map to all of the light's view.
+                const LightMaps maps(light, std::span(&mesh, 1), size, {vec3(-4), vec3(4)});
+                for (const PointOn& p : points_on(mesh, random, 15)) {
+                    const vec3 way = glm::normalize(p.point);
+                    if (kind == LightKind::spot &&
+                        glm::dot(way, light.direction_world) <= light.cos_none)
+                        continue;
+                    if (!(glm::dot(normal, way) < 0)) continue;
+                    for (const Bias bias : fitted)
+                        for (const int radius : {0, 1, 2, 3}) {
+                            ASSERT_EQ(maps.share(bias, radius, p.corners, p.point), 1)
+                                << "seed 6: size " << size << ", light " << int(kind) << ", plane "
+                                << i << ", bias " << int(bias) << ", radius " << radius;
+                            ++asked;
+                        }
+                    const Receiver at = receiver(maps.map_for(p.point), Bias::normal, 3, p.corners,
+                                                 maps.toward(p.point));
+                    beyond += at.bias > 1;
+                }
+            }
+    EXPECT_GT(asked, 400000);
+    EXPECT_GT(beyond, 100) << "points from which no offset is long enough";
+}
+
 TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
     look_up("Eq. 9.8");
     struct Row {

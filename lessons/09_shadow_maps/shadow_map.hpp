@@ -155,10 +155,14 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
         const dvec3 w_row(dvec4(map.texels_from_world[0].w, map.texels_from_world[1].w,
                                 map.texels_from_world[2].w, 0));
         const double times_w = (reach_texels + snapping) * across + depth_quanta * along;
-        const double per_w = std::max(1 - times_w * glm::dot(normal, w_row), 0.5);
-        result.offset_times_w = vec3(normal * (times_w / per_w));
-        result.offset =
-            vec3(normal * ((map.rounding_texels * across + map.rounding_depth * along) / per_w));
+        const double without_w = map.rounding_texels * across + map.rounding_depth * along;
+        const double growth = times_w * glm::dot(normal, w_row);  // K g
+        if (!(growth < 1)) {  // The farther the point moves, the more is missing.
+            result.bias = 2;
+            return result;
+        }
+        result.offset_times_w = vec3(normal * (times_w / (1 - growth)));
+        result.offset = vec3(normal * (without_w / (1 - growth)));
         return result;
     }
     const double slope = across / along;

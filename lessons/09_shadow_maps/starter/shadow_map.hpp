@@ -130,8 +130,9 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
     if (bias == Bias::none || bias == Bias::constant) return result;
 
     // TODO: the triangle's plane as the map sees it, Eq. 9.8, turned so that `outward` is in front
-    // of it. Where it is edge-on or turned away, the bias is 2. Else Eq. 9.12 for Bias::normal,
-    // Eq. 9.10 for Bias::slope, and Eq. 9.11 for Bias::plane.
+    // of it. Where it is turned away, or P_z is 0 or not a number, the bias is 2. Else Eq. 9.12 for
+    // Bias::normal, where the bias is 2 if K g is not below 1; Eq. 9.10 for Bias::slope and Eq. 9.11
+    // for Bias::plane, where it is 2 if the slopes' sum is not at most most_slope.
     return result;
 }
 
