@@ -465,8 +465,7 @@ TEST(ShadowMaps, Eq9_15_RoundingsStayBelowWhatIsAllowedForThem) {
                 views.count == 6 ? cube_face(p.point - plane.light.position_world) : 0;
             const ShadowMap map(views.clip_from_world[face], views.is_perspective, 512,
                                 plane.mesh.bounds);
-            const mat4& m = map.texels_from_world;
-            const vec4 computed = m[0] * p.point.x + m[1] * p.point.y + m[2] * p.point.z + m[3];
+            const vec4 computed = map.texels_from_world * vec4(p.point, 1);
             const glm::mat<4, 4, real> exact_m =
                 glm::mat<4, 4, real>(viewport<double>(ivec2(512))) *
                 glm::mat<4, 4, real>(map.clip_from_world);

@@ -187,18 +187,15 @@ template <int radius>
 float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
     static_assert(radius >= 0 && radius <= most_pcf_radius);
     const mat4& m = map.texels_from_world;
-    vec3 p = position_world;
-    float per_w = 1;
+    float w = 1, per_w = 1;
+    if (map.is_perspective) w = (m * vec4(position_world, 1)).w;  // Eq. 9.12
+    const vec3 moved = position_world + receiver.offset + w * receiver.offset_times_w;
+    const vec4 place_times_w = m * vec4(moved, 1);  // Eq. 9.6
     if (map.is_perspective) {
-        const float w = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
-        p += receiver.offset + w * receiver.offset_times_w;
-        const float moved_w = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
-        if (!(moved_w > 0)) return 1;
-        per_w = 1 / moved_w;
-    } else {
-        p += receiver.offset + receiver.offset_times_w;
+        if (!(place_times_w.w > 0)) return 1;
+        per_w = 1 / place_times_w.w;
     }
-    const vec3 place = vec3(m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) * per_w;
+    const vec3 place = vec3(place_times_w) * per_w;
     const auto end = static_cast<float>(map.size);
     if (!(place.x >= 0 && place.y >= 0 && place.x < end && place.y < end)) return 1;
 
