@@ -281,7 +281,7 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
         return vec3(x, y, z);
     };
     long asked = 0;
-    int beyond = 0;
+    int beyond = 0, close = 0;
     for (const int size : {16, 24, 32, 64})
         for (const LightKind kind : {LightKind::spot, LightKind::point})
             for (int i = 0; i < 250; ++i) {
@@ -312,13 +312,28 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
                                 << i << ", bias " << int(bias) << ", radius " << radius;
                             ++asked;
                         }
-                    const Receiver at = receiver(maps.map_for(p.point), Bias::normal, 3, p.corners,
-                                                 maps.toward(p.point));
-                    beyond += at.bias > 1;
+                    // K g in long double: with the plane's distances from T's inverse's columns.
+                    const ShadowMap& map = maps.map_for(p.point);
+                    const glm::mat<4, 4, real> m(map.texels_from_world);
+                    const glm::mat<4, 4, real> inverse = glm::inverse(m);
+                    const lvec4 to_plane(lvec3(normal), -glm::dot(lvec3(normal), lvec3(middle)));
+                    const auto size_along = [&](int c) {
+                        return std::abs(glm::dot(to_plane, inverse[c]));
+                    };
+                    const real kg = ((3.5L + 1 / 512.0L) * (size_along(0) + size_along(1)) +
+                                     0x8p-24L * size_along(2)) *
+                                    (normal.x * real(m[0].w) + normal.y * real(m[1].w) +
+                                     normal.z * real(m[2].w));
+                    if (std::abs(kg - 1) < 1e-4L) continue;  // normals in float
+                    const Receiver at =
+                        receiver(map, Bias::normal, 3, p.corners, maps.toward(p.point));
+                    ASSERT_EQ(at.bias > 1, kg > 1) << "seed 6: size " << size << ", K g " << kg;
+                    beyond += kg > 1, close += kg > 0.8L && kg < 1;
                 }
             }
     EXPECT_GT(asked, 400000);
     EXPECT_GT(beyond, 100) << "points from which no offset is long enough";
+    EXPECT_GT(close, 100) << "points from which a long one is";
 }
 
 TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {

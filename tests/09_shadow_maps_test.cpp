@@ -191,6 +191,7 @@ TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
     EXPECT_GT(light_views(lights[0], above, some, 256).count, 0u);
     EXPECT_EQ(light_views(lights[0], some, above, 256).count, 0u) << "the caster is below";
     EXPECT_EQ(light_views(lights[0], some, beside, 256).count, 0u);
+    EXPECT_EQ(light_views(lights[1], some, beside, 256).count, 0u) << "beside its cone";
     EXPECT_EQ(light_views(lights[1], above, some, 256).count, 0u) << "behind the spot";
     EXPECT_EQ(light_views(lights[1], some, above, 256).count, 0u) << "behind the spot";
 }
