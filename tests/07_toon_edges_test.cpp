@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -175,10 +178,138 @@ TEST(Toon, Eq7_14_Thresholds) {
     }
 }
 
+TEST(Toon, Eq7_14_NoEdgeOfACommonSolidIsOnTheThreshold) {
+    // What a straight edge can leave of the difference of its normals: by which of the eight
+    // neighbours lie beyond it, from one corner to four.
+    const float parts[] = {std::sqrt(2.0f) / 4, std::sqrt(10.0f) / 4, 1, 3 * std::sqrt(2.0f) / 4,
+                           std::sqrt(5.0f) / 2};
+    std::vector<double> turns_degrees = {109.4712, 70.5288, 63.4349, 41.8103};  // regular solids
+    for (const int sides : {3, 4, 5, 6, 7, 8, 9, 10, 12, 16, 18, 20, 24, 32, 48, 64})
+        turns_degrees.push_back(360.0 / sides);  // prisms
+    for (const double turn : turns_degrees)
+        for (const float part : parts) {
+            const double strength = part * 2 * std::sin(glm::radians(turn) / 2);
+            EXPECT_GT(std::abs(strength - EdgeThresholds().normals), 0.01)
+                << "a turn of " << turn << " degrees, of which there is " << part;
+        }
+}
+
+TEST(Toon, Eq7_14_RoundingDecidesNothingAtBoxes) {
+    // The three sides of a box around its corner, or two of them and nothing, however it is turned
+    // and its edges run, a quarter of them at 45 degrees. Differences are quarters of the normals,
+    // which stand at right angles: 16 times the square of a strength is a whole number.
+    const ivec2 size(32, 24);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> any(-1, 1), degrees(0, 360);
+    int inked = 0, on_quarter = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 first = glm::normalize(vec3(any(random), any(random), any(random) + 1.01f));
+        const vec3 second =
+            glm::normalize(glm::cross(first, vec3(any(random), any(random) + 1.01f, any(random))));
+        const vec3 sides[] = {first, second, glm::cross(first, second), vec3(0)};
+        float angles[3];
+        for (float& angle : angles) angle = glm::radians(degrees(random));
+        if (i % 4 == 0)
+            angles[1] = angles[0] = glm::radians(45.0f), angles[2] = glm::radians(225.0f);
+        std::ranges::sort(angles);
+        const vec2 middle = vec2(size) * 0.5f + 4.0f * vec2(any(random), any(random));
+        const auto side_at = [&](ivec2 p) {
+            const vec2 way = vec2(p) + 0.5f - middle;
+            float angle = std::atan2(way.y, way.x);
+            if (angle < 0) angle += glm::radians(360.0f);
+            const auto sector = std::ranges::upper_bound(angles, angle) - angles;
+            return sector % 3 == 2 && i % 2 ? 3 : static_cast<int>(sector % 3);
+        };
+        ByHand box(size);
+        for (ivec2 p(0); p.y < size.y; ++p.y)
+            for (p.x = 0; p.x < size.x; ++p.x)
+                box.normals[p] = sides[static_cast<std::size_t>(side_at(p))];
+        EdgeThresholds of_normals;
+        of_normals.depth = 9;
+        const int reach = 1 + i % 3;
+        const Image<char> found = box.edges(static_cast<float>(2 * reach), of_normals);
+        for (ivec2 p(reach); p.y + reach < size.y; ++p.y)
+            for (p.x = reach; p.x + reach < size.x; ++p.x) {
+                int quarters[2][4] = {};  // of each side's normal, along x and along y
+                for (int j = -1; j <= 1; ++j)
+                    for (const int to : {-1, 1}) {
+                        const int weight = to * (j == 0 ? 2 : 1);
+                        quarters[0][side_at(p + reach * ivec2(to, j))] += weight;
+                        quarters[1][side_at(p + reach * ivec2(j, to))] += weight;
+                    }
+                int squares = 0;
+                for (const auto& along : quarters)
+                    for (int side = 0; side < 3; ++side) squares += along[side] * along[side];
+                // 16 * 0.45 * 0.45 is 3.24.
+                ASSERT_EQ((found[p]) != 0, squares >= 4)
+                    << "seed 1, case " << i << ": " << p.x << ", " << p.y << ": " << squares;
+                inked += squares >= 4;
+                on_quarter += squares == 4;  // on a threshold of 0.5
+            }
+    }
+    EXPECT_GT(inked, 100'000);
+    EXPECT_GT(on_quarter, 1000);
+}
+
+TEST(Toon, Eq7_14_SlantedLines) {
+    // An edge at 45 degrees: how many pixels of a row are inked, for each of `reach`.
+    const ivec2 size(60, 40);
+    for (const int reach : {1, 2, 3})
+        for (const auto& [turn_degrees, per_row] :
+             {std::pair{24.0f, 0}, {25.0f, 2}, {45.0f, 2}, {78.0f, 2}, {80.0f, 4}, {90.0f, 4}}) {
+            ByHand fold(size);
+            const vec3 turned(std::sin(glm::radians(turn_degrees)), 0,
+                              std::cos(glm::radians(turn_degrees)));
+            for (ivec2 p(0); p.y < size.y; ++p.y)
+                for (p.x = 0; p.x < size.x; ++p.x)
+                    if (p.x + p.y >= 50) fold.normals[p] = turned;
+            const Image<char> inked = fold.edges(static_cast<float>(2 * reach));
+            for (int y = reach; y < size.y - reach; ++y)
+                for (int x = reach; x < size.x - reach; ++x)
+                    ASSERT_EQ((inked[{x, y}]) != 0, std::abs(2 * (x + y) - 99) < per_row * reach)
+                        << turn_degrees << ": " << x << ", " << y;
+        }
+    // Depth: nothing or all of it; above 5.7% of the own distance.
+    for (const auto& [farther, per_row] : {std::pair{10.5f, 0},
+                                           {10.58f, 2},
+                                           {10.65f, 4},
+                                           {std::numeric_limits<float>::infinity(), 4}}) {
+        ByHand step = ByHand::of(
+            size, [farther = farther](ivec2 p) { return p.x + p.y < 50 ? 10.0f : farther; });
+        std::ranges::fill(step.normals.pixels(), toward_eye);
+        const Image<char> inked = step.edges(4);
+        int in_row = 0;
+        for (int x = 0; x < size.x; ++x) in_row += inked[{x, 22}];
+        EXPECT_EQ(in_row, per_row * 2) << farther;
+    }
+}
+
+TEST(Toon, Eq7_14_TheUnitsOfTheSceneDoNotMatter) {
+    // Where a square would be infinite or 0: the length is by std::hypot.
+    for (const float unit : {1e-22f, 1e-18f, 1.0f, 1e18f, 1e22f})
+        for (const auto& [farther, expected] : {std::pair{10.1f, 0}, {10.5f, 2}}) {
+            ByHand step({12, 9});
+            Camera of_unit = camera;
+            of_unit.near *= unit, of_unit.far *= unit;
+            for (ivec2 p(0); p.y < 9; ++p.y)
+                for (p.x = 0; p.x < 12; ++p.x)
+                    step.depth.test_and_write(
+                        p, depth_at((p.x < 6 ? 10.0L : farther) * unit, of_unit));
+            Counters counters;
+            draw_edges(step.depth, step.normals, of_unit, 2, {}, step.color, counters);
+            EXPECT_EQ(count(counters, Counter::outline_pixels),
+                      static_cast<std::uint64_t>(expected * 9))
+                << unit << ", " << farther;
+        }
+}
+
 TEST(Toon, Eq7_14_PicturesThatAreTooSmall) {
     for (const ivec2 size : {ivec2(1, 1), ivec2(2, 40), ivec2(40, 2), ivec2(0, 0), ivec2(4, 4)}) {
         ByHand picture = ByHand::of(size, [](ivec2 p) { return (p.x + p.y) % 2 ? 5.0f : 50.0f; });
         EXPECT_EQ(ones(picture.edges(4)), 0);  // reaches two pixels to each side
+        Counters counters;
+        draw_edges(picture.depth, picture.normals, camera, 4, {}, picture.color, counters);
+        EXPECT_EQ(count(counters, Counter::outline_tests), 0u) << "none of them is asked";
     }
     ByHand least = ByHand::of({5, 5}, [](ivec2 p) { return p.x < 2 ? 5.0f : 50.0f; });
     EXPECT_GT(ones(least.edges(4)), 0);

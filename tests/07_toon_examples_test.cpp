@@ -250,7 +250,7 @@ TEST(Toon, HardCase_SmallBallsAreInkAllOver) {
     // Balls without perspective, of R pixels' radius, with lines of 2 r pixels.
     const Camera camera{vec3(0), mat4(1), 1, 1, 100};
     for (const int r : {1, 2, 3})
-        for (const auto& [radius_over_r, is_all_ink] : {std::pair{5.6f, true}, {5.72f, false}}) {
+        for (const auto& [radius_over_r, is_all_ink] : {std::pair{6.2f, true}, {6.35f, false}}) {
             const float radius = radius_over_r * static_cast<float>(r);
             const ivec2 size(61), middle(30);
             DepthBuffer depth(size);

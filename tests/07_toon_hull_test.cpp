@@ -223,6 +223,29 @@ TEST(Toon, HardCase_TheHullIsAsWideAtAnyDistanceAndSize) {
             }
 }
 
+TEST(Toon, HardCase_TheRimOfABodyOutsideReachesIn) {
+    look_up("Eq. 7.9");
+    // A cube just outside of the picture, to the left.
+    Camera camera{vec3(0), mat4(1), glm::radians(90.0f), 1, 100};
+    const ivec2 size(64);
+    Mesh cube = cube_mesh(true);
+    cube.bounds = {};
+    for (vec3& position : cube.positions) {
+        position =
+            20.0f * position + vec3(-111, 0, -70);  // its right side: x = -91, w from 50 to 90
+        cube.bounds.add(position);
+    }
+    ASSERT_TRUE(is_outside_frustum(cube.bounds, camera.clip_from_world(size)));
+    for (const auto& [width, is_in] : {std::pair{0.25f, false}, {6.0f, true}}) {
+        Counters counters;
+        Image<vec3> color(size, paper_color);
+        DepthBuffer depth(size);
+        draw_hull(cube, hull_normals(cube), camera, width, depth, color, counters);
+        EXPECT_EQ(count(counters, Counter::outline_pixels) > 0, is_in) << width;
+        EXPECT_EQ(color[ivec2(0, 32)] == ink, is_in) << width;
+    }
+}
+
 TEST(Toon, HardCase_TheHullOfACubeHasNoGaps) {
     look_up("Eq. 7.8");
     for (const bool is_shared : {true, false})

@@ -436,6 +436,16 @@ TEST(NormalMaps, HardCase_NoAreaOnTheSurface) {
         for (std::size_t corner = 0; corner < 3; ++corner)
             EXPECT_TRUE(is_orthonormal(patch.frame(0, corner)));
     }
+    // With a corner that is nowhere, nothing leads there; the texture has its hand all the same.
+    for (const float nowhere : {infinity, -infinity, std::nanf("")})
+        for (const std::size_t corner : {0u, 1u, 2u}) {
+            std::array<vec3, 3> p{vec3(0), along_x, along_y};
+            p[corner].z = nowhere;
+            const UvDirections found = uv_directions(p, {uvs[0], uvs[2], uvs[1]});
+            EXPECT_EQ(found.tangent, vec3(0)) << nowhere << " at corner " << corner;
+            EXPECT_EQ(found.bitangent, vec3(0)) << nowhere << " at corner " << corner;
+            EXPECT_EQ(found.handedness, -1) << nowhere << " at corner " << corner;
+        }
 }
 
 TEST(NormalMaps, HardCase_MirroredTexturesMeetInASeam) {
@@ -496,6 +506,10 @@ TEST(NormalMaps, HardCase_TangentAlongTheNormal) {
         EXPECT_TRUE(is_orthonormal(patch.frame(0, corner))) << corner;
     EXPECT_EQ(patch.frame(0, 0).tangent, along_y);
     EXPECT_EQ(patch.frame(0, 2).tangent, along_x);
+    // A mirrored one keeps its hand there.
+    const Patch mirrored({vec3(0), along_x, along_y}, {vec2(0), {-1, 0}, {0, 1}}, {{0, 1, 2}},
+                         {along_x, along_x, along_x});
+    for (const vec4 tangent : mirrored.tangents()) EXPECT_EQ(tangent, vec4(along_y, -1));
 }
 
 TEST(NormalMaps, HardCase_ZeroNormal) {

@@ -278,15 +278,16 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
         const TriangleSurface surface(bumpy.scene, mesh, triangle);
         const TriangleRelief relief(variant, bumpy.scene, mesh, triangle, is_back);
         const TriangleLight light({}, lights, mix.place(), mesh, triangle, is_back, surface);
-        BumpyPoints points;
-        NoCounters none;
-        for (int point = 0; point < 8; ++point) {
+        ManyWeights weights;
+        while (weights.count < 8) {
             const float x = static_cast<float>(mix.below(5)) / 4;
             const float y = (1 - x) * static_cast<float>(mix.below(5)) / 4;
-            const FragmentWeights weights{{x, y, 1 - x - y}, mix.three(), mix.three()};
-            light.add(weights.here, points, none);
-            relief.add(weights, static_cast<Filter>(mix.below(3)), points, none);
+            weights.set(weights.count++, {{x, y, 1 - x - y}, mix.three(), mix.three()});
         }
+        BumpyPoints points;
+        NoCounters none;
+        light.add(weights, points, none);
+        relief.add(weights, static_cast<Filter>(mix.below(3)), points, none);
         relief.tilt(points);
         light.compute(points);
         for (std::size_t point = 0; point < points.count; ++point) {
@@ -302,7 +303,7 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
 }
 
 TEST(NormalMaps, HardCase_ManyPointsAtOnceAreTiltedAsOne) {
-    look_up("Eq. 8.7");
+    look_up("Eq. 8.5 and 8.7");
     std::mt19937 random(6);
     std::uniform_real_distribution<float> any(-1, 1);
     const auto some = [&] { return vec3(any(random), any(random), any(random)); };
@@ -325,16 +326,17 @@ TEST(NormalMaps, HardCase_ManyPointsAtOnceAreTiltedAsOne) {
         const TriangleSurface surface(bumpy.scene, mesh, mesh.triangles[0]);
         const TriangleLight light({}, {}, vec3(0), mesh, mesh.triangles[0], i % 3 == 0, surface);
         NoCounters none;
+        ManyWeights weights;
+        while (weights.count < 20) {
+            const float x = 0.05f * static_cast<float>(weights.count), y = (1 - x) * 0.3f;
+            weights.set(weights.count++, {{x, y, 1 - x - y}, vec3(0), vec3(0)});
+        }
         BumpyPoints together;
-        std::vector<vec3> alone;
-        for (int k = 0; k < 20; ++k) {
-            const float x = 0.05f * static_cast<float>(k), y = (1 - x) * 0.3f;
-            const FragmentWeights weights{{x, y, 1 - x - y}, vec3(0), vec3(0)};
-            light.add(weights.here, together, none);
-            relief.add(weights, Filter::nearest, together, none);
-            // By the plain steps.
-            const std::size_t last = together.count - 1;
-            const vec3 mixed = together.normal_world[last];
+        light.add(weights, together, none);
+        relief.add(weights, Filter::nearest, together, none);
+        std::vector<vec3> alone;  // by the plain steps
+        for (std::size_t k = 0; k < together.count; ++k) {
+            const vec3 mixed = together.normal_world[k];
             const float side = i % 3 == 0 ? -1.0f : 1.0f;
             const UvDirections of_face = uv_directions(
                 {mesh.positions[0], mesh.positions[1], mesh.positions[2]}, bumpy.uvs());
@@ -342,13 +344,15 @@ TEST(NormalMaps, HardCase_ManyPointsAtOnceAreTiltedAsOne) {
             std::array<vec3, 3> corners;
             for (std::size_t c = 0; c < 3; ++c)
                 corners[c] = i % 2 ? of_face.tangent : vec3(tangents[c]);
-            const vec3 tangent = interpolate(corners, weights.here);
+            const vec3 tangent = interpolate(corners, weights.here[k]);
             const TangentFrame frame = tangent_frame(
                 side * tangent, mixed, side * static_cast<float>(of_face.handedness < 0 ? -1 : 1));
-            alone.push_back(tilted(frame, together.in_map[last], mixed));
+            alone.push_back(tilted(frame, together.in_map[k], mixed));
         }
         relief.tilt(together);
         for (std::size_t k = 0; k < alone.size(); ++k)
-            ASSERT_EQ(together.normal_world[k], alone[k]) << "seed 6, case " << i << ", " << k;
+            ASSERT_EQ(together.normal_world[k], alone[k])
+                << "seed 6, case " << i << ", " << k
+                << "; TriangleRelief takes the steps that unit_across() documents";
     }
 }

@@ -22,6 +22,7 @@
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "07_toon/toon_variants.hpp"
 #include "08_normal_maps/bumpy_scene.hpp"

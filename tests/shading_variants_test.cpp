@@ -6,14 +6,15 @@
 #include <cstddef>
 #include <limits>
 #include <random>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "04_mvp/clip.hpp"
 #include "06_phong/fragments.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/image_io.hpp"
 #include "support/lesson_process.hpp"
@@ -77,8 +78,10 @@ Image<u8vec4> picture(std::vector<std::string> arguments) {
 void expect_the_same_light(const TriangleLight& light, std::size_t count) {
     NoCounters counters;
     const std::vector<vec3> weights = weights_in_triangles(static_cast<int>(count));
+    ManyWeights many;
+    for (const vec3 w : weights) many.set(many.count++, {w, vec3(0), vec3(0)});
     LitPoints points;
-    for (const vec3 w : weights) light.add(w, points, counters);
+    light.add(many, points, counters);
     light.compute(points);
     ASSERT_EQ(points.count, count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -169,21 +172,82 @@ TEST(ShadingVariants, OfALightArrivesTheShareOfEachPoint) {
 TEST(ShadingVariants, FragmentsAreHandedOverInTheirOrder) {
     for (const int count : {0, 1, 63, 64, 65, 128, 200}) {
         std::vector<int> seen;
-        const auto shade = [&](std::span<const Fragment> fragments) {
-            ASSERT_GT(fragments.size(), 0u);
-            ASSERT_LE(fragments.size(), most_points);
-            for (const Fragment& fragment : fragments) {
-                seen.push_back(fragment.pixel.x);
-                EXPECT_EQ(ivec3(fragment.screen_weights), ivec3(fragment.pixel.x));
+        const auto shade = [&](const ManyFragments& fragments) {
+            ASSERT_GT(fragments.count, 0u);
+            ASSERT_LE(fragments.count, most_points);
+            for (std::size_t i = 0; i < fragments.count; ++i) {
+                seen.push_back(fragments.pixels[i].x);
+                EXPECT_EQ(ivec3(fragments.screen_weights[i]), ivec3(fragments.pixels[i].x));
             }
         };
         Fragments fragments(shade);
-        for (int i = 0; i < count; ++i) fragments.add({ivec2(i, 0), vec3(ivec3(i))});
+        for (int i = 0; i < count; ++i) fragments.add(ivec2(i, 0), vec3(ivec3(i)));
         fragments.finish();
         fragments.finish();
         ASSERT_EQ(seen.size(), static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i) EXPECT_EQ(seen[static_cast<std::size_t>(i)], i);
     }
+}
+
+TEST(ShadingVariants, ManyFragmentsWeighWhatEachWeighsAlone) {
+    const std::array<vec4, 3> corners = {vec4(-3, -2, 0, 1), vec4(4, -1, 1, 3),
+                                         vec4(0, 9, 0.5f, 7)};
+    int pieces = 0;
+    for (const float nearer : {1.0f, 0.1f}) {  // the second is cut
+        std::array<vec4, 3> clip = corners;
+        clip[0].w *= nearer;
+        for (const ClippedTriangle& clipped : clip_triangle(clip)) {
+            constexpr ivec2 size(40, 30);
+            const ScreenTriangle on_screen =
+                snap_triangle(screen_from_clip(clipped[0].position_clip, size),
+                              screen_from_clip(clipped[1].position_clip, size),
+                              screen_from_clip(clipped[2].position_clip, size));
+            const PerspectiveWeights perspective(on_screen, clipped);
+            const auto compare = [&](const ManyFragments& fragments) {
+                const ManyWeights weights = weights_of(fragments, perspective);
+                ASSERT_EQ(weights.count, fragments.count);
+                for (std::size_t i = 0; i < fragments.count; ++i) {
+                    const FragmentWeights alone = perspective.at(fragments.screen_weights[i]);
+                    ASSERT_EQ(weights[i].here, alone.here);
+                    ASSERT_EQ(weights[i].step_x, alone.step_x);
+                    ASSERT_EQ(weights[i].step_y, alone.step_y);
+                }
+            };
+            Fragments fragments(compare);
+            fill_triangle(on_screen, size,
+                          [&](ivec2 p, vec3 weights) { fragments.add(p, weights); });
+            fragments.finish();
+            ++pieces;
+        }
+    }
+    EXPECT_GT(pieces, 3);
+}
+
+TEST(ShadingVariants, ManySamplesAreThatOfEachAlone) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> any(-3, 3);
+    Image<vec4> picture({16, 8});
+    for (vec4& texel : picture.pixels()) texel = {any(random), any(random), any(random), 1};
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+        for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear}) {
+            const Texture texture = make_texture(picture, wrap);
+            for (const float strange : {0.5f, 1e30f, -1e-30f, infinity, std::nanf("")}) {
+                const std::array<vec2, 3> uvs = {vec2(any(random), strange),
+                                                 vec2(any(random), any(random)),
+                                                 vec2(any(random), any(random))};
+                ManyWeights weights;
+                const auto three = [&] { return vec3(any(random), any(random), any(random)); };
+                while (weights.count < most_points - 1)
+                    weights.set(weights.count++, {three(), 0.1f * three(), 0.1f * three()});
+                std::size_t taken = 0;
+                sample_many(texture, filter, uvs, weights, [&](std::size_t i, vec4 color) {
+                    ASSERT_EQ(i, taken++);
+                    ASSERT_EQ(color, sample(texture, filter, fragment_uv(uvs, weights[i])));
+                });
+                EXPECT_EQ(taken, weights.count);
+            }
+        }
 }
 
 TEST(ShadingVariants, BandsShowWhatAWholeTriangleShows) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
+#include <utility>
 
 #include "02_triangle_fill/triangle.hpp"
 #include "06_phong/lit_points.hpp"
@@ -15,33 +15,35 @@
 
 namespace rasterbook {
 
-struct Fragment {
-    ivec2 pixel;
-    vec3 screen_weights;  ///< Of the piece's corners, as fill_triangle gives them.
+/// Up to most_points fragments.
+struct ManyFragments {
+    std::size_t count = 0;
+    std::array<ivec2, most_points> pixels;
+    Vectors screen_weights;  ///< Of the piece's corners, as fill_triangle gives them.
 };
 
 /// Hands fragments over in the order in which they came, most_points at a time.
 template <typename Shade>
 class Fragments {
   public:
-    /// @param shade  Called as shade(std::span<const Fragment>), never with none.
+    /// @param shade  Called as shade(const ManyFragments&), never with none.
     explicit Fragments(Shade& shade) : shade_(shade) {}
 
-    void add(const Fragment& fragment) {
-        fragments_[count_++] = fragment;
-        if (count_ == most_points) finish();
+    void add(ivec2 pixel, vec3 screen_weights) {
+        fragments_.pixels[fragments_.count] = pixel;
+        fragments_.screen_weights.set(fragments_.count++, screen_weights);
+        if (fragments_.count == most_points) finish();
     }
 
     /// Hands over what is left.
     void finish() {
-        if (count_ > 0) shade_(std::span<const Fragment>(fragments_.data(), count_));
-        count_ = 0;
+        if (fragments_.count > 0) shade_(std::as_const(fragments_));
+        fragments_.count = 0;
     }
 
   private:
     Shade& shade_;
-    std::array<Fragment, most_points> fragments_;
-    std::size_t count_ = 0;
+    ManyFragments fragments_;
 };
 
 /// Columns that are filled together. What the row below asks of textures is mostly near to what

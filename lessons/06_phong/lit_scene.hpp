@@ -14,6 +14,7 @@
 
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/light.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
 
@@ -78,21 +79,24 @@ struct TriangleSurface {
           specular_uvs(uvs_of(mesh, triangle, material.specular_map)),
           own_color(surface_color(material)) {}
 
-    /// The colours of a fragment, of which textures are read as the effects say.
+    /// The colours of fragments, of which textures are read as the effects say.
     template <typename CounterPolicy>
-    SurfaceColor color(const FragmentWeights& weights, Filter filter,
-                       CounterPolicy& counters) const {
-        SurfaceColor color = own_color;
-        if (effects.diffuse_map) {
-            counters.add(Counter::texture_samples);
-            color.tint(vec3(sample(*texture, filter, fragment_uv(uvs, weights))));
-        }
-        if (effects.specular_map) {
-            counters.add(Counter::texture_samples);
-            color.specular *=
-                vec3(sample(*specular_texture, filter, fragment_uv(specular_uvs, weights)));
-        }
-        return color;
+    std::array<SurfaceColor, most_points> colors(const ManyWeights& weights, Filter filter,
+                                                 CounterPolicy& counters) const {
+        std::array<SurfaceColor, most_points> colors;
+        for (std::size_t i = 0; i < weights.count; ++i) colors[i] = own_color;
+        if (effects.diffuse_map)
+            sample_many(*texture, filter, uvs, weights, [&](std::size_t i, vec4 texel) {
+                counters.add(Counter::texture_samples);
+                colors[i].tint(vec3(texel));
+            });
+        if (effects.specular_map)
+            sample_many(*specular_texture, filter, specular_uvs, weights,
+                        [&](std::size_t i, vec4 texel) {
+                            counters.add(Counter::texture_samples);
+                            colors[i].specular *= vec3(texel);
+                        });
+        return colors;
     }
 };
 

@@ -188,6 +188,22 @@ class TriangleLight {
         points.normal_world.set(i, interpolate(normals_, weights));
     }
 
+    /// Adds fragments to those that are lit together, of which there is none yet.
+    template <typename CounterPolicy>
+    void add(const ManyWeights& weights, LitPoints& points, CounterPolicy& counters) const {
+        if (!at_once_) {
+            for (std::size_t i = 0; i < weights.count; ++i) add(weights.here[i], points, counters);
+            return;
+        }
+        const std::array positions = positions_, normals = normals_;
+        points.count = weights.count;
+        for (std::size_t i = 0; i < weights.count; ++i) {
+            points.position_world.set(i, interpolate(positions, weights.here[i]));
+            points.normal_world.set(i, interpolate(normals, weights.here[i]));
+        }
+        for (std::size_t i = 0; i < weights.count; ++i) count(counters);
+    }
+
     /// The light on all of them: the same bits as of at(), sooner.
     void compute(LitPoints& points) const {
         compute(points, [](std::size_t, std::size_t) { return 1.0f; });

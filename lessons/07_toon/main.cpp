@@ -8,6 +8,7 @@
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
+#include "06_phong/many_samples.hpp"
 #include "07_toon/toon_variants.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
@@ -65,32 +66,29 @@ Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy
                 const PerspectiveWeights perspective(on_screen, clipped);
                 const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
                                           triangle, is_back, surface);
-                const auto shade = [&](std::span<const Fragment> fragments) {
-                    std::array<SurfaceColor, most_points> own;
+                const auto shade = [&](const ManyFragments& fragments) {
+                    const ManyWeights weights = weights_of(fragments, perspective);
+                    const auto own = surface.colors(weights, options.texture.filter, counters);
                     ToonPoints points;
-                    for (std::size_t i = 0; i < fragments.size(); ++i) {
-                        const FragmentWeights weights = perspective.at(fragments[i].screen_weights);
-                        own[i] = surface.color(weights, options.texture.filter, counters);
-                        if (surface.effects.light)
-                            points.add(light, weights, options.shading.smooth, counters);
-                    }
+                    if (surface.effects.light)
+                        points.add(light, weights, options.shading.smooth, counters);
                     points.compute(light, options.shading.smooth);
-                    for (std::size_t i = 0; i < fragments.size(); ++i)
-                        color[fragments[i].pixel] =
+                    for (std::size_t i = 0; i < fragments.count; ++i)
+                        color[fragments.pixels[i]] =
                             surface.effects.light
                                 ? points.painted(i, options.shading, own[i], counters)
                                 : unlit(own[i]);
                     if (!outlines.need_fragments()) return;
-                    for (const auto& [pixel, screen_weights] : fragments)
-                        outlines.add(pixel, mesh, triangle, is_back,
-                                     perspective.at(screen_weights).here, color, counters);
+                    for (std::size_t i = 0; i < fragments.count; ++i)
+                        outlines.add(fragments.pixels[i], mesh, triangle, is_back, weights.here[i],
+                                     color, counters);
                 };
                 Fragments visible(shade);
                 fill_in_bands(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
                     counters.add(Counter::fragments_tested);
                     if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
                     counters.add(Counter::fragments_shaded);
-                    visible.add({pixel, screen_weights});
+                    visible.add(pixel, screen_weights);
                 });
                 visible.finish();
             }

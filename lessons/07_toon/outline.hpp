@@ -85,13 +85,14 @@ inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3
 /// times as wide. A sheet that is not closed has no rim where it shows its front.
 ///
 /// @param normals  hull_normals() of the mesh.
-/// @param depth    All bodies are drawn already. Keeps the hull's depths where it is seen.
+/// @param depth    All bodies are drawn already. Takes the hull's depths where it is seen.
+/// @param counters outline_tests: each fragment of the hull; outline_pixels: each one inked.
 template <typename CounterPolicy>
 void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
                float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
     const ivec2 size = color.size();
     const mat4 clip_from_world = camera.clip_from_world(size);
-    if (is_outside_frustum(mesh.bounds, clip_from_world)) return;
+    // No test of the bounds: of a body just outside of the picture, the rim may reach into it.
     std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
     for (std::size_t i = 0; i < positions_clip.size(); ++i)
         positions_clip[i] =
@@ -115,9 +116,12 @@ void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera&
 }
 
 /// From where on a change counts as an edge.
+///
+/// That of normals is none that an edge of a box, a common prism or a regular solid can have,
+/// however it runs over the picture: rounding would decide what is inked there (Eq. 7.14).
 struct EdgeThresholds {
-    float depth = 0.02f;   ///< In units of the distance to what is seen.
-    float normals = 0.5f;  ///< Of unit vectors: 0.5 is a turn of 29 degrees.
+    float depth = 0.02f;    ///< In units of the distance to what is seen.
+    float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
 };
 
 /// How near what is seen in a pixel is: 1 / w, which of a plane is linear on the screen (Eq. 7.11).
@@ -154,7 +158,9 @@ vec3 sobel(At&& at, ivec2 along) {
 /// (Eq. 7.14): silhouettes, sharp edges, and where one body touches another.
 ///
 /// @param normals   Of what is seen, length 1; 0 where nothing is.
-/// @param width_px  Of the lines, rounded up to an even number; 0: none.
+/// @param width_px  Of lines along rows and columns, rounded up to an even number; slanted ones are
+///                  0.71 to 1.41 times as wide. 0: none. A picture that is not wider and higher
+///                  than that has none, and is not asked.
 template <typename CounterPolicy>
 void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
                 float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,

@@ -87,12 +87,14 @@ struct ToonPoints : LitPoints {
     LitPoints right, below;
 
     template <typename CounterPolicy>
-    void add(const TriangleLight& triangle, const FragmentWeights& weights, bool smooth,
+    void add(const TriangleLight& triangle, const ManyWeights& weights, bool smooth,
              CounterPolicy& counters) {
-        triangle.add(weights.here, *this, counters);
+        triangle.add(weights, *this, counters);
         if (!smooth) return;
-        triangle.add(weights.here + weights.step_x, right, counters);
-        triangle.add(weights.here + weights.step_y, below, counters);
+        for (std::size_t i = 0; i < weights.count; ++i) {
+            triangle.add(weights.here[i] + weights.step_x[i], right, counters);
+            triangle.add(weights.here[i] + weights.step_y[i], below, counters);
+        }
     }
 
     void compute(const TriangleLight& triangle, bool smooth) {

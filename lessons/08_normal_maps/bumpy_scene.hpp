@@ -128,18 +128,29 @@ class TriangleRelief {
         face_ = tangent_frame(tangents_[0], normal, handedness_);
     }
 
-    /// Reads the map for the point that was added last.
+    /// Reads the map for all points.
+    ///
+    /// @param weights  Theirs.
     template <typename CounterPolicy>
-    void add(const FragmentWeights& weights, Filter filter, BumpyPoints& points,
+    void add(const ManyWeights& weights, Filter filter, BumpyPoints& points,
              CounterPolicy& counters) const {
         if (!texture_) return;
-        const std::size_t i = points.count - 1;
-        counters.add(Counter::normal_map_samples);
-        vec3 in_map = sample_normal(*texture_, filter, fragment_uv(uvs_, weights));
-        if (variant_.channels == Channels::xy) in_map = with_z(vec2(in_map));
-        if (space_ == MapSpace::tangent) in_map.x *= steepness_, in_map.y *= steepness_;
-        points.in_map.set(i, in_map);
-        points.weights.set(i, weights.here);
+        points.weights = weights.here;
+        const auto take = [&](std::size_t i, vec4 texel) {
+            counters.add(Counter::normal_map_samples);
+            points.in_map.set(i, vec3(texel));
+        };
+        if (texture_->wrap == Wrap::mirror)
+            for (std::size_t i = 0; i < weights.count; ++i)
+                take(i, vec4(sample_normal(*texture_, filter, fragment_uv(uvs_, weights[i])), 1));
+        else
+            sample_many(*texture_, filter, uvs_, weights, take);
+        if (variant_.channels == Channels::xy)
+            for (std::size_t i = 0; i < weights.count; ++i)
+                points.in_map.set(i, with_z(vec2(points.in_map[i])));
+        if (space_ == MapSpace::object || steepness_ == 1) return;
+        for (std::size_t i = 0; i < weights.count; ++i)
+            points.in_map.x[i] *= steepness_, points.in_map.y[i] *= steepness_;
     }
 
     /// Tilts the normals of points as the map has it. Their lengths are not 1.
@@ -173,14 +184,14 @@ class TriangleRelief {
         return tangent_frame(tangent, mixed_normal, handedness_);
     }
 
-    /// The same bits as of frame_at() and tilted(), many points at a time.
+    /// The same bits as of frame_at() and tilted(), many points at a time: the steps of unit_or()
+    /// and unit_across() in their usual case.
     ///
     /// @return  Whether all is done: false, and nothing has changed, where a vector is so long or
-    /// so
-    ///          short that its square is not a usable number, or a tangent leads along a normal.
+    ///          so short that its square is not a usable number, or a tangent leads along a normal.
     bool tilt_at_once(BumpyPoints& points) const {
-        // No step of the loop leaves it, or reads what the loop might write: the compiler takes many
-        // i at once.
+        // No step of the loop leaves it, or reads what the loop might write: the compiler takes
+        // many i at once.
         const std::array tangents = tangents_;
         const float handedness = handedness_;
         int unusable = 0;

@@ -7,6 +7,7 @@
 #include "04_mvp/clip.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/bumpy_scene.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
@@ -69,20 +70,18 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
                 const TriangleRelief relief(options.normal_map, scene, mesh, triangle, is_back);
                 const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
                                           triangle, is_back, surface);
-                const auto shade = [&](std::span<const Fragment> fragments) {
-                    std::array<SurfaceColor, most_points> own;
+                const auto shade = [&](const ManyFragments& fragments) {
+                    const ManyWeights weights = weights_of(fragments, perspective);
+                    const auto own = surface.colors(weights, options.texture.filter, counters);
                     BumpyPoints points;
-                    for (std::size_t i = 0; i < fragments.size(); ++i) {
-                        const FragmentWeights weights = perspective.at(fragments[i].screen_weights);
-                        own[i] = surface.color(weights, options.texture.filter, counters);
-                        if (!surface.effects.light) continue;
-                        light.add(weights.here, points, counters);
+                    if (surface.effects.light) {
+                        light.add(weights, points, counters);
                         relief.add(weights, options.texture.filter, points, counters);
                     }
                     relief.tilt(points);
                     light.compute(points);
-                    for (std::size_t i = 0; i < fragments.size(); ++i)
-                        color[fragments[i].pixel] =
+                    for (std::size_t i = 0; i < fragments.count; ++i)
+                        color[fragments.pixels[i]] =
                             surface.effects.light ? phong(own[i], ambient_light, points.light(i))
                                                   : unlit(own[i]);
                 };
@@ -91,7 +90,7 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
                     counters.add(Counter::fragments_tested);
                     if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
                     counters.add(Counter::fragments_shaded);
-                    visible.add({pixel, screen_weights});
+                    visible.add(pixel, screen_weights);
                 });
                 visible.finish();
             }

@@ -166,27 +166,52 @@ class TriangleShadows {
     /// where a surface is turned away from the light.
     template <typename CounterPolicy>
     void look_up(const LitPoints& points, CounterPolicy& counters) {
-        for (std::size_t l = 0; l < shares_.size(); ++l)
+        for (std::size_t l = 0; l < shares_.size(); ++l) {
+            if (shadows_.of_light_[l].maps.empty()) {
+                shares_[l].fill(1);
+                continue;
+            }
+            const Numbers cosine = cosines(shadows_.of_light_[l].light, points);
             for (std::size_t i = 0; i < points.count; ++i)
                 shares_[l][i] =
-                    shadows_.of_light_[l].maps.empty()
-                        ? 1
-                        : share(l, points.position_world[i], points.normal_world[i], counters);
+                    share(l, points.position_world[i], points.normal_world[i], cosine[i], counters);
+        }
     }
 
     /// As reflect_light() asks for it.
     float operator()(std::size_t light, std::size_t point) const { return shares_[light][point]; }
 
   private:
+    /// Of the angles between points' normals and their ways to a light.
+    static Numbers cosines(const Light& light, const LitPoints& points) {
+        const bool is_sun = light.kind == LightKind::directional;
+        const vec3 place = light.position_world, sun = light.direction_world;
+        Numbers cosine;
+        int unusable = 0;
+        const auto per_length = [&](vec3 v) {  // as in reflect_light()
+            const float squared = glm::dot(v, v);
+            unusable |= (squared > 1e-30f ? 0 : 1) | (squared < 1e30f ? 0 : 1);
+            return 1 / std::sqrt(squared);
+        };
+        for (std::size_t i = 0; i < points.count; ++i) {
+            const vec3 normal = points.normal_world[i], way = place - points.position_world[i];
+            const vec3 toward = is_sun ? sun : way * per_length(way);
+            cosine[i] = glm::dot(normal * per_length(normal), toward);
+        }
+        if (unusable == 0) return cosine;
+        for (std::size_t i = 0; i < points.count; ++i) {
+            const vec3 way = place - points.position_world[i];
+            cosine[i] = glm::dot(unit_or(points.normal_world[i], vec3(0)),
+                                 is_sun ? sun : unit_or(way, vec3(0, 1, 0)));
+        }
+        return cosine;
+    }
+
     template <typename CounterPolicy>
-    float share(std::size_t l, vec3 position, vec3 normal, CounterPolicy& counters) {
+    float share(std::size_t l, vec3 position, vec3 normal, float cosine, CounterPolicy& counters) {
         const Shadows::OfLight& of_light = shadows_.of_light_[l];
-        const Light& light = of_light.light;
-        const vec3 way = position - light.position_world;
-        const vec3 toward = light.kind == LightKind::directional ? light.direction_world
-                                                                 : unit_or(-way, vec3(0, 1, 0));
-        const float cosine = glm::dot(unit_or(normal, vec3(0)), toward);
         if (!(cosine > 0)) return of_light.is_drawn ? 0 : 1;
+        const vec3 way = position - of_light.light.position_world;
         const std::size_t map = of_light.map_of_view[of_light.has_faces ? cube_face(way) : 0];
         const float faded = of_light.is_drawn ? std::min(cosine / full_cosine, 1.0f) : 1;
         if (map == Shadows::no_map) return faded;

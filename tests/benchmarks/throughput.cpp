@@ -22,6 +22,7 @@
 #include "04_mvp/clip.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/counters.hpp"
 #include "common/obj.hpp"
@@ -242,23 +243,19 @@ void textured_and_lit(benchmark::State& state) {
                     }
                     const TriangleLight light(knobs.shading, lights, camera.position_world, mesh,
                                               triangle, false, surface);
-                    const auto shade = [&](std::span<const Fragment> fragments) {
-                        std::array<SurfaceColor, most_points> own;
+                    const auto shade = [&](const ManyFragments& fragments) {
+                        const ManyWeights weights = weights_of(fragments, perspective);
+                        const auto own = surface.colors(weights, knobs.texture.filter, counters);
                         LitPoints points;
-                        for (std::size_t i = 0; i < fragments.size(); ++i) {
-                            const FragmentWeights weights =
-                                perspective.at(fragments[i].screen_weights);
-                            own[i] = surface.color(weights, knobs.texture.filter, counters);
-                            light.add(weights.here, points, counters);
-                        }
+                        light.add(weights, points, counters);
                         light.compute(points);
-                        for (std::size_t i = 0; i < fragments.size(); ++i)
-                            color[fragments[i].pixel] =
+                        for (std::size_t i = 0; i < fragments.count; ++i)
+                            color[fragments.pixels[i]] =
                                 phong(own[i], ambient_light, points.light(i));
                     };
                     Fragments visible(shade);
                     const auto gather = [&](ivec2 pixel, vec3 screen_weights) {
-                        visible.add({pixel, screen_weights});
+                        visible.add(pixel, screen_weights);
                     };
                     fill_in_bands(on_screen, size, emit_visible(gather));
                     visible.finish();

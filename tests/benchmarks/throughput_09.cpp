@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <span>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -16,6 +15,7 @@
 #include "04_mvp/clip.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/bumpy_scene.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"

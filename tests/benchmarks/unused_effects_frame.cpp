@@ -145,17 +145,15 @@ Image<vec3> copy_of_render(const AnyOptions& options, const AnyScene& scene,
                                           triangle, is_back, surface_for_light);
                 std::conditional_t<has_shadows, TriangleShadows, LeftOut> shadow(shadows, mesh,
                                                                                  triangle);
-                const auto shade = [&](std::span<const Fragment> fragments) {
-                    std::array<SurfaceColor, most_points> own;
+                const auto shade = [&](const ManyFragments& fragments) {
+                    const ManyWeights weights = weights_of(fragments, perspective);
+                    const auto own = surface.colors(weights, options.texture.filter, counters);
                     Points points;
-                    for (std::size_t i = 0; i < fragments.size(); ++i) {
-                        const FragmentWeights weights = perspective.at(fragments[i].screen_weights);
-                        own[i] = surface.color(weights, options.texture.filter, counters);
-                        if (!surface.effects.light) continue;
+                    if (surface.effects.light) {
                         if constexpr (has_bands)
                             points.add(light, weights, options.shading.smooth, counters);
                         else
-                            light.add(weights.here, points, counters);
+                            light.add(weights, points, counters);
                         if constexpr (has_relief)
                             relief.add(weights, options.texture.filter, points, counters);
                     }
@@ -174,8 +172,8 @@ Image<vec3> copy_of_render(const AnyOptions& options, const AnyScene& scene,
                     } else {
                         light.compute(points);
                     }
-                    for (std::size_t i = 0; i < fragments.size(); ++i) {
-                        vec3& pixel = color[fragments[i].pixel];
+                    for (std::size_t i = 0; i < fragments.count; ++i) {
+                        vec3& pixel = color[fragments.pixels[i]];
                         if (!surface.effects.light)
                             pixel = unlit(own[i]);
                         else if constexpr (has_bands)
@@ -185,9 +183,9 @@ Image<vec3> copy_of_render(const AnyOptions& options, const AnyScene& scene,
                     }
                     if constexpr (has_outlines) {
                         if (!outlines.need_fragments()) return;
-                        for (const auto& [pixel, screen_weights] : fragments)
-                            outlines.add(pixel, mesh, triangle, is_back,
-                                         perspective.at(screen_weights).here, color, counters);
+                        for (std::size_t i = 0; i < fragments.count; ++i)
+                            outlines.add(fragments.pixels[i], mesh, triangle, is_back,
+                                         weights.here[i], color, counters);
                     }
                 };
                 Fragments visible(shade);
@@ -195,7 +193,7 @@ Image<vec3> copy_of_render(const AnyOptions& options, const AnyScene& scene,
                     counters.add(Counter::fragments_tested);
                     if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
                     counters.add(Counter::fragments_shaded);
-                    visible.add({pixel, screen_weights});
+                    visible.add(pixel, screen_weights);
                 });
                 visible.finish();
             }

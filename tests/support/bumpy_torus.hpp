@@ -172,23 +172,20 @@ struct BumpyTorus {
                 const TriangleRelief relief(variant, scene, mesh(), triangle, false);
                 const TriangleLight light({}, {}, camera.position_world, mesh(), triangle, false,
                                           surface);
-                const auto shade = [&](std::span<const Fragment> fragments) {
+                const auto shade = [&](const ManyFragments& fragments) {
+                    const ManyWeights weights = weights_of(fragments, perspective);
                     BumpyPoints points;
-                    std::array<vec2, most_points> places;
-                    for (std::size_t i = 0; i < fragments.size(); ++i) {
-                        const FragmentWeights weights = perspective.at(fragments[i].screen_weights);
-                        places[i] = interpolate(uvs, weights.here);
-                        light.add(weights.here, points, counters);
-                        relief.add(weights, Filter::bilinear, points, counters);
-                    }
+                    light.add(weights, points, counters);
+                    relief.add(weights, Filter::bilinear, points, counters);
                     relief.tilt(points);
-                    for (std::size_t i = 0; i < fragments.size(); ++i)
-                        emit(fragments[i].pixel, points.normal_world[i], places[i]);
+                    for (std::size_t i = 0; i < fragments.count; ++i)
+                        emit(fragments.pixels[i], points.normal_world[i],
+                             interpolate(uvs, weights.here[i]));
                 };
                 Fragments visible(shade);
                 fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
                     if (depth.test_and_write(pixel, triangle_depth.at(screen_weights)))
-                        visible.add({pixel, screen_weights});
+                        visible.add(pixel, screen_weights);
                 });
                 visible.finish();
             }

@@ -103,17 +103,16 @@ struct LitSphere {
                 const PerspectiveWeights perspective(on_screen, clipped);
                 const TriangleLight light(variant, lights, camera.position_world, mesh(), triangle,
                                           false, surface);
-                const auto shade = [&](std::span<const Fragment> fragments) {
+                const auto shade = [&](const ManyFragments& fragments) {
                     LitPoints points;
-                    for (const Fragment& fragment : fragments)
-                        light.add(perspective.at(fragment.screen_weights).here, points, counters);
+                    light.add(weights_of(fragments, perspective), points, counters);
                     light.compute(points);
-                    for (std::size_t i = 0; i < fragments.size(); ++i)
-                        emit(fragments[i].pixel, phong(color, vec3(0), points.light(i)).x);
+                    for (std::size_t i = 0; i < fragments.count; ++i)
+                        emit(fragments.pixels[i], phong(color, vec3(0), points.light(i)).x);
                 };
                 Fragments visible(shade);
                 fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-                    if (how == Points::together) return visible.add({pixel, screen_weights});
+                    if (how == Points::together) return visible.add(pixel, screen_weights);
                     const vec3 weights = perspective.at(screen_weights).here;
                     emit(pixel, phong(color, vec3(0), light.at(weights, counters)).x);
                 });

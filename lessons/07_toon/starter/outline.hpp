@@ -33,8 +33,9 @@ constexpr vec3 ink(0.006f, 0.005f, 0.009f);  ///< The colour of outlines; linear
 ///
 /// @return  Of length 1; 0 where there is none, as on a sheet with two sides.
 inline std::vector<vec3> hull_normals(const Mesh& mesh) {
-    // TODO: Eq. 7.8: sum over the faces around each position, then over all positions at the same
-    // place; then of length 1, with unit_or(sum, vec3(0)).
+    // TODO: Eq. 7.8: with face_normal and corner_angle_radians, sum over the faces around each
+    // position, in the order of the mesh; then over all positions at the same place, in their
+    // order; then of length 1, with unit_or(sum, vec3(0)).
     return std::vector<vec3>(mesh.positions.size(), vec3(0));
 }
 
@@ -44,7 +45,7 @@ inline std::vector<vec3> hull_normals(const Mesh& mesh) {
 /// @param normal_clip  clip_from_world * vec4(normal, 0). A normal that leads straight to the eye
 ///                     or away from it has no direction on the screen: the point stays.
 inline vec4 pushed(vec4 position_clip, vec4 normal_clip, float width_px, ivec2 size) {
-    // TODO: Eq. 7.9.
+    // TODO: Eq. 7.9; unit_or scales to length 1, or gives its fallback where that cannot be.
     return position_clip;
 }
 
@@ -61,19 +62,28 @@ inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3
 /// times as wide. A sheet that is not closed has no rim where it shows its front.
 ///
 /// @param normals  hull_normals() of the mesh.
-/// @param depth    All bodies are drawn already. Keeps the hull's depths where it is seen.
+/// @param depth    All bodies are drawn already. Takes the hull's depths where it is seen.
+/// @param counters outline_tests: each fragment of the hull; outline_pixels: each one inked.
 template <typename CounterPolicy>
 void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
                float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
-    // TODO: as main.cpp draws a mesh, but: each position is pushed; only faces that are seen from
-    // behind (asked of the mesh as it was) are drawn; and what passes the depth test is ink. Count
-    // Counter::outline_tests for each test and Counter::outline_pixels for each pixel inked.
+    // TODO: transform the positions, push each one, and then for each triangle, as in main.cpp:
+    // clip_triangle, screen_from_clip, snap_triangle, TriangleDepth and depth.test_and_write. But
+    // only faces that are seen from behind (asked of the mesh as it was) are drawn. On the screen
+    // they are clockwise, so do not ask is_front_facing; nor is_outside_frustum, for of a body just
+    // outside of the picture the rim may reach into it. fill_triangle is enough: there is no light
+    // to compute for several points at once. What passes the depth test is ink. Count
+    // Counter::outline_tests for each depth test and Counter::outline_pixels for each pixel inked,
+    // and nothing else.
 }
 
 /// From where on a change counts as an edge.
+///
+/// That of normals is none that an edge of a box, a common prism or a regular solid can have,
+/// however it runs over the picture: rounding would decide what is inked there (Eq. 7.14).
 struct EdgeThresholds {
-    float depth = 0.02f;   ///< In units of the distance to what is seen.
-    float normals = 0.5f;  ///< Of unit vectors: 0.5 is a turn of 29 degrees.
+    float depth = 0.02f;    ///< In units of the distance to what is seen.
+    float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
 };
 
 /// How near what is seen in a pixel is: 1 / w, which of a plane is linear on the screen (Eq. 7.11).
@@ -108,14 +118,17 @@ vec3 sobel(At&& at, ivec2 along) {
 /// (Eq. 7.14): silhouettes, sharp edges, and where one body touches another.
 ///
 /// @param normals   Of what is seen, length 1; 0 where nothing is.
-/// @param width_px  Of the lines, rounded up to an even number; 0: none.
+/// @param width_px  Of lines along rows and columns, rounded up to an even number; slanted ones are
+///                  0.71 to 1.41 times as wide. 0: none. A picture that is not wider and higher
+///                  than that has none, and is not asked.
 template <typename CounterPolicy>
 void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
                 float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,
                 CounterPolicy& counters) {
     // TODO: for each pixel Eq. 7.14, with the neighbours `reach` = width_px / 2, rounded up, pixels
-    // away; at the picture's border those of the next pixel that has neighbours on all sides. Count
-    // Counter::outline_tests for each pixel and Counter::outline_pixels for each one inked.
+    // away; at the picture's border all of it, also the threshold, for the next pixel that has
+    // neighbours on all sides. Count Counter::outline_tests for each pixel and
+    // Counter::outline_pixels for each one inked; nothing in a picture too small for such a pixel.
 }
 
 }  // namespace rasterbook

@@ -31,7 +31,7 @@ constexpr float component_from_code(std::uint32_t code, int bits = 8) {
 /// The normals of a map, of 8 bits a component, x right, y up and z out of the surface; w is 1.
 /// (128, 128, 255) is (0, 0, 1) without error; other lengths are 1 but for the codes' steps.
 inline Image<vec4> normals_from_codes(const Image<u8vec4>& picture, Green green) {
-    // TODO: component_from_code() of red, green and blue; green down changes the sign of y.
+    // TODO: component_from_code() of red, green and blue; green down changes the sign of y. w is 1.
     return Image<vec4>(picture.size(), vec4(0, 0, 1, 1));
 }
 
@@ -41,8 +41,8 @@ inline Image<vec4> normals_from_codes(const Image<u8vec4>& picture, Green green)
 /// @param picture  Its red is the height: code 255 lies one side of the picture above code 0.
 /// @param wrap     What lies beyond the picture's borders.
 inline Image<vec4> normals_from_heights(const Image<u8vec4>& picture, Wrap wrap) {
-    // TODO: Eq. 8.9 with s = 1; red over 255 is the height. Beyond the border: the opposite one for
-    // Wrap::repeat, else the border itself.
+    // TODO: Eq. 8.9 with s = 1; red over 255 is the height, and w is 1. Beyond the border: the
+    // opposite one for Wrap::repeat, else the border itself.
     return Image<vec4>(picture.size(), vec4(0, 0, 1, 1));
 }
 
@@ -80,9 +80,9 @@ inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentU
 ///                    where x and y are 0.
 /// @return            Of any length; scaling comes last.
 inline vec3 tilted(const TangentFrame& frame, vec3 normal_map, vec3 normal) {
-    // TODO: what stands above the fraction line in Eq. 8.7. Where x and y are 0, the normal as it
-    // is; choose one number at a time, `is_flat ? normal.x : sum.x`: a loop over many points then
-    // has no jumps.
+    // TODO: what stands above the fraction line in Eq. 8.7; its N, of length 1, is frame.normal.
+    // Only where x and y are 0, `normal` as it is. Choose one number at a time,
+    // `is_flat ? normal.x : sum.x`: a loop over many points then has no jumps.
     return normal;
 }
 

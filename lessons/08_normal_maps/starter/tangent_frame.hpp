@@ -33,7 +33,8 @@ struct UvDirections {
 /// by the inverse of a 2x2 matrix (Eq. 8.3). Its determinant has the sign of the handedness
 /// (Eq. 8.4). With handedness 0, both directions are 0.
 ///
-/// @param positions,uvs  Of the corners. Any numbers: what is not finite has no area.
+/// @param positions,uvs  Of the corners. Any numbers: with a uv that is not finite, the handedness
+///          is 0; with a position that is not, it is that of the uvs, and both directions are 0.
 /// @return  Of one texture and surface whatever its size. The sides are taken from the first
 ///          corner: another one that comes first changes roundings. In double, an error of 2^-51
 ///          times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is
@@ -68,19 +69,29 @@ struct TangentFrame {
     vec3 tangent, bitangent, normal;
 };
 
-/// As much of the square of a tangent's length has to be left for one step to be exact enough: the
-/// tangent is within 30 degrees of where it should be.
+/// More of the square of a tangent's length than this has to be left across the normal for one step
+/// to be exact enough: the tangent stood less than 30 degrees away from what it becomes.
 constexpr float mostly = 0.75f;
 
+/// Where no more than this is left of the square, 2^-20 of the length, it has no true digit.
+constexpr float hardly_any = 0x1p-40f;
+
 /// What is left of a tangent across the normal, scaled to length 1 (Eq. 8.5).
+///
+/// In the usual case (the square of what is left is above `mostly` times the tangent's and above
+/// 1e-30, the tangent's is below 1e30) this takes the steps of Eq. 8.5 and no others, with the
+/// tangent as it is: TriangleRelief takes them for many points at once, and promises the same bits.
 ///
 /// @param tangent  Any numbers.
 /// @param normal   Length 1.
 /// @return         any_across(normal) where nothing is left: the tangent is 0, not finite, or
-///                 parallel to the normal but for 2^-20 of its length.
+///                 parallel to the normal but for `hardly_any` of its square.
 inline vec3 unit_across(vec3 tangent, vec3 normal) {
-    // TODO: Eq. 8.5: across(), scaled to length 1; once more where little is left, and any_across()
-    // where nothing is.
+    // TODO: Eq. 8.5. In the usual case across() of the tangent as it is, times 1 / std::sqrt() of
+    // its square: where that square is above `mostly` times the tangent's and above 1e-30, and the
+    // tangent's below 1e30. Else scale the tangent first, unit_or(tangent, normal), since squares
+    // may overflow. What across() leaves of that: any_across() unless its square is above
+    // `hardly_any`; else to length 1, across() once more, and to length 1.
     return any_across(normal);
 }
 
@@ -124,9 +135,9 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
                       bits(uv.y), handedness < 0 ? 1u : 0u},
                      normal,
                      {0, 0, 0}};
-    // TODO: if the tangent has a direction across the normal: the angle, corner_angle_radians(),
-    // times unit_across(), each component times 2^40 (0x1p40) and rounded by std::llround(). In
-    // double.
+    // TODO: if the tangent has a direction across the normal, that is if the square of across() is
+    // above `hardly_any`: the angle, corner_angle_radians(), times unit_across(), each component
+    // times 2^40 (0x1p40) and rounded by std::llround(). In double.
     return own;
 }
 
@@ -140,7 +151,8 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
 /// @param mesh    As complete_normals() leaves it: each corner has a normal of its own.
 /// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
 /// @return        For each of the mesh's normals: tangent, of length 1 and across the normal, and
-///                handedness, -1 or 1. Where no triangle has a direction, any_across() and 1.
+///                handedness, that of the triangles, -1 or 1; 1 where theirs is 0. Where no
+///                triangle has a direction across the normal, the tangent is any_across().
 template <std::invocable<const Triangle&> UvsOf>
 std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
     std::vector<TangentShare> shares;
