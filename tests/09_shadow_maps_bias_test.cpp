@@ -271,6 +271,71 @@ TEST(ShadowMaps, Eq9_12_InAPerspectiveTheMovedPointIsNearerByTheBias) {
     }
 }
 
+TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
+    // In a small map of a wide view an offset grows along its own way as much as it is long, or
+    // more: K g of 1 and above.
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> any(-1, 1);
+    const auto any_vector = [&] {
+        const float x = any(random), y = any(random), z = any(random);
+        return vec3(x, y, z);
+    };
+    long asked = 0;
+    int beyond = 0, close = 0;
+    for (const int size : {16, 24, 32, 64})
+        for (const LightKind kind : {LightKind::spot, LightKind::point})
+            for (int i = 0; i < 250; ++i) {
+                vec3 middle = 3.0f * any_vector();
+                middle.z = -std::abs(middle.z) - 0.2f;  // in front of the spot
+                vec3 normal = unit_or(any_vector(), vec3(0, 1, 0));
+                if (glm::dot(normal, middle) > 0) normal = -normal;  // the light is at 0
+                const vec3 along = unit_or(glm::cross(normal, any_vector()), vec3(1, 0, 0));
+                const vec3 across = glm::cross(normal, along);
+                const Mesh mesh = mesh_of({middle - along - across, middle + along - across,
+                                           middle + along + across, middle - along + across},
+                                          {{0, 1, 2}, {0, 2, 3}});
+                Light light{kind, vec3(1), vec3(0, 0, -1)};
+                light.cos_full = 1,
+                light.cos_none = std::cos(glm::radians(59.5f + 14.5f * any(random)));
+                // Other things around widen the map to all of the light's view.
+                const LightMaps maps(light, std::span(&mesh, 1), size, {vec3(-4), vec3(4)});
+                for (const PointOn& p : points_on(mesh, random, 15)) {
+                    const vec3 way = glm::normalize(p.point);
+                    if (kind == LightKind::spot &&
+                        glm::dot(way, light.direction_world) <= light.cos_none)
+                        continue;
+                    if (!(glm::dot(normal, way) < 0)) continue;
+                    for (const Bias bias : fitted)
+                        for (const int radius : {0, 1, 2, 3}) {
+                            ASSERT_EQ(maps.share(bias, radius, p.corners, p.point), 1)
+                                << "seed 6: size " << size << ", light " << int(kind) << ", plane "
+                                << i << ", bias " << int(bias) << ", radius " << radius;
+                            ++asked;
+                        }
+                    // K g in long double: with the plane's distances from T's inverse's columns.
+                    const ShadowMap& map = maps.map_for(p.point);
+                    const glm::mat<4, 4, real> m(map.texels_from_world);
+                    const glm::mat<4, 4, real> inverse = glm::inverse(m);
+                    const lvec4 to_plane(lvec3(normal), -glm::dot(lvec3(normal), lvec3(middle)));
+                    const auto size_along = [&](int c) {
+                        return std::abs(glm::dot(to_plane, inverse[c]));
+                    };
+                    const real kg = ((3.5L + 1 / 512.0L) * (size_along(0) + size_along(1)) +
+                                     0x8p-24L * size_along(2)) *
+                                    (normal.x * real(m[0].w) + normal.y * real(m[1].w) +
+                                     normal.z * real(m[2].w));
+                    if (std::abs(kg - 1) < 1e-4L) continue;  // normals in float
+                    const Receiver at =
+                        receiver(map, Bias::normal, 3, p.corners, maps.toward(p.point));
+                    ASSERT_EQ(at.bias > 1, kg > 1) << "seed 6: size " << size << ", K g " << kg;
+                    beyond += kg > 1, close += kg > 0.8L && kg < 1;
+                }
+            }
+    EXPECT_GT(asked, 400000);
+    EXPECT_GT(beyond, 100) << "points from which no offset is long enough";
+    EXPECT_GT(close, 100) << "points from which a long one is";
+}
+
 TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
     look_up("Eq. 9.8");
     struct Row {
@@ -415,8 +480,7 @@ TEST(ShadowMaps, Eq9_15_RoundingsStayBelowWhatIsAllowedForThem) {
                 views.count == 6 ? cube_face(p.point - plane.light.position_world) : 0;
             const ShadowMap map(views.clip_from_world[face], views.is_perspective, 512,
                                 plane.mesh.bounds);
-            const mat4& m = map.texels_from_world;
-            const vec4 computed = m[0] * p.point.x + m[1] * p.point.y + m[2] * p.point.z + m[3];
+            const vec4 computed = map.texels_from_world * vec4(p.point, 1);
             const glm::mat<4, 4, real> exact_m =
                 glm::mat<4, 4, real>(viewport<double>(ivec2(512))) *
                 glm::mat<4, 4, real>(map.clip_from_world);

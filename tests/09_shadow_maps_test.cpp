@@ -191,8 +191,22 @@ TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
     EXPECT_GT(light_views(lights[0], above, some, 256).count, 0u);
     EXPECT_EQ(light_views(lights[0], some, above, 256).count, 0u) << "the caster is below";
     EXPECT_EQ(light_views(lights[0], some, beside, 256).count, 0u);
+    EXPECT_EQ(light_views(lights[1], some, beside, 256).count, 0u) << "beside its cone";
     EXPECT_EQ(light_views(lights[1], above, some, 256).count, 0u) << "behind the spot";
     EXPECT_EQ(light_views(lights[1], some, above, 256).count, 0u) << "behind the spot";
+}
+
+TEST(ShadowMaps, HardCase_AFlatCasterEdgeOnHasAMap) {
+    look_up("Eq. 9.3");
+    // What casters and receivers have in common is a line, which the widened box takes in.
+    const Bounds sheet = box({0, 1, -1}, {0, 2, 1}), floor = box({-3, 0, -3}, {3, 0, 3});
+    for (const Light& light : {sun_at({0, 1, 0}), spot_at({0, 5, 0}, {0, 0, 0}, 40)}) {
+        const LightViews views = light_views(light, sheet, floor, 64);
+        ASSERT_EQ(views.count, 1u);
+        const dvec3 place = ndc(views.clip_from_world[0], {0, 1.5, 0.5});
+        EXPECT_TRUE(std::abs(place.x) < 1 && std::abs(place.y) < 1 && std::abs(place.z) < 1)
+            << testing::PrintToString(vec3(place));
+    }
 }
 
 TEST(ShadowMaps, Eq9_4_ASpotsMapReachesToTheBorderOfItsCone) {
@@ -268,6 +282,9 @@ TEST(ShadowMaps, Eq9_5_EachWayLiesWellInsideOfItsFace) {
     ASSERT_EQ(views.count, 6u);
     EXPECT_EQ(cube_face({0.5f, -0.8f, 0.3f}), 3u);  // the worked example: down
     EXPECT_EQ(cube_face({2, 1, -1}), 0u);
+    EXPECT_EQ(cube_face({-0.0f, 0, -0.0f}), 0u);
+    EXPECT_EQ(cube_face({-1, 1, -1}), 1u);
+    EXPECT_EQ(cube_face({0.5f, -1, -1}), 3u);
     EXPECT_EQ(cube_face({-2, 1, -1}), 1u);
     EXPECT_EQ(cube_face({1, 2, -1}), 2u);
     EXPECT_EQ(cube_face({1, 1, 3}), 4u);

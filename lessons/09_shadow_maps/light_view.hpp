@@ -72,7 +72,10 @@ inline LightBox box_in(const dmat4& view_from_world, const Bounds& bounds) {
 /// Where a shadow can begin and end: sideways where there are both casters and receivers, and from
 /// the nearest caster to where casters or receivers end (Eq. 9.3).
 ///
-/// z grows towards the light, as view space does.
+/// z grows towards the light, as view space does. In a spot's NDC, where it grows the other way,
+/// only x and y of the result are of use.
+///
+/// @return  Not usable, low above high, where there can be no shadow.
 inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers) {
     LightBox region{glm::max(casters.low, receivers.low), glm::min(casters.high, receivers.high)};
     region.high.z = casters.high.z;
@@ -91,7 +94,7 @@ inline double widened_by_margin(int size) {
 }
 
 /// The box a little larger, so that rounding puts nothing outside, no side of it 0, and sideways
-/// with a margin.
+/// with a margin. z becomes larger as well.
 inline LightBox widened(const LightBox& box, int size) {
     const dvec3 half = 0.5 * (box.high - box.low), middle = 0.5 * (box.high + box.low);
     const double largest = std::max({half.x, half.y, half.z});
@@ -122,11 +125,16 @@ inline LightViews sun_views(const Light& light, const Bounds& casters, const Bou
     return {{mat4(clip)}, 1, false};
 }
 
-/// From the nearest caster, or a thousandth of the way, to where casters or receivers end.
+/// From the nearest caster, or a thousandth of the way, to where casters or receivers end; both a
+/// little beyond, so that rounding puts nothing outside.
 struct DepthRange {
     double near, far;
 };
 
+/// The second line of Eq. 9.4.
+///
+/// @param nearest_caster  Along the map's axis; may be 0 or less.
+/// @param farthest        Where casters or receivers end, whichever comes first, > 0.
 inline DepthRange depth_range(double nearest_caster, double farthest) {
     const double far = 1.002 * farthest;
     return {std::max(0.998 * nearest_caster, least_near * far), far};
@@ -134,7 +142,7 @@ inline DepthRange depth_range(double nearest_caster, double farthest) {
 
 /// A spot's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
 ///
-/// @return  Of count 0 when in front of the spot no receiver lies behind a caster.
+/// @return  Of count 0 when in front of the spot and in its cone no receiver lies behind a caster.
 inline LightViews spot_views(const Light& light, const Bounds& casters, const Bounds& receivers,
                              int size) {
     const dvec3 eye = light.position_world;
@@ -163,14 +171,15 @@ inline LightViews spot_views(const Light& light, const Bounds& casters, const Bo
     LightBox region =
         shadow_region(box_in_ndc(casters, caster_box), box_in_ndc(receivers, receiver_box));
     region.low = glm::max(region.low, dvec3(-1)), region.high = glm::min(region.high, dvec3(1));
-    if (!(region.low.x < region.high.x && region.low.y < region.high.y)) return {};
     region.low.z = -1, region.high.z = 1;  // near and far are fitted already
+    if (!region.is_usable()) return {};
     LightBox box = widened(region, size);
     box.low.z = -1, box.high.z = 1;
     return {{mat4(crop(box.low, box.high) * clip)}, 1, true};
 }
 
-/// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5).
+/// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5). A 0 of
+/// either sign is positive: no way at all is +x.
 inline std::size_t cube_face(vec3 way) {
     const vec3 size = glm::abs(way);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -181,6 +190,8 @@ inline std::size_t cube_face(vec3 way) {
 inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bounds& receivers,
                              int size) {
     const dvec3 eye = light.position_world;
+    // Of the boxes, not of triangles: to a box's farthest corner, and to the point in it or on it
+    // that is nearest.
     const auto farthest_from_eye = [&](const Bounds& bounds) {
         return glm::length(
             glm::max(glm::abs(dvec3(bounds.min) - eye), glm::abs(dvec3(bounds.max) - eye)));

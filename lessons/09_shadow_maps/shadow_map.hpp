@@ -41,7 +41,7 @@ struct ShadowMap {
     int size;                ///< Texels a side.
     mat4 clip_from_world;    ///< As light_view.hpp makes it.
     mat4 texels_from_world;  ///< x right, y down in texels, depth 0 to 1, all times w (Eq. 9.6).
-    dmat4 plane_from_world;  ///< For planes as rows of four numbers (Eq. 9.8).
+    dmat4 plane_from_world;  ///< Of texels_from_world, as it is in float (Eq. 9.8).
     bool is_perspective;     ///< Else w is 1.
     double rounding_texels;  ///< By how much a place may be off, times w (Eq. 9.15).
     double rounding_depth;   ///< By how much a depth may be off, times w.
@@ -87,7 +87,11 @@ struct ShadowMap {
 
 /// Draws the depth of a mesh as the light sees it, fronts and backs.
 ///
-/// @param casts  Called as casts(material): whether triangles of this material throw shadows.
+/// Each texel of the map's own that a triangle covers counts as a Counter::shadow_fragments,
+/// written or not; nothing else is counted.
+///
+/// @param casts  Called as casts(material), an index into Scene::materials: whether triangles of it
+///               throw shadows.
 template <typename Casts, typename CounterPolicy>
 void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
     if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
@@ -115,20 +119,22 @@ enum class Bias { none, constant, slope, plane, normal };
 struct Receiver {
     vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
     float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.10); leaks: Eq. 9.14.
-    float bias_per_w = 0;  ///< The same, divided by w.
+    float bias_per_w = 0;  ///< To be divided by the moved point's w, and added to the bias.
     vec3 offset{0};        ///< World space: moves the point (Eq. 9.12).
-    vec3 offset_times_w{0};  ///< The same, multiplied by w.
+    vec3 offset_times_w{0};  ///< To be multiplied by w of the point not yet moved, and added.
 };
 
 /// A plane's slopes beyond which a depth passes through all of the map within a texel. Such a
-/// surface is seen edge-on by the light, gets hardly any, and all of that.
+/// surface is seen edge-on by the light, gets hardly any, and all of that. Bias::normal needs no
+/// such limit.
 constexpr double most_slope = 1;
 
 /// Fits the bias to a triangle.
 ///
 /// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
-/// lit of a triangle of no area, edge-on, not finite, or turned away from the light: that one gets
-/// no light anyway, or next to none by normals that are mixed between its corners.
+/// lit of a triangle of no area, edge-on (with Bias::normal: only if it contains the light), not
+/// finite, or turned away from the light: that one gets no light anyway, or next to none by normals
+/// that are mixed between its corners.
 ///
 /// @param radius   Of the look-up's square of texels: 0 to most_pcf_radius.
 /// @param corners  World space.
@@ -155,10 +161,14 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
         const dvec3 w_row(dvec4(map.texels_from_world[0].w, map.texels_from_world[1].w,
                                 map.texels_from_world[2].w, 0));
         const double times_w = (reach_texels + snapping) * across + depth_quanta * along;
-        const double per_w = std::max(1 - times_w * glm::dot(normal, w_row), 0.5);
-        result.offset_times_w = vec3(normal * (times_w / per_w));
-        result.offset =
-            vec3(normal * ((map.rounding_texels * across + map.rounding_depth * along) / per_w));
+        const double without_w = map.rounding_texels * across + map.rounding_depth * along;
+        const double growth = times_w * glm::dot(normal, w_row);  // K g
+        if (!(growth < 1)) {  // The farther the point moves, the more is missing.
+            result.bias = 2;
+            return result;
+        }
+        result.offset_times_w = vec3(normal * (times_w / (1 - growth)));
+        result.offset = vec3(normal * (without_w / (1 - growth)));
         return result;
     }
     const double slope = across / along;
@@ -178,23 +188,21 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
 /// (Eq. 9.7 and 9.13).
 ///
 /// @tparam radius         0 to most_pcf_radius: 1, 9, 25 or 49 texels.
-/// @param position_world  Outside of the map, behind the light or not a number: lit.
+/// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
+///                        lit.
 template <int radius>
 float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
     static_assert(radius >= 0 && radius <= most_pcf_radius);
     const mat4& m = map.texels_from_world;
-    vec3 p = position_world;
-    float per_w = 1;
+    float w = 1, per_w = 1;
+    if (map.is_perspective) w = (m * vec4(position_world, 1)).w;  // Eq. 9.12
+    const vec3 moved = position_world + receiver.offset + w * receiver.offset_times_w;
+    const vec4 place_times_w = m * vec4(moved, 1);  // Eq. 9.6
     if (map.is_perspective) {
-        const float w = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
-        p += receiver.offset + w * receiver.offset_times_w;
-        const float moved_w = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
-        if (!(moved_w > 0)) return 1;
-        per_w = 1 / moved_w;
-    } else {
-        p += receiver.offset + receiver.offset_times_w;
+        if (!(place_times_w.w > 0)) return 1;
+        per_w = 1 / place_times_w.w;
     }
-    const vec3 place = vec3(m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]) * per_w;
+    const vec3 place = vec3(place_times_w) * per_w;
     const auto end = static_cast<float>(map.size);
     if (!(place.x >= 0 && place.y >= 0 && place.x < end && place.y < end)) return 1;
 

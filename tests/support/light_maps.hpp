@@ -27,8 +27,10 @@ struct LightMaps {
     Light light;
     std::vector<ShadowMap> maps;  ///< None, one, or six.
 
-    LightMaps(const Light& of, std::span<const Mesh> meshes, int size) : light(of) {
-        Bounds all;
+    /// @param around  Casters and receivers reach so far as well; empty for no farther than meshes.
+    LightMaps(const Light& of, std::span<const Mesh> meshes, int size, const Bounds& around = {})
+        : light(of) {
+        Bounds all = around;
         for (const Mesh& mesh : meshes) all.add(mesh.bounds.min), all.add(mesh.bounds.max);
         const LightViews views = light_views(light, all, all, size);
         NoCounters none;

@@ -72,7 +72,10 @@ inline LightBox box_in(const dmat4& view_from_world, const Bounds& bounds) {
 /// Where a shadow can begin and end: sideways where there are both casters and receivers, and from
 /// the nearest caster to where casters or receivers end (Eq. 9.3).
 ///
-/// z grows towards the light, as view space does.
+/// z grows towards the light, as view space does. In a spot's NDC, where it grows the other way,
+/// only x and y of the result are of use.
+///
+/// @return  Not usable, low above high, where there can be no shadow.
 inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers) {
     // TODO: Eq. 9.3.
     return casters;
@@ -91,7 +94,7 @@ inline double widened_by_margin(int size) {
 }
 
 /// The box a little larger, so that rounding puts nothing outside, no side of it 0, and sideways
-/// with a margin.
+/// with a margin. z becomes larger as well.
 inline LightBox widened(const LightBox& box, int size) {
     const dvec3 half = 0.5 * (box.high - box.low), middle = 0.5 * (box.high + box.low);
     const double largest = std::max({half.x, half.y, half.z});
@@ -113,15 +116,21 @@ inline dmat4 looking(dvec3 eye, dvec3 direction) {
 inline LightViews sun_views(const Light& light, const Bounds& casters, const Bounds& receivers,
                             int size) {
     // TODO: Eq. 9.1 by looking(), the two boxes in this view by box_in(), and Eq. 9.3, widened();
-    // then crop() and S(1, 1, -1). Where a box is not usable: {}.
+    // then crop() and S(1, 1, -1). Where one of the two boxes, or the region before it is widened,
+    // is not usable: {}.
     return {{mat4(1)}, 1, false};
 }
 
-/// From the nearest caster, or a thousandth of the way, to where casters or receivers end.
+/// From the nearest caster, or a thousandth of the way, to where casters or receivers end; both a
+/// little beyond, so that rounding puts nothing outside.
 struct DepthRange {
     double near, far;
 };
 
+/// The second line of Eq. 9.4.
+///
+/// @param nearest_caster  Along the map's axis; may be 0 or less.
+/// @param farthest        Where casters or receivers end, whichever comes first, > 0.
 inline DepthRange depth_range(double nearest_caster, double farthest) {
     // TODO: the second line of Eq. 9.4.
     return {least_near, 1};
@@ -129,16 +138,19 @@ inline DepthRange depth_range(double nearest_caster, double farthest) {
 
 /// A spot's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
 ///
-/// @return  Of count 0 when in front of the spot no receiver lies behind a caster.
+/// @return  Of count 0 when in front of the spot and in its cone no receiver lies behind a caster.
 inline LightViews spot_views(const Light& light, const Bounds& casters, const Bounds& receivers,
                              int size) {
     // TODO: Eq. 9.4. Find both boxes in the spot's view and the depths first: z grows towards the
-    // spot. Then the boxes in NDC, a box that begins behind the nearest depth taken for all of the
-    // cone, what both have in common, widened(), and crop(). Where there can be no shadow: {}.
+    // spot. Then the boxes' corners in NDC, a box that comes nearer than the nearest depth taken
+    // for all of the cone; what both have in common, cut to -1 to 1; widened(), z being -1 to 1
+    // before and after; and crop(). Where there can be no shadow, in depth or as shadow_region()
+    // says: {}.
     return {{mat4(1)}, 1, true};
 }
 
-/// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5).
+/// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5). A 0 of
+/// either sign is positive: no way at all is +x.
 inline std::size_t cube_face(vec3 way) {
     // TODO: the left of Eq. 9.5.
     return 0;
@@ -147,8 +159,9 @@ inline std::size_t cube_face(vec3 way) {
 /// A lamp's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
 inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bounds& receivers,
                              int size) {
-    // TODO: the right of Eq. 9.5 and depth_range(), with distances in whatever direction; a view
-    // along each axis by looking(). Where there can be no shadow, or a distance is not finite: {}.
+    // TODO: the right of Eq. 9.5; the boxes' distances in whatever direction, and from them
+    // depth_range(), for which the nearest is divided by sqrt(1 + 2 t^2); a view along each axis by
+    // looking(). Where there can be no shadow in depth, or a distance is not finite: {}.
     LightViews views{{}, 6, true};
     views.clip_from_world.fill(mat4(1));
     return views;

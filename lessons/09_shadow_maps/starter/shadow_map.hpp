@@ -41,7 +41,7 @@ struct ShadowMap {
     int size;                ///< Texels a side.
     mat4 clip_from_world;    ///< As light_view.hpp makes it.
     mat4 texels_from_world;  ///< x right, y down in texels, depth 0 to 1, all times w (Eq. 9.6).
-    dmat4 plane_from_world;  ///< For planes as rows of four numbers (Eq. 9.8).
+    dmat4 plane_from_world;  ///< Of texels_from_world, as it is in float (Eq. 9.8).
     bool is_perspective;     ///< Else w is 1.
     double rounding_texels;  ///< By how much a place may be off, times w (Eq. 9.15).
     double rounding_depth;   ///< By how much a depth may be off, times w.
@@ -87,13 +87,17 @@ struct ShadowMap {
 
 /// Draws the depth of a mesh as the light sees it, fronts and backs.
 ///
-/// @param casts  Called as casts(material): whether triangles of this material throw shadows.
+/// Each texel of the map's own that a triangle covers counts as a Counter::shadow_fragments,
+/// written or not; nothing else is counted.
+///
+/// @param casts  Called as casts(material), an index into Scene::materials: whether triangles of it
+///               throw shadows.
 template <typename Casts, typename CounterPolicy>
 void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
     if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
     // TODO: as lesson 04 draws a mesh, but that only what casts is drawn, fronts and backs alike,
-    // and nothing but depths. Texel (0, 0) is at (most_pcf_radius, most_pcf_radius) of map.depths.
-    // Count Counter::shadow_fragments.
+    // and nothing but depths, in a picture of map.size x map.size. Texel (0, 0) of that is at
+    // (most_pcf_radius, most_pcf_radius) of map.depths. Count Counter::shadow_fragments.
 }
 
 /// What keeps a lit surface from shadowing itself.
@@ -103,20 +107,22 @@ enum class Bias { none, constant, slope, plane, normal };
 struct Receiver {
     vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
     float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.10); leaks: Eq. 9.14.
-    float bias_per_w = 0;  ///< The same, divided by w.
+    float bias_per_w = 0;  ///< To be divided by the moved point's w, and added to the bias.
     vec3 offset{0};        ///< World space: moves the point (Eq. 9.12).
-    vec3 offset_times_w{0};  ///< The same, multiplied by w.
+    vec3 offset_times_w{0};  ///< To be multiplied by w of the point not yet moved, and added.
 };
 
 /// A plane's slopes beyond which a depth passes through all of the map within a texel. Such a
-/// surface is seen edge-on by the light, gets hardly any, and all of that.
+/// surface is seen edge-on by the light, gets hardly any, and all of that. Bias::normal needs no
+/// such limit.
 constexpr double most_slope = 1;
 
 /// Fits the bias to a triangle.
 ///
 /// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
-/// lit of a triangle of no area, edge-on, not finite, or turned away from the light: that one gets
-/// no light anyway, or next to none by normals that are mixed between its corners.
+/// lit of a triangle of no area, edge-on (with Bias::normal: only if it contains the light), not
+/// finite, or turned away from the light: that one gets no light anyway, or next to none by normals
+/// that are mixed between its corners.
 ///
 /// @param radius   Of the look-up's square of texels: 0 to most_pcf_radius.
 /// @param corners  World space.
@@ -130,8 +136,9 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
     if (bias == Bias::none || bias == Bias::constant) return result;
 
     // TODO: the triangle's plane as the map sees it, Eq. 9.8, turned so that `outward` is in front
-    // of it. Where it is edge-on or turned away, the bias is 2. Else Eq. 9.12 for Bias::normal,
-    // Eq. 9.10 for Bias::slope, and Eq. 9.11 for Bias::plane.
+    // of it. Where it is turned away, or P_z is 0 or not a number, the bias is 2. Else Eq. 9.12 for
+    // Bias::normal, where the bias is 2 if K g is not below 1; Eq. 9.10 for Bias::slope and
+    // Eq. 9.11 for Bias::plane, where it is 2 if the slopes' sum is not at most most_slope.
     return result;
 }
 
@@ -139,7 +146,8 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
 /// (Eq. 9.7 and 9.13).
 ///
 /// @tparam radius         0 to most_pcf_radius: 1, 9, 25 or 49 texels.
-/// @param position_world  Outside of the map, behind the light or not a number: lit.
+/// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
+///                        lit.
 template <int radius>
 float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
     static_assert(radius >= 0 && radius <= most_pcf_radius);
