@@ -270,12 +270,12 @@ TEST(Toon, Eq7_14_SlantedLines) {
                         << turn_degrees << ": " << x << ", " << y;
         }
     // Depth: nothing or all of it; above 5.7% of the own distance.
-    for (const auto& [farther, per_row] : {std::pair{10.5f, 0},
-                                           {10.58f, 2},
-                                           {10.65f, 4},
-                                           {std::numeric_limits<float>::infinity(), 4}}) {
-        ByHand step = ByHand::of(
-            size, [farther = farther](ivec2 p) { return p.x + p.y < 50 ? 10.0f : farther; });
+    for (const auto& [distance, per_row] : {std::pair{10.5f, 0},
+                                            {10.58f, 2},
+                                            {10.65f, 4},
+                                            {std::numeric_limits<float>::infinity(), 4}}) {
+        const float farther = distance;
+        ByHand step = ByHand::of(size, [=](ivec2 p) { return p.x + p.y < 50 ? 10.0f : farther; });
         std::ranges::fill(step.normals.pixels(), toward_eye);
         const Image<char> inked = step.edges(4);
         int in_row = 0;

@@ -72,6 +72,17 @@ constexpr std::array<bool, 2> light_casts = {true, false};
 
 static_assert(margin_texels > most_pcf_radius);
 
+/// A light and its depth maps.
+struct LightDepths {
+    static constexpr std::size_t no_map = 6;
+
+    Light light;
+    std::vector<ShadowMap> maps;
+    std::array<std::size_t, 6> map_of_view;  ///< no_map where nothing can be in shadow.
+    bool is_drawn = false;                   ///< Else the maps are there, but empty.
+    bool has_faces = false;                  ///< The views are those of cube_face().
+};
+
 /// The depth maps of all lights that call for some.
 class Shadows {
   public:
@@ -100,21 +111,12 @@ class Shadows {
 
   private:
     friend class TriangleShadows;
-    static constexpr std::size_t no_map = 6;
-
-    struct OfLight {
-        Light light;
-        std::vector<ShadowMap> maps;
-        std::array<std::size_t, 6> map_of_view;  ///< no_map where nothing can be in shadow.
-        bool is_drawn = false;                   ///< Else the maps are there, but empty.
-        bool has_faces = false;                  ///< The views are those of cube_face().
-    };
 
     /// One for each view in which there can be a shadow.
-    static void add_maps(OfLight& of_light, int size, const ShadowedScene& scene,
+    static void add_maps(LightDepths& of_light, int size, const ShadowedScene& scene,
                          const Bounds& casters, const Bounds& receivers) {
         const LightViews views = light_views(of_light.light, casters, receivers, size);
-        of_light.map_of_view.fill(no_map);
+        of_light.map_of_view.fill(LightDepths::no_map);
         of_light.has_faces = views.count == 6;
         of_light.maps.reserve(views.count);
         for (std::size_t i = 0; i < views.count; ++i) {
@@ -142,7 +144,7 @@ class Shadows {
 
     int radius_;
     Bias bias_;
-    std::array<OfLight, light_casts.size()> of_light_;
+    std::array<LightDepths, light_casts.size()> of_light_;
 };
 
 /// A surface gets all of a light from this cosine on; from there to 0, where it turns away, less
@@ -209,12 +211,12 @@ class TriangleShadows {
 
     template <typename CounterPolicy>
     float share(std::size_t l, vec3 position, vec3 normal, float cosine, CounterPolicy& counters) {
-        const Shadows::OfLight& of_light = shadows_.of_light_[l];
+        const LightDepths& of_light = shadows_.of_light_[l];
         if (!(cosine > 0)) return of_light.is_drawn ? 0 : 1;
         const vec3 way = position - of_light.light.position_world;
         const std::size_t map = of_light.map_of_view[of_light.has_faces ? cube_face(way) : 0];
         const float faded = of_light.is_drawn ? std::min(cosine / full_cosine, 1.0f) : 1;
-        if (map == Shadows::no_map) return faded;
+        if (map == LightDepths::no_map) return faded;
         counters.add(Counter::shadow_lookups);
         if (!is_known_[l][map]) {  // most triangles of a lamp are seen in one map
             receivers_[l][map] =
