@@ -43,6 +43,17 @@ struct LitPoints {
     }
 };
 
+/// 1/|v| by the steps of unit_or() where those are simple.
+///
+/// @param unusable  Becomes other than 0 where v is so long or so short that its square is not a
+///                  usable number; then the result means nothing. Without a jump: a loop over many
+///                  vectors asks it at its end.
+inline float one_over_length(vec3 v, int& unusable) {
+    const float squared = glm::dot(v, v);
+    unusable |= (squared > 1e-30f ? 0 : 1) | (squared < 1e30f ? 0 : 1);
+    return 1 / std::sqrt(squared);
+}
+
 /// The light of all lights on all points (Eq. 6.1 and 6.3), with highlights by the mirror
 /// direction.
 ///
@@ -57,11 +68,7 @@ bool reflect_light(std::span<const Light> lights, vec3 eye_world, bool has_highl
     // No step of a loop leaves it or calls what is not inlined: the compiler takes many i at once.
     const std::size_t count = points.count;
     int unusable = 0;
-    const auto per_length = [&](vec3 v) {  // as in unit_or()
-        const float squared = glm::dot(v, v);
-        unusable |= (squared > 1e-30f ? 0 : 1) | (squared < 1e30f ? 0 : 1);
-        return 1 / std::sqrt(squared);
-    };
+    const auto per_length = [&](vec3 v) { return one_over_length(v, unusable); };
     const Vectors& position = points.position_world;
     Vectors normal, toward_eye;
     for (std::size_t i = 0; i < count; ++i) {

@@ -198,9 +198,7 @@ class TriangleRelief {
         Vectors all;
         for (std::size_t i = 0; i < points.count; ++i) {
             const vec3 mixed = points.normal_world[i], in_map = points.in_map[i];
-            const float squared = glm::dot(mixed, mixed);
-            unusable |= (squared > 1e-30f ? 0 : 1) | (squared < 1e30f ? 0 : 1);
-            const vec3 n = mixed * (1 / std::sqrt(squared));
+            const vec3 n = mixed * one_over_length(mixed, unusable);
             const vec3 tangent = interpolate(tangents, points.weights[i]);
             const vec3 left = across(tangent, n);
             const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);

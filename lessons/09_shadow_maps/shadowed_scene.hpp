@@ -190,15 +190,10 @@ class TriangleShadows {
         const vec3 place = light.position_world, sun = light.direction_world;
         Numbers cosine;
         int unusable = 0;
-        const auto per_length = [&](vec3 v) {  // as in reflect_light()
-            const float squared = glm::dot(v, v);
-            unusable |= (squared > 1e-30f ? 0 : 1) | (squared < 1e30f ? 0 : 1);
-            return 1 / std::sqrt(squared);
-        };
         for (std::size_t i = 0; i < points.count; ++i) {
             const vec3 normal = points.normal_world[i], way = place - points.position_world[i];
-            const vec3 toward = is_sun ? sun : way * per_length(way);
-            cosine[i] = glm::dot(normal * per_length(normal), toward);
+            const vec3 toward = is_sun ? sun : way * one_over_length(way, unusable);
+            cosine[i] = glm::dot(normal * one_over_length(normal, unusable), toward);
         }
         if (unusable == 0) return cosine;
         for (std::size_t i = 0; i < points.count; ++i) {
