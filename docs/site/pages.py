@@ -54,8 +54,8 @@ EQUATIONS = {
 
 # What a text is searched for, in this order: code stays as it is.
 TOKENS = re.compile(
-    r"""^```.*?^```$ | `[^`\n]+`
-      | \$\$(?P<display>.+?)\$\$
+    r"""^```math\n(?P<display>.*?)\n```$ | \$`(?P<math>[^`\n]+)`\$
+      | ^```.*?^```$ | `[^`\n]+`
       | \$(?P<inline>[^$\n]+)\$
       | (?P<comment><!--.*?-->)
       | <details><summary>(?P<summary>.*?)</summary> | (?P<end></details>)
@@ -122,7 +122,7 @@ class Site:
                 tag = re.search(r"\\tag\{(\d+)\.(\d+)\}", formula)
                 anchor = tag and f'<a class="anchor" id="eq_{tag[1]}_{tag[2]}"></a>'
                 return (html_only(anchor) if anchor else "") + f"\\f[{formula}\\f]"
-            if formula := found["inline"]:
+            if formula := found["inline"] or found["math"]:
                 return f"\\htmlonly\\({html.escape(formula)}\\)\\endhtmlonly"
             if found["comment"]:
                 return ""
