@@ -31,6 +31,20 @@ TEST(Drift, LinksWithinATextLeadToItsHeadings) {
     EXPECT_GT(links, 20);
 }
 
+TEST(Drift, TheStripHasAPanelForEachLessonThatAsksForOne) {
+    constexpr std::size_t panel = 168, gap = 6;  // px, as docs/pictures.py has them
+    std::size_t panels = 0;
+    for (const std::string& name : lessons())
+        panels +=
+            read_text(root / "lessons" / name / "README.md").find("\nstrip:") != std::string::npos;
+    const std::string png = read_text(root / "docs/strip.png");
+    ASSERT_GT(png.size(), 24u);
+    std::size_t width = 0;
+    for (std::size_t i = 16; i < 20; ++i) width = 256 * width + static_cast<unsigned char>(png[i]);
+    EXPECT_EQ(width + gap, panels * (panel + gap)) << "./tests/run --pictures draws it";
+    EXPECT_GE(panels, 9u);
+}
+
 TEST(Drift, FiguresOfTheFrontPageAreThoseMeasured) {
     int figures = 0;
     for (const std::string& row : parts_after(read_text(root / "README.md"), "\n| [")) {
