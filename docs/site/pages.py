@@ -154,7 +154,7 @@ class Site:
         text = EMPHASIS_WITH_FORMULA.sub(
             lambda found: "<{0}>{1}</{0}>".format("b" if found[1] == "**" else "em", found[2]), text
         )
-        if "](#" in text:
+        if f"]({page.name}.html#" in text:
             text = re.sub(r"^## (.*)$", with_anchor, text, flags=re.MULTILINE)
         if page.name == "index":  # its headings are not to stand between the lessons in the tree
             text = re.sub(r"^## (.*)$", r"<h2>\1</h2>", text, flags=re.MULTILINE)
