@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
 #include "09_shadow_maps/shadow_variants.hpp"
+#include "common/math/numerics.hpp"
 
 namespace rasterbook {
 
@@ -153,16 +155,18 @@ constexpr float full_cosine = 0.1f;
 
 /// How much of each light reaches points of a triangle.
 ///
-/// The bias in a map is fitted at the triangle's first look-up there, with that point's normal as
-/// `outward`. Normals of one triangle that lie on both sides of it are rare; there the first
-/// decides.
+/// A triangle has two sides. A point is on the one to which its normal leads, and the bias of that
+/// side in a map is fitted at the first look-up there. It is the same whichever point is the first.
 class TriangleShadows {
   public:
     TriangleShadows(const Shadows& shadows, const Mesh& mesh, const Triangle& triangle)
         : shadows_(shadows),
           corners_{mesh.positions[triangle.corners[0].position],
                    mesh.positions[triangle.corners[1].position],
-                   mesh.positions[triangle.corners[2].position]} {}
+                   mesh.positions[triangle.corners[2].position]},
+          front_(normalize_or(glm::cross(dvec3(corners_[1]) - dvec3(corners_[0]),
+                                         dvec3(corners_[2]) - dvec3(corners_[0])),
+                              dvec3(0))) {}
 
     /// Asks the maps for points with normals that are the surface's own, no relief's. None is asked
     /// where a surface is turned away from the light.
@@ -213,18 +217,20 @@ class TriangleShadows {
         const float faded = of_light.is_drawn ? std::min(cosine / full_cosine, 1.0f) : 1;
         if (map == LightDepths::no_map) return faded;
         counters.add(Counter::shadow_lookups);
-        if (!is_known_[l][map]) {  // most triangles of a lamp are seen in one map
-            receivers_[l][map] =
-                receiver(of_light.maps[map], shadows_.bias_, shadows_.radius_, corners_, normal);
-            is_known_[l][map] = true;
-        }
-        return faded * shadows_.lit(of_light.maps[map], receivers_[l][map], position);
+        const bool is_back = glm::dot(front_, normal) < 0;
+        std::optional<Receiver>& of_side = receivers_[l][map][is_back];
+        if (!of_side)  // most triangles of a lamp are seen in one map, and from one side
+            of_side = receiver(of_light.maps[map], shadows_.bias_, shadows_.radius_, corners_,
+                               is_back ? -front_ : front_);
+        return faded * shadows_.lit(of_light.maps[map], *of_side, position);
     }
 
     const Shadows& shadows_;
     std::array<vec3, 3> corners_;
-    std::array<std::array<Receiver, 6>, light_casts.size()> receivers_;
-    std::array<std::array<bool, 6>, light_casts.size()> is_known_{};
+    vec3 front_;  ///< The flat triangle's normal, length 1; 0 where it has no area.
+    /// By light, map and side: front, back.
+    std::array<std::array<std::array<std::optional<Receiver>, 2>, 6>, light_casts.size()>
+        receivers_;
     std::array<Numbers, light_casts.size()> shares_;
 };
 
