@@ -52,12 +52,18 @@ constexpr int band_width = 64;
 
 /// As fill_triangle, in bands of columns, the left one first.
 template <typename Emit>
-void fill_in_bands(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
+void fill_in_bands(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
     const auto [a, b, c] = triangle.corners;
-    const int left = std::max(std::min({a.x, b.x, c.x}) >> subpixel_bits, 0);
-    const int right = std::min(std::max({a.x, b.x, c.x}) >> subpixel_bits, size.x - 1);
+    const int left = std::max(std::min({a.x, b.x, c.x}) >> subpixel_bits, first.x);
+    const int right = std::min(std::max({a.x, b.x, c.x}) >> subpixel_bits, last.x);
     for (int x = left; x <= right; x += band_width)
-        fill_triangle(triangle, {x, 0}, {std::min(x + band_width - 1, right), size.y - 1}, emit);
+        fill_triangle(triangle, {x, first.y}, {std::min(x + band_width - 1, right), last.y}, emit);
+}
+
+/// The same of a whole picture.
+template <typename Emit>
+void fill_in_bands(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
+    fill_in_bands(triangle, ivec2(0), size - 1, emit);
 }
 
 }  // namespace rasterbook
