@@ -94,6 +94,22 @@ class Shadows {
     template <typename CounterPolicy>
     Shadows(const ShadowVariant& variant, bool all_effects, const ShadowedScene& scene,
             std::span<const Light, light_casts.size()> lights, CounterPolicy& counters)
+        : Shadows(
+              variant, all_effects, scene, lights, counters, [&](ShadowMap& map, bool is_drawn) {
+                  map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
+                  const auto casts = [&](std::size_t material) { return scene.casts(material); };
+                  if (is_drawn)
+                      for (const Mesh& mesh : scene.meshes)
+                          draw_casters(map, mesh, casts, counters);
+              }) {}
+
+    /// The same, drawn as `draw` does it.
+    ///
+    /// @param draw  Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths, and
+    ///              draws the scene's casters, or nothing where a map stays empty.
+    template <typename CounterPolicy, typename Draw>
+    Shadows(const ShadowVariant& variant, bool all_effects, const ShadowedScene& scene,
+            std::span<const Light, light_casts.size()> lights, CounterPolicy& counters, Draw&& draw)
         : radius_(variant.radius()), bias_(variant.bias) {
         for (std::size_t l = 0; l < lights.size(); ++l) {
             of_light_[l].light = lights[l];
@@ -104,9 +120,7 @@ class Shadows {
                 add_maps(of_light_[l], variant.size, scene, scene.bounds(), scene.bounds());
             for (ShadowMap& map : of_light_[l].maps) {
                 counters.add(Counter::shadow_passes);
-                if (!of_light_[l].is_drawn) continue;
-                const auto casts = [&](std::size_t material) { return scene.casts(material); };
-                for (const Mesh& mesh : scene.meshes) draw_casters(map, mesh, casts, counters);
+                draw(map, of_light_[l].is_drawn);
             }
         }
     }
@@ -127,7 +141,8 @@ class Shadows {
                 continue;
             of_light.map_of_view[i] = of_light.maps.size();
             of_light.maps.emplace_back(views.clip_from_world[i], views.is_perspective, size,
-                                       scene.bounds());
+                                       scene.bounds(),
+                                       DepthBuffer(ivec2(size + 2 * most_pcf_radius), unset));
         }
     }
 
