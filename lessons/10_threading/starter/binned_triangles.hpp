@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -64,7 +63,8 @@ inline std::size_t chunks_of(std::size_t things) {
 }
 
 /// The triangles of several meshes, on the screen, in chunks: in the first one are the scene's
-/// first triangles, and so on.
+/// first triangles, and so on. A part that is drawn chunk by chunk, and in each by its list, is
+/// drawn in the scene's order (Eq. 10.7).
 class BinnedTriangles {
   public:
     std::vector<Chunk> chunks;
@@ -89,33 +89,42 @@ class BinnedTriangles {
             first_triangle.push_back(first_triangle.back() + mesh->triangles.size());
         }
         const auto positions_clip = std::make_unique_for_overwrite<vec4[]>(first_position.back());
-        for_each_in_chunks(pool, first_position,
-                           [&](std::size_t, std::size_t, std::size_t mesh, std::size_t i) {
-                               positions_clip[first_position[mesh] + i] =
-                                   clip_from_world * vec4(meshes[mesh]->positions[i], 1);
-                           });
+        pool.run(chunks_of(first_position.back()), [&](std::size_t chunk, std::size_t) {
+            for_each_run(first_position, chunk,
+                         [&](std::size_t mesh, std::size_t i, std::size_t end) {
+                             for (; i < end; ++i)
+                                 positions_clip[first_position[mesh] + i] =
+                                     clip_from_world * vec4(meshes[mesh]->positions[i], 1);
+                         });
+        });
         chunks.resize(chunks_of(first_triangle.back()));
-        for_each_in_chunks(
-            pool, first_triangle,
-            [&](std::size_t chunk, std::size_t worker, std::size_t mesh, std::size_t i) {
-                const Triangle& triangle = meshes[mesh]->triangles[i];
-                if (!takes(triangle.material)) return;
-                counters[worker].add(Counter::triangles_in);
-                const auto corner = [&](std::size_t k) {
-                    return positions_clip[first_position[mesh] + triangle.corners[k].position];
-                };
-                add(*meshes[mesh], triangle, {corner(0), corner(1), corner(2)}, parts.size(),
-                    two_sided, chunks[chunk].triangles, counters[worker]);
-            },
-            [&](std::size_t chunk) { chunks[chunk].bin(parts); });
+        pool.run(chunks.size(), [&](std::size_t chunk, std::size_t worker) {
+            std::vector<ReadyTriangle>& triangles = chunks[chunk].triangles;
+            for_each_run(first_triangle, chunk,
+                         [&](std::size_t mesh, std::size_t i, std::size_t end) {
+                             triangles.reserve(triangles.size() + end - i);
+                             const vec4* const positions = &positions_clip[first_position[mesh]];
+                             for (; i < end; ++i) {
+                                 const Triangle& triangle = meshes[mesh]->triangles[i];
+                                 if (!takes(triangle.material)) continue;
+                                 counters[worker].add(Counter::triangles_in);
+                                 add(*meshes[mesh], triangle, positions, parts.size(), two_sided,
+                                     triangles, counters[worker]);
+                             }
+                         });
+            chunks[chunk].bin(parts);
+        });
     }
 
   private:
     template <typename CounterPolicy>
-    static void add(const Mesh& mesh, const Triangle& triangle,
-                    const std::array<vec4, 3>& corners_clip, ivec2 size, bool two_sided,
-                    std::vector<ReadyTriangle>& triangles, CounterPolicy& counters) {
-        for (const ClippedTriangle& clipped : clip_triangle(corners_clip)) {
+    static void add(const Mesh& mesh, const Triangle& triangle, const vec4* positions_clip,
+                    ivec2 size, bool two_sided, std::vector<ReadyTriangle>& triangles,
+                    CounterPolicy& counters) {
+        const auto& [p, q, r] = triangle.corners;
+        for (const ClippedTriangle& clipped :
+             clip_triangle({positions_clip[p.position], positions_clip[q.position],
+                            positions_clip[r.position]})) {
             const vec3 a = screen_from_clip(clipped[0].position_clip, size);
             const vec3 b = screen_from_clip(clipped[1].position_clip, size);
             const vec3 c = screen_from_clip(clipped[2].position_clip, size);
@@ -129,29 +138,20 @@ class BinnedTriangles {
         }
     }
 
-    /// Visits the things of all meshes, each chunk in a task of its own.
+    /// Visits the things of one chunk: in each mesh, those that follow each other.
     ///
     /// @param first  Of each mesh's things, counted through all meshes, and the last one's end.
-    /// @param visit  Called as visit(chunk, worker, mesh, i), in order within a chunk.
-    /// @param end    Called as end(chunk) when all of a chunk is visited.
-    template <typename Pool, typename Visit, typename End>
-    static void for_each_in_chunks(Pool& pool, const std::vector<std::size_t>& first,
-                                   const Visit& visit, const End& end) {
+    /// @param visit  Called as visit(mesh, i, end) for things i to end - 1 of a mesh, i < end.
+    template <typename Visit>
+    static void for_each_run(const std::vector<std::size_t>& first, std::size_t chunk,
+                             const Visit& visit) {
         const std::size_t things = first.back(), chunks = chunks_of(things);
-        pool.run(chunks, [&](std::size_t chunk, std::size_t worker) {
-            const std::size_t from = chunk * things / chunks, to = (chunk + 1) * things / chunks;
-            for (std::size_t mesh = 0; mesh + 1 < first.size(); ++mesh)
-                for (std::size_t i = std::max(from, first[mesh]); i < std::min(to, first[mesh + 1]);
-                     ++i)
-                    visit(chunk, worker, mesh, i - first[mesh]);
-            end(chunk);
-        });
-    }
-
-    template <typename Pool, typename Visit>
-    static void for_each_in_chunks(Pool& pool, const std::vector<std::size_t>& first,
-                                   const Visit& visit) {
-        for_each_in_chunks(pool, first, visit, [](std::size_t) {});
+        const std::size_t from = chunk * things / chunks, to = (chunk + 1) * things / chunks;
+        for (std::size_t mesh = 0; mesh + 1 < first.size(); ++mesh) {
+            const std::size_t begin = std::max(from, first[mesh]);
+            const std::size_t end = std::min(to, first[mesh + 1]);
+            if (begin < end) visit(mesh, begin - first[mesh], end - first[mesh]);
+        }
     }
 };
 
