@@ -62,6 +62,11 @@ inline std::size_t chunks_of(std::size_t things) {
     return std::min((things + least_in_chunk - 1) / least_in_chunk, most_chunks);
 }
 
+/// The first thing of a chunk; behind the last chunk, the end of all.
+inline std::size_t begin_of_chunk(std::size_t chunk, std::size_t things) {
+    return chunk * things / chunks_of(things);
+}
+
 /// The triangles of several meshes, on the screen, in chunks: in the first one are the scene's
 /// first triangles, and so on. A part that is drawn chunk by chunk, and in each by its list, is
 /// drawn in the scene's order (Eq. 10.7).
@@ -100,9 +105,10 @@ class BinnedTriangles {
         chunks.resize(chunks_of(first_triangle.back()));
         pool.run(chunks.size(), [&](std::size_t chunk, std::size_t worker) {
             std::vector<ReadyTriangle>& triangles = chunks[chunk].triangles;
+            triangles.reserve(begin_of_chunk(chunk + 1, first_triangle.back()) -
+                              begin_of_chunk(chunk, first_triangle.back()));
             for_each_run(first_triangle, chunk,
                          [&](std::size_t mesh, std::size_t i, std::size_t end) {
-                             triangles.reserve(triangles.size() + end - i);
                              const vec4* const positions = &positions_clip[first_position[mesh]];
                              for (; i < end; ++i) {
                                  const Triangle& triangle = meshes[mesh]->triangles[i];
@@ -145,11 +151,10 @@ class BinnedTriangles {
     template <typename Visit>
     static void for_each_run(const std::vector<std::size_t>& first, std::size_t chunk,
                              const Visit& visit) {
-        const std::size_t things = first.back(), chunks = chunks_of(things);
-        const std::size_t from = chunk * things / chunks, to = (chunk + 1) * things / chunks;
         for (std::size_t mesh = 0; mesh + 1 < first.size(); ++mesh) {
-            const std::size_t begin = std::max(from, first[mesh]);
-            const std::size_t end = std::min(to, first[mesh + 1]);
+            const std::size_t begin = std::max(begin_of_chunk(chunk, first.back()), first[mesh]);
+            const std::size_t end =
+                std::min(begin_of_chunk(chunk + 1, first.back()), first[mesh + 1]);
             if (begin < end) visit(mesh, begin - first[mesh], end - first[mesh]);
         }
     }
