@@ -25,6 +25,7 @@
 #include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/counters.hpp"
+#include "common/memory.hpp"
 #include "common/obj.hpp"
 #include "common/triangulate.hpp"
 
@@ -350,4 +351,11 @@ BENCHMARK_TEMPLATE(textured_and_lit, true)
     ->Apply(textured_and_lit_arguments);
 BENCHMARK(concave_polygon)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
 BENCHMARK(obj_file)->Unit(benchmark::kMillisecond);
-BENCHMARK_MAIN();
+
+// As the lessons' program does.
+int main(int argc, char** argv) {
+    keep_freed_memory();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+}
