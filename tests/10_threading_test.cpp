@@ -204,6 +204,30 @@ TEST(Threading, HardCase_WhenAllTasksThrowTheFirstArrives) {
     }
 }
 
+TEST(Threading, HardCase_OfTwoThatThrowTheFirstArrives) {
+    look_up("Eq. 10.8");
+    ThreadPool pool(2);
+    for (const std::size_t first : {0u, 1u}) {
+        std::atomic<int> begun = 0;
+        std::atomic<bool> is_thrown = false;
+        try {
+            pool.run(2, [&](std::size_t task, std::size_t) {
+                ++begun;
+                while (begun < 2) std::this_thread::yield();
+                if (task == first) {
+                    is_thrown = true;
+                    throw Trouble(task, {});
+                }
+                while (!is_thrown) std::this_thread::yield();
+                // Enough for the other one to have its error kept, if it is not held up for long.
+                std::this_thread::sleep_for(std::chrono::milliseconds(200));
+                throw Trouble(task, {});
+            });
+            ADD_FAILURE() << "nothing arrived";
+        } catch (const Trouble& trouble) { EXPECT_EQ(trouble.task, first); }
+    }
+}
+
 TEST(Threading, HardCase_AfterATaskHasThrownNoOtherIsBegun) {
     look_up("Eq. 10.8");
     for (const int threads : {2, 4, 16}) {

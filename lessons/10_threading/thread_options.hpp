@@ -32,7 +32,7 @@ struct ThreadOptions {
             "--split", split,
             {{"rows", Split::rows}, {"interleaved", Split::interleaved}, {"tiles", Split::tiles}},
             "What each of them draws: rows, every so many-th row, or the next free tile");
-        knobs.number("--tile", tile, 1, 16384, "Pixels along a tile's side");
+        knobs.number("--tile", tile, 8, 16384, "Pixels along a tile's side");
         knobs.flag("--show-threads", show, "Tint each pixel by the thread that drew it");
     }
 
