@@ -9,7 +9,7 @@
 #include <cstddef>
 
 #include "02_triangle_fill/triangle.hpp"
-#include "06_phong/fragments.hpp"
+#include "05_textures/bands.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook {

@@ -20,6 +20,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "05_textures/bands.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/many_samples.hpp"
@@ -239,7 +240,7 @@ void textured_and_lit(benchmark::State& state) {
                                     *surface.texture, knobs.texture.filter,
                                     fragment_uv(surface.uvs, perspective.at(screen_weights))));
                         };
-                        fill_triangle(on_screen, size, emit_visible(paint));
+                        fill_in_bands(on_screen, size, emit_visible(paint));
                         continue;
                     }
                     const TriangleLight light(knobs.shading, lights, camera.position_world, mesh,
