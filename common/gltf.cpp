@@ -281,7 +281,7 @@ void GltfReader::read_primitive(const tinygltf::Primitive& primitive,
     const auto positions = find("POSITION", 3, 3);
     if (!positions) return warn(where_ + ": has no positions");
     int uv_set = 0;
-    if (primitive.material >= 0)
+    if (primitive.material != -1)
         uv_set = uv_set_of(at(model_.materials, primitive.material, where_ + ": material"));
     const auto normals = find("NORMAL", 3, 3), colors = find("COLOR_0", 3, 4);
     const auto uvs = find("TEXCOORD_" + std::to_string(uv_set), 2, 2);
@@ -366,7 +366,7 @@ void GltfReader::add_camera(const tinygltf::Node& node, const dmat4& world_from_
 
 void GltfReader::add_light(const tinygltf::Node& node, const dmat4& world_from_node) {
     const tinygltf::Value& extension = node.extensions.at("KHR_lights_punctual");
-    const double index = number_in(extension, "light", -1);
+    const double index = std::clamp(number_in(extension, "light", -1), -1.0, 1e9);
     const tinygltf::Light& from =
         at(model_.lights, static_cast<int>(index), node_name_ + ": light");
     using Kind = SceneLight::Kind;

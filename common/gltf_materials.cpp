@@ -96,6 +96,8 @@ void MaterialMaker::add_picture(TextureMap& map, int image) {
     const auto index = static_cast<std::size_t>(image);
     const tinygltf::Image& from = model_.images[index];
     if (from.bufferView < 0 && from.image.empty()) {
+        if (from.uri.starts_with("data:"))
+            throw InputError(file_, map.asked_by + " is of a kind that is not read");
         map.file = file_.parent_path() / decoded_uri(from.uri);
         return;
     }

@@ -43,6 +43,7 @@ OTHERS = [
     Page("index", "Start", ROOT / "README.md"),
     Page("side_by_side", "Side by side", ROOT / "docs/side_by_side.md"),
     Page("conventions", "Conventions", ROOT / "docs/conventions.md"),
+    Page("gltf", "glTF scenes", ROOT / "docs/gltf.md"),
     Page("assets", "Assets", ROOT / "assets/README.md"),
 ]
 PAGE_OF = {page.text: page for page in [*sum(COURSE, []), *OTHERS] if page.text}
@@ -177,7 +178,7 @@ def steps(lesson: int, current: Page) -> str:
 
 def neighbours(lesson: int, current: Page) -> str:
     """Links to the pages before and after, through the whole course."""
-    start, _, conventions, _ = OTHERS
+    start, _, conventions, *_ = OTHERS
     order = [start, *sum(COURSE, []), conventions]
     at = order.index(current)
     before, after = order[at - 1], order[at + 1]
