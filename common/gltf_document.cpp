@@ -32,9 +32,6 @@ using nlohmann::json;
 
 constexpr std::size_t most_bytes = std::numeric_limits<int>::max();  // tinygltf counts in int
 
-/// tinygltf takes nested values apart by recursion: deeper files would exhaust the stack.
-constexpr int most_depth = 64;
-
 /// A message of a library as one line that is not too long.
 std::string one_line(std::string text) {
     constexpr std::size_t most = 300;
@@ -109,16 +106,29 @@ void check_required_extensions(const json& document, const fs::path& file) {
             throw InputError(file, "needs the extension " + one_line(name) + ", which is not read");
 }
 
+/// tinygltf takes nested values apart by recursion: deeper files would exhaust the stack.
+void check_depth(ByteView text, const fs::path& file) {
+    constexpr int most_depth = 64;
+    int depth = 0;
+    bool is_in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::uint8_t c = text[i];
+        if (c == '"') is_in_string = !is_in_string;
+        if (is_in_string && c == '\\') ++i;
+        if (is_in_string) continue;
+        if (c == '[' || c == '{') ++depth;
+        if (c == ']' || c == '}') --depth;
+        if (depth > most_depth)
+            throw InputError(file, "is nested deeper than " + std::to_string(most_depth));
+    }
+}
+
 /// Broken JSON has a message with line and column; what tinygltf would stumble over has one, too.
 void check_json(ByteView text, const fs::path& file) {
+    check_depth(text, file);
     json document;
     try {
-        document =
-            json::parse(text.begin(), text.end(), [&](int depth, json::parse_event_t, const json&) {
-                if (depth > most_depth)
-                    throw InputError(file, "is nested deeper than " + std::to_string(most_depth));
-                return true;
-            });
+        document = json::parse(text.begin(), text.end());
     } catch (const json::exception& error) {
         const std::string_view words = error.what();  // "[json.exception.x.1] parse error at ..."
         throw InputError(

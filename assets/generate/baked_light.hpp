@@ -56,16 +56,24 @@ inline bool meets(const BakedBox& box, dvec3 from, dvec3 way) {
     return begin < end;
 }
 
-/// A point of the floor; one below the box is moved to its nearest side, so that the light beside
-/// the box goes on to its edge.
-inline dvec3 beside(const BakedBox& box, dvec3 point) {
+/// A point of the floor; one that lies in the box or the ball is moved to their border, so that the
+/// light beside them goes on to where they stand.
+inline dvec3 beside(const BakedScene& scene, dvec3 point) {
+    const double gap = 0.02;
+    const BakedBox& box = scene.box;
     const dvec3 x(box.cosine, 0, -box.sine), z(box.sine, 0, box.cosine);
     const dvec2 at(glm::dot(point - box.center, x), glm::dot(point - box.center, z));
     const dvec2 inside = dvec2(box.half_size.x, box.half_size.z) - glm::abs(at);
-    if (inside.x < 0 || inside.y < 0) return point;
-    const double gap = 0.02;
-    return inside.x < inside.y ? point + (at.x < 0 ? -1.0 : 1.0) * (inside.x + gap) * x
-                               : point + (at.y < 0 ? -1.0 : 1.0) * (inside.y + gap) * z;
+    if (inside.x > 0 && inside.y > 0)
+        return inside.x < inside.y ? point + (at.x < 0 ? -1.0 : 1.0) * (inside.x + gap) * x
+                                   : point + (at.y < 0 ? -1.0 : 1.0) * (inside.y + gap) * z;
+    const dvec3 from_center = (point - scene.ball.center) / scene.ball.radii;
+    const double along = from_center.x * from_center.x + from_center.z * from_center.z;
+    const double border = 1 - from_center.y * from_center.y;
+    if (along > border || along == 0) return point;
+    const double farther = std::sqrt(border / along) * (1 + gap);
+    return {scene.ball.center.x + farther * (point.x - scene.ball.center.x), point.y,
+            scene.ball.center.z + farther * (point.z - scene.ball.center.z)};
 }
 
 /// Of whom a point is part: that does not keep light away from itself.
@@ -76,7 +84,7 @@ enum class BakedPart { ball, box, floor };
 inline dvec3 baked_light(const BakedScene& scene, BakedPart part, dvec3 point, dvec3 normal) {
     const dvec3 zenith(0.24, 0.35, 0.55), horizon(0.5, 0.46, 0.42), ground(0.16, 0.12, 0.09);
     const dvec3 sun(1.15, 0.88, 0.56), toward_sun = glm::normalize(dvec3(-0.75, 0.55, 0.28));
-    if (part == BakedPart::floor) point = beside(scene.box, point);
+    if (part == BakedPart::floor) point = beside(scene, point);
     const auto is_free = [&](dvec3 way) {
         return (part == BakedPart::ball || !meets(scene.ball, point, way)) &&
                (part == BakedPart::box || !meets(scene.box, point, way));

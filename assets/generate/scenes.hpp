@@ -179,7 +179,7 @@ inline GltfFile textured_scene(const std::vector<Part>& teapot) {
     place("upper crate", crate_mesh, {-0.4, 2.4, -0.2}, turned(2 / r5, -1 / r5));
     place("teapot", pot, {4.6, 0, 2.6}, turned(3 / r10, -1 / r10));
     file.add_node(std::move(stack));
-    file.add_camera("front", {-4.5, 4.4, 11}, {0.5, 1.6, 0}, 0.62);
+    file.add_camera("front", {-4.3, 4.6, 12}, {1.0, 1.5, 0}, 0.62);
     file.add_camera("above", {7, 10, 6}, {0.3, 1, 0}, 0.6);
     file.add_light("sun", {-6, 9, 7}, {0, 0, 0},
                    {{"type", "directional"}, {"color", {1, 0.92, 0.8}}, {"intensity", 3.2}});
