@@ -99,7 +99,7 @@ inline GltfFile unlit_scene(const std::vector<Part>& teapot) {
     json unlit = plain_material("baked", dvec3(1), 0, 1);
     unlit["extensions"]["KHR_materials_unlit"] = json::object();
     const int material = file.add("materials", unlit);
-    const BakedScene light{{{0, 1, 0}, {1.98, 1.3, 1.98}},
+    const BakedScene light{{{0, 1.12, 0}, {1.95, 1.2, 1.95}},
                            {{-3.7, 1.2, -2.6}, {1.2, 1.2, 1.2}, 0.8, 0.6}};
     const std::map<std::string, dvec3> paints = {
         {"glaze", {0.66, 0.15, 0.07}},    {"gilt", {0.95, 0.6, 0.2}},
