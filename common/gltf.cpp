@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -66,10 +67,21 @@ class GltfReader {
     Scene read();
 
   private:
-    /// A node that is to be read, where its parent stands, and how far the file has got above it.
+    /// A node that is to be read.
     struct Visit {
         int node;
         dmat4 world_from_parent;
+    };
+
+    /// What a primitive's elements have; positions are always there.
+    struct Arrays {
+        std::optional<GltfArray> positions, normals, colors, uvs;
+    };
+
+    /// Where a primitive stands.
+    struct Place {
+        dmat4 world_from_node;
+        dmat3 world_from_normal;
     };
 
     void warn_of_document();
@@ -78,10 +90,14 @@ class GltfReader {
     dmat4 parent_from_node(const tinygltf::Node& node) const;
     void read_mesh(const tinygltf::Node& node, const dmat4& world_from_node);
     void read_primitive(const tinygltf::Primitive& primitive, const dmat4& world_from_node);
+    Arrays arrays_of(const tinygltf::Primitive& primitive) const;
+    Corner add_corner(const Arrays& arrays, std::uint32_t element, const Place& place);
+    void add_flat_normal(Triangle& triangle);
     std::vector<std::uint32_t> triangle_corners(const tinygltf::Primitive& primitive,
                                                 std::size_t points);
     void add_camera(const tinygltf::Node& node, const dmat4& world_from_node);
     void add_light(const tinygltf::Node& node, const dmat4& world_from_node);
+    void add_cone(SceneLight& light, const tinygltf::SpotLight& spot) const;
 
     [[noreturn]] void fail(const std::string& what) const { throw InputError(file_, what); }
     void warn(const std::string& what) { warnings_.add(file_, 0, what); }
@@ -269,82 +285,96 @@ void GltfReader::read_primitive(const tinygltf::Primitive& primitive,
         fail(where_ + ": there is no mode " + std::to_string(primitive.mode));
     if (!primitive.targets.empty())
         warn("morph targets are passed over: meshes have their first shape");
-    const auto find = [&](const std::string& name, int least, int most) {
-        const auto found = primitive.attributes.find(name);
-        std::optional<GltfArray> array;
-        if (found == primitive.attributes.end()) return array;
-        array.emplace(model_, found->second, file_, where_ + ": " + name);
-        if (array->components() < least || array->components() > most)
-            array->fail("has " + std::to_string(array->components()) + " numbers an element");
-        return array;
-    };
-    const auto positions = find("POSITION", 3, 3);
-    if (!positions) return warn(where_ + ": has no positions");
-    int uv_set = 0;
-    if (primitive.material != -1)
-        uv_set = uv_set_of(at(model_.materials, primitive.material, where_ + ": material"));
-    const auto normals = find("NORMAL", 3, 3), colors = find("COLOR_0", 3, 4);
-    const auto uvs = find("TEXCOORD_" + std::to_string(uv_set), 2, 2);
-    for (const auto* array : {&normals, &colors, &uvs})
-        if (*array && (*array)->size() != positions->size())
-            (*array)->fail("has " + std::to_string((*array)->size()) + " elements for " +
-                           std::to_string(positions->size()) + " positions");
-
-    const std::vector<std::uint32_t> points = triangle_corners(primitive, positions->size());
-    const dmat3 turn = world_from_normal(world_from_node);
-    std::unordered_map<std::uint32_t, Corner> corner_of_point;
-    const auto corner = [&](std::uint32_t i) {
-        const auto [found, is_new] = corner_of_point.try_emplace(i, Corner{0});
-        if (!is_new) return found->second;
-        Corner& made = found->second;
-        // + 0.0f: of -0 and 0 one.
-        const vec3 position =
-            narrowed(world_from_node * positions->vector(i), where_ + ": a position") + 0.0f;
-        const vec4 color = colors ? vec4(colors->vector(i)) + 0.0f : vec4(1);
-        PointKey key{};
-        for (std::size_t k = 0; k < 7; ++k)
-            key.bits[k] = std::bit_cast<std::uint32_t>(k < 3 ? position[static_cast<int>(k)]
-                                                             : color[static_cast<int>(k - 3)]);
-        const auto own = static_cast<std::uint32_t>(mesh_.positions.size());
-        const auto [point, is_new_point] = index_of_point_.try_emplace(key, own);
-        made.position = point->second;
-        if (is_new_point) {
-            mesh_.positions.push_back(position);
-            mesh_.bounds.add(position);
-            if (has_colors_) mesh_.colors.push_back(color);
-        }
-        if (uvs) {
-            const dvec4 uv = uvs->vector(i);
-            made.uv = static_cast<std::uint32_t>(mesh_.uvs.size());
-            mesh_.uvs.push_back(vec2(narrowed({uv.x, 1 - uv.y, 0}, where_ + ": a TEXCOORD")));
-        }
-        if (normals) {
-            made.normal = static_cast<std::uint32_t>(mesh_.normals.size());
-            const dvec3 normal = turn * dvec3(normals->vector(i));
-            mesh_.normals.push_back(vec3(normalize_or(normal, dvec3(0))));
-        }
-        return made;
-    };
+    if (!primitive.attributes.contains("POSITION")) return warn(where_ + ": has no positions");
+    const Arrays arrays = arrays_of(primitive);
+    const Place place{world_from_node, world_from_normal(world_from_node)};
     const bool turns_winding = is_mirrored(world_from_node);
     const auto material = static_cast<std::uint32_t>(primitive.material + 1);
-    for (std::size_t i = 0; i < points.size(); i += 3) {
-        Triangle triangle{{corner(points[i]), corner(points[i + 1]), corner(points[i + 2])},
+
+    std::unordered_map<std::uint32_t, Corner> corner_of_element;
+    const auto corner = [&](std::uint32_t element) {
+        const auto [found, is_new] = corner_of_element.try_emplace(element, Corner{0});
+        if (is_new) found->second = add_corner(arrays, element, place);
+        return found->second;
+    };
+    const std::vector<std::uint32_t> elements =
+        triangle_corners(primitive, arrays.positions->size());
+    for (std::size_t i = 0; i < elements.size(); i += 3) {
+        Triangle triangle{{corner(elements[i]), corner(elements[i + 1]), corner(elements[i + 2])},
                           material};
         if (turns_winding) std::swap(triangle.corners[1], triangle.corners[2]);
-        if (!normals) {  // flat, as the specification has it
-            const auto at_corner = [&](std::size_t k) {
-                return dvec3(mesh_.positions[triangle.corners[k].position]);
-            };
-            const dvec3 across =
-                glm::cross(at_corner(1) - at_corner(0), at_corner(2) - at_corner(0));
-            for (Corner& own : triangle.corners)
-                own.normal = static_cast<std::uint32_t>(mesh_.normals.size());
-            mesh_.normals.push_back(vec3(normalize_or(across, dvec3(0))));
-        }
+        if (!arrays.normals) add_flat_normal(triangle);
         mesh_.faces.push_back({static_cast<std::uint32_t>(mesh_.corners.size()), 3, material});
         mesh_.corners.insert(mesh_.corners.end(), triangle.corners.begin(), triangle.corners.end());
         mesh_.triangles.push_back(triangle);
     }
+}
+
+/// The arrays of a primitive that are of use, all as long as its positions.
+GltfReader::Arrays GltfReader::arrays_of(const tinygltf::Primitive& primitive) const {
+    int uv_set = 0;
+    if (primitive.material != -1)
+        uv_set = uv_set_of(at(model_.materials, primitive.material, where_ + ": material"));
+    Arrays arrays;
+    const auto open = [&](std::optional<GltfArray>& array, const std::string& name, int least,
+                          int most) {
+        const auto found = primitive.attributes.find(name);
+        if (found == primitive.attributes.end()) return;
+        array.emplace(model_, found->second, file_, where_ + ": " + name);
+        if (array->components() < least || array->components() > most)
+            array->fail("has " + std::to_string(array->components()) + " numbers an element");
+        if (array->size() != arrays.positions->size())
+            array->fail("has " + std::to_string(array->size()) + " elements for " +
+                        std::to_string(arrays.positions->size()) + " positions");
+    };
+    open(arrays.positions, "POSITION", 3, 3);
+    open(arrays.normals, "NORMAL", 3, 3);
+    open(arrays.colors, "COLOR_0", 3, 4);
+    open(arrays.uvs, "TEXCOORD_" + std::to_string(uv_set), 2, 2);
+    return arrays;
+}
+
+/// A point of the mesh, new unless one of its position and colour is there, and what else a corner
+/// has.
+Corner GltfReader::add_corner(const Arrays& arrays, std::uint32_t element, const Place& place) {
+    // + 0.0f: of -0 and 0 one.
+    const vec3 position = narrowed(place.world_from_node * arrays.positions->vector(element),
+                                   where_ + ": a position") +
+                          0.0f;
+    const vec4 color = arrays.colors ? vec4(arrays.colors->vector(element)) + 0.0f : vec4(1);
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    const PointKey key{{bits(position.x), bits(position.y), bits(position.z), bits(color.r),
+                        bits(color.g), bits(color.b), bits(color.a)}};
+    const auto [point, is_new] =
+        index_of_point_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
+    if (is_new) {
+        mesh_.positions.push_back(position);
+        mesh_.bounds.add(position);
+        if (has_colors_) mesh_.colors.push_back(color);
+    }
+    Corner corner{point->second};
+    if (arrays.uvs) {
+        const dvec4 uv = arrays.uvs->vector(element);
+        corner.uv = static_cast<std::uint32_t>(mesh_.uvs.size());
+        mesh_.uvs.push_back(vec2(narrowed({uv.x, 1 - uv.y, 0}, where_ + ": a TEXCOORD")));
+    }
+    if (arrays.normals) {
+        const dvec3 normal = place.world_from_normal * dvec3(arrays.normals->vector(element));
+        corner.normal = static_cast<std::uint32_t>(mesh_.normals.size());
+        mesh_.normals.push_back(vec3(normalize_or(normal, dvec3(0))));
+    }
+    return corner;
+}
+
+/// Of the face itself, as the specification has it where a file gives none.
+void GltfReader::add_flat_normal(Triangle& triangle) {
+    const auto position = [&](std::size_t i) {
+        return dvec3(mesh_.positions[triangle.corners[i].position]);
+    };
+    const dvec3 across = glm::cross(position(1) - position(0), position(2) - position(0));
+    for (Corner& corner : triangle.corners)
+        corner.normal = static_cast<std::uint32_t>(mesh_.normals.size());
+    mesh_.normals.push_back(vec3(normalize_or(across, dvec3(0))));
 }
 
 void GltfReader::add_camera(const tinygltf::Node& node, const dmat4& world_from_node) {
@@ -364,38 +394,42 @@ void GltfReader::add_camera(const tinygltf::Node& node, const dmat4& world_from_
     scene_.cameras.push_back(camera);
 }
 
+/// The cone of a spot, between whose angles its light fades.
+void GltfReader::add_cone(SceneLight& light, const tinygltf::SpotLight& spot) const {
+    const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
+    if (!(inner >= 0 && inner <= outer && outer > 0 && outer < 1.5707964))
+        fail(node_name_ + ": the cone of its light has no possible angles");
+    light.cos_none = static_cast<float>(std::cos(outer));
+    light.cos_full = static_cast<float>(std::cos(inner));
+    // An edge without width would be a division by 0.
+    light.cos_full = std::max(light.cos_full, std::nextafter(light.cos_none, 2.0f));
+}
+
 void GltfReader::add_light(const tinygltf::Node& node, const dmat4& world_from_node) {
     const tinygltf::Value& extension = node.extensions.at("KHR_lights_punctual");
     const double index = std::clamp(number_in(extension, "light", -1), -1.0, 1e9);
     const tinygltf::Light& from =
         at(model_.lights, static_cast<int>(index), node_name_ + ": light");
-    using Kind = SceneLight::Kind;
-    SceneLight light{};
-    light.name = node.name.empty() ? from.name : node.name;
-    if (from.type == "directional")
-        light.kind = Kind::directional;
-    else if (from.type == "point" || from.type == "spot")
-        light.kind = from.type == "spot" ? Kind::spot : Kind::point;
-    else
+    const std::map<std::string, SceneLight::Kind> kinds = {
+        {"directional", SceneLight::Kind::directional},
+        {"point", SceneLight::Kind::point},
+        {"spot", SceneLight::Kind::spot}};
+    if (!kinds.contains(from.type))
         fail(node_name_ + ": there is no kind of light \"" + from.type + "\"");
     if (!from.color.empty() && from.color.size() < 3)
         fail(node_name_ + ": the colour of its light has no 3 numbers");
     const dvec3 color =
         from.color.empty() ? dvec3(1) : dvec3(from.color[0], from.color[1], from.color[2]);
+
+    SceneLight light{};
+    light.name = node.name.empty() ? from.name : node.name;
+    light.kind = kinds.at(from.type);
     light.color = narrowed(glm::max(from.intensity * color, dvec3(0)), node_name_ + ": its light");
     light.position_world = narrowed(world_from_node[3], node_name_ + ": its place");
     light.direction_world = vec3(normalize_or(-dvec3(world_from_node[2]), dvec3(0, 0, -1)));
     light.range =
         from.range > 0 ? static_cast<float>(from.range) : std::numeric_limits<float>::infinity();
-    if (light.kind == Kind::spot) {
-        const double inner = from.spot.innerConeAngle, outer = from.spot.outerConeAngle;
-        if (!(inner >= 0 && inner <= outer && outer > 0 && outer < 1.5707964))
-            fail(node_name_ + ": the cone of its light has no possible angles");
-        light.cos_none = static_cast<float>(std::cos(outer));
-        light.cos_full = static_cast<float>(std::cos(inner));
-        // An edge without width would be a division by 0.
-        light.cos_full = std::max(light.cos_full, std::nextafter(light.cos_none, 2.0f));
-    }
+    if (light.kind == SceneLight::Kind::spot) add_cone(light, from.spot);
     scene_.lights.push_back(light);
 }
 

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "05_textures/textured_scene.hpp"
 #include "common/image_io.hpp"
 #include "common/model_file.hpp"
 #include "support/gltf_builder.hpp"
@@ -246,6 +247,34 @@ TEST(GltfFiles, FilesDamagedAtRandomGiveASoundSceneOrAnError) {
     }
     EXPECT_GT(read, 200);  // Else the damage is too great to find anything.
     EXPECT_GT(refused, 200);
+}
+
+TEST(GltfFiles, EachWayToWrapAPictureIsATextureOfItsOwn) {
+    const fs::path folder = fresh_folder("gltf_wrapped");
+    write_image(folder / "wood.png", Image<u8vec3>({1, 1}, {255, 160, 40}));
+    GltfBuilder made = one_triangle();
+    made.document["images"] = json::array({{{"uri", "wood.png"}}});
+    for (const int wrap : {10497, 33071, 33648, 33648}) {
+        const auto index = made.document["textures"].size();
+        made.document["samplers"].push_back({{"wrapS", wrap}, {"wrapT", wrap}});
+        made.document["textures"].push_back({{"source", 0}, {"sampler", index}});
+        json material = {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
+        material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = index;
+        made.document["materials"][index] = material;
+        json primitive = made.primitive();
+        primitive["material"] = index;
+        if (index > 0) made.document["meshes"][0]["primitives"].push_back(primitive);
+    }
+    const struct {
+        TextureOptions texture;
+    } options;
+    const TexturedScene scene(load_model(made.write(folder / "scene.gltf")), options);
+    const MaterialTextures& textures = scene.diffuse_textures;
+    ASSERT_EQ(textures.size(), 5u);
+    EXPECT_EQ(textures[1]->wrap, Wrap::repeat);
+    EXPECT_EQ(textures[2]->wrap, Wrap::clamp);
+    EXPECT_EQ(textures[3]->wrap, Wrap::mirror);
+    EXPECT_EQ(textures[3], textures[4]);
 }
 
 TEST(GltfFiles, ALessonDrawsAPictureInAGltfFileAsItDrawsItOfAnObjFile) {
