@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Makes every model and texture of the course again: generate_assets [OUT_DIR].
+/// Makes every model, scene and texture of the course again: generate_assets [OUT_DIR].
 ///
 /// The same bytes on every machine: only + - * / and sqrt, whose results IEEE 754 fixes. (Another
 /// version of stb may compress a PNG otherwise.)
@@ -18,6 +18,7 @@
 #include "assets/generate/hammered.hpp"
 #include "assets/generate/materials.hpp"
 #include "assets/generate/models.hpp"
+#include "assets/generate/scenes.hpp"
 #include "assets/generate/teapot.hpp"
 #include "assets/generate/texture.hpp"
 #include "assets/generate/tiles.hpp"
@@ -72,6 +73,15 @@ void write_models(const path& folder, const std::vector<Part>& teapot) {
                 hammered_copper + tea_in_spout + brick_crate + bumpy_tiles);
 }
 
+void write_scenes(const path& folder, const std::vector<Part>& teapot) {
+    write_whole_file(folder / "unlit.glb", unlit_scene(teapot).glb());
+    GltfFile textured = textured_scene(teapot);
+    write_text(folder / "textured.gltf", textured.text("textured.bin"));
+    write_whole_file(folder / "textured.bin", textured.bytes());
+    write_whole_file(folder / "bumpy.glb", bumpy_scene(teapot).glb());
+    write_whole_file(folder / "toon.glb", toon_scene().glb());
+}
+
 u8vec3 checker_texel(dvec2 p) {
     const ivec2 square = ivec2(p) / 64;
     return encode((square.x + square.y) % 2 == 0 ? rgb(0xECE5D8) : rgb(0x33424E));
@@ -100,6 +110,7 @@ void generate(const path& folder) {
     std::filesystem::create_directories(folder / "models");
     std::filesystem::create_directories(folder / "textures");
     write_models(folder / "models", teapot);
+    write_scenes(folder / "models", teapot);
     write_textures(folder / "textures");
 }
 

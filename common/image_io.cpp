@@ -32,16 +32,20 @@ bool begins_with(ByteView bytes, const std::array<std::uint8_t, N>& signature) {
 }  // namespace
 
 Image<u8vec4> read_image(const std::filesystem::path& file) {
+    constexpr auto most_bytes = std::numeric_limits<int>::max();  // stb counts in int
+    return decode_image(read_whole_file(file, most_bytes), file);
+}
+
+Image<u8vec4> decode_image(Bytes bytes, const std::filesystem::path& name) {
     constexpr auto png = std::to_array<std::uint8_t>({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
     constexpr auto jpeg = std::to_array<std::uint8_t>({0xff, 0xd8, 0xff});
     constexpr auto bmp = std::to_array<std::uint8_t>({'B', 'M'});
 
-    Bytes bytes = read_whole_file(file, std::numeric_limits<int>::max());  // stb counts in int
-    if (bytes.empty()) throw InputError(file, "the file is empty");
-    if (begins_with(bytes, png)) return decode_png(std::move(bytes), file);
-    if (begins_with(bytes, jpeg)) return decode_jpeg(bytes, file);
-    if (begins_with(bytes, bmp)) return decode_bmp(bytes, file);
-    return decode_tga(bytes, file);
+    if (bytes.empty()) throw InputError(name, "the file is empty");
+    if (begins_with(bytes, png)) return decode_png(std::move(bytes), name);
+    if (begins_with(bytes, jpeg)) return decode_jpeg(bytes, name);
+    if (begins_with(bytes, bmp)) return decode_bmp(bytes, name);
+    return decode_tga(bytes, name);
 }
 
 void write_image(const std::filesystem::path& file, const Image<u8vec3>& pixels) {

@@ -4,7 +4,9 @@
 /// by stb.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "common/image.hpp"
 
@@ -21,6 +23,12 @@ namespace rasterbook {
 ///          truncated, of an unsupported kind, of zero size, has a side over 2^24, or claims more
 ///          pixels than its bytes can hold.
 Image<u8vec4> read_image(const std::filesystem::path& file);
+
+/// The same for a picture whose file is in memory already.
+///
+/// @param bytes  Fewer than 2^31.
+/// @param name   Named in errors.
+Image<u8vec4> decode_image(std::vector<std::uint8_t> bytes, const std::filesystem::path& name);
 
 /// Writes a picture as PNG, BMP or TGA, by the ending of the name (in any case).
 ///

@@ -17,9 +17,10 @@ class InputError : public std::runtime_error {
     InputError(const std::filesystem::path& file, const std::string& what)
         : std::runtime_error(file.string() + ": " + what) {}
 
-    /// @param line  Counted from 1.
+    /// @param line  Counted from 1; 0: none in particular.
     InputError(const std::filesystem::path& file, std::size_t line, const std::string& what)
-        : std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what) {}
+        : std::runtime_error(line > 0 ? file.string() + ":" + std::to_string(line) + ": " + what
+                                      : file.string() + ": " + what) {}
 };
 
 }  // namespace rasterbook

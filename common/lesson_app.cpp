@@ -19,7 +19,7 @@
 #include "common/input_error.hpp"
 #include "common/math/color.hpp"
 #include "common/memory.hpp"
-#include "common/obj.hpp"
+#include "common/model_file.hpp"
 
 namespace rasterbook {
 
@@ -85,7 +85,7 @@ std::filesystem::path name_of_frame(const std::filesystem::path& pattern, int fr
 void make_pictures(const LessonProgram& program) {
     LessonOptions& options = program.options;
     const auto load_start = std::chrono::steady_clock::now();
-    const Scene& scene = program.prepare(load_obj(find_model(options.model)));
+    const Scene& scene = program.prepare(load_model(find_model(options.model)));
     const double load_ms = elapsed_ms(load_start);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
 
@@ -187,9 +187,10 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
     LessonOptions& options = program.options;
     options.out = program.name + ".png";
     CLI::App line(program.title, program.name);
-    line.add_option("--model", options.model,
-                    "The OBJ file to draw [" + options.model.string() + " of the course]")
-        ->type_name("FILE.obj");
+    line.add_option(
+            "--model", options.model,
+            "The model to draw: .obj, .gltf or .glb [" + options.model.string() + " of the course]")
+        ->type_name("FILE");
     line.add_option("--out", options.out,
                     "The picture to write: .png, .bmp or .tga [" + options.out.string() + "]")
         ->type_name("FILE")

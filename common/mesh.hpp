@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a model file becomes: meshes of polygons and of triangles, and their materials.
+/// What a model file becomes: meshes of polygons and of triangles, their materials, and the cameras
+/// and lights of the file.
 #pragma once
 
 #include <array>
@@ -8,6 +9,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,6 +68,7 @@ struct Mesh {
     std::vector<vec3> positions;  ///< Model space.
     std::vector<vec2> uvs;        ///< v points up, as in OBJ.
     std::vector<vec3> normals;    ///< Model space, as in the file: perhaps not of unit length.
+    std::vector<vec4> colors{};   ///< Of the positions, linear, with opacity; empty: all white.
     std::vector<Corner> corners;
     std::vector<Face> faces;
     std::vector<Triangle> triangles;
@@ -78,15 +82,41 @@ struct Mesh {
 /// A picture that a material names, with the options that MTL puts before its name.
 struct TextureMap {
     std::filesystem::path file;     ///< Ready to open; empty when there is no map.
-    std::filesystem::path library;  ///< The material library that names it.
-    std::size_t line = 0;           ///< Of that library, from 1.
+    std::filesystem::path library;  ///< The material library, or glTF file, that names it.
+    std::size_t line = 0;           ///< Of that library, from 1; 0: none in particular.
     vec3 offset{0.0f};              ///< -o, in uv.
     vec3 scale{1.0f};               ///< -s, in uv.
-    float bump_multiplier = 1.0f;   ///< -bm.
+    float bump_multiplier = 1.0f;   ///< -bm, or the scale of a glTF normal map.
     bool clamp = false;             ///< -clamp on.
+    bool mirror = false;            ///< Every other copy is mirrored; only where `clamp` is off.
+    std::string asked_by{};         ///< For messages; empty: the statement of MTL.
+
+    /// The bytes of the picture's file where that stands inside the model's file; `file` is then
+    /// only a name, one for each picture.
+    std::shared_ptr<const std::vector<std::uint8_t>> embedded{};
 };
 
-/// What MTL says of a surface. Colours are linear, as written.
+/// How a surface's opacity is to be taken.
+enum class AlphaMode {
+    opaque,  ///< It does not count, but for `d` of an OBJ file's material.
+    mask,    ///< From alpha_cutoff on a point is there, below it is a hole.
+    blend,   ///< What lies behind shines through.
+};
+
+/// A surface that wants to be drawn as in a comic, as MToon has it.
+struct ToonLook {
+    /// Of what outline_width is a length.
+    enum class Outline { none, world, screen };
+
+    vec3 shade{1.0f};    ///< Its colour away from the light, linear; lit it has Kd.
+    float toony = 0.9f;  ///< The border of the light: 1 is sharp, 0 as wide as the sphere.
+    float shift = 0.0f;  ///< -1 to 1, added to N.L: the lit side is larger or smaller.
+    Outline outline = Outline::none;
+    float outline_width = 0.0f;  ///< World space, or in heights of the picture.
+    vec3 outline_color{0.0f};    ///< Linear.
+};
+
+/// What MTL says of a surface, and what glTF says beyond it. Colours are linear, as written.
 struct Material {
     std::string name;
     vec3 ambient{1.0f};       ///< Ka
@@ -101,13 +131,43 @@ struct Material {
     TextureMap opacity_map;   ///< map_d
     TextureMap bump_map;      ///< map_Bump, bump: heights
     TextureMap normal_map;    ///< norm, map_Norm: tangent-space normals
+
+    AlphaMode alpha = AlphaMode::opaque;  ///< Of opacity times the diffuse map's fourth channel.
+    float alpha_cutoff = 0.5f;            ///< For AlphaMode::mask.
+    bool two_sided = false;               ///< The back is to be seen, too.
+    std::optional<ToonLook> toon{};       ///< Only where the file asks for it.
+};
+
+/// A camera of a scene file.
+struct SceneCamera {
+    std::string name;
+    mat4 world_from_view;  ///< Turns and moves, no more: the camera looks along its -z.
+    float fov_y_radians;   ///< From the lower to the upper border, in (0, pi).
+    float near;            ///< > 0, world space.
+    float far;             ///< > near; infinite where the file gives none.
+};
+
+/// A light of a scene file.
+struct SceneLight {
+    enum class Kind { directional, point, spot };
+
+    std::string name;
+    Kind kind;
+    vec3 color;            ///< Linear, times the intensity: lux if directional, else candela.
+    vec3 position_world;   ///< Of a point light or spot.
+    vec3 direction_world;  ///< Length 1: where a directional light or spot shines.
+    float range;           ///< Beyond it a point light or spot ends, world space; may be infinite.
+    float cos_full = 1;    ///< Cosine of the angle up to which a spot shines fully.
+    float cos_none = 0;    ///< Of the angle from which on it does not shine, < cos_full.
 };
 
 /// All that a model file holds. Material 0 is the default material for faces without one.
 struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
-    std::vector<std::string> warnings;  ///< What the loader passed over, each "FILE:LINE: ...".
+    std::vector<std::string> warnings;   ///< What the loader passed over, each "FILE:LINE: ...".
+    std::vector<SceneCamera> cameras{};  ///< As glTF has them; the lessons' own until lesson 11.
+    std::vector<SceneLight> lights{};    ///< The same.
 
     Bounds bounds() const {
         Bounds all;

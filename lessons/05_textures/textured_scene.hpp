@@ -60,13 +60,15 @@ struct TexturedScene : Scene {
         std::vector<bool> is_seen(materials.size());
         for (const Mesh& mesh : meshes)
             for (const Triangle& triangle : mesh.triangles) is_seen[triangle.material] = true;
-        std::map<std::pair<std::filesystem::path, bool>, std::shared_ptr<const Texture>> loaded;
+        std::map<std::pair<std::filesystem::path, Wrap>, std::shared_ptr<const Texture>> loaded;
         MaterialTextures textures(materials.size());
         for (std::size_t i = 0; i < materials.size(); ++i) {
             const TextureMap& map = materials[i].*map_of;
             if (map.file.empty() || !is_seen[i] || !calls_for(materials[i])) continue;
-            std::shared_ptr<const Texture>& texture = loaded[{map.file, map.clamp}];
-            const Wrap wrap = map.clamp ? Wrap::clamp : texture_options.wrap;
+            const Wrap wrap = map.clamp    ? Wrap::clamp
+                              : map.mirror ? Wrap::mirror
+                                           : texture_options.wrap;
+            std::shared_ptr<const Texture>& texture = loaded[{map.file, wrap}];
             if (!texture)
                 texture = std::make_shared<Texture>(make_texture(
                     decode(read_picture(map, statement, texture_options.keep_going), wrap), wrap));
@@ -78,10 +80,10 @@ struct TexturedScene : Scene {
   private:
     Image<u8vec4> read_picture(const TextureMap& map, const char* statement, bool keep_going) {
         try {
-            return read_image(map.file);
+            return map.embedded ? decode_image(*map.embedded, map.file) : read_image(map.file);
         } catch (const InputError& error) {
-            const InputError named(map.library, map.line,
-                                   statement + std::string(": ") + error.what());
+            const std::string asked_by = map.asked_by.empty() ? statement : map.asked_by;
+            const InputError named(map.library, map.line, asked_by + ": " + error.what());
             if (!keep_going) throw named;
             warnings.push_back(named.what());
             return placeholder_picture();

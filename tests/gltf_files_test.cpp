@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// glTF files as they come: of Blender, of our own generator, damaged, and drawn by a lesson.
+/// tests/data/gltf/blender_scene.py makes Blender's.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <set>
+
+#include "05_textures/textured_scene.hpp"
+#include "common/image_io.hpp"
+#include "common/model_file.hpp"
+#include "support/gltf_builder.hpp"
+#include "support/lesson_process.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path models = fs::path(RASTERBOOK_ASSETS) / "models";
+const fs::path data = fs::path(RASTERBOOK_TEST_DATA) / "gltf";
+
+template <typename Vector>
+bool is_finite(const Vector& v) {
+    for (int i = 0; i < v.length(); ++i)
+        if (!std::isfinite(v[i])) return false;
+    return true;
+}
+
+/// For EXPECT_TRUE: indices in range, and finite numbers.
+testing::AssertionResult is_sound(const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.triangles.empty() || mesh.corners.size() != 3 * mesh.faces.size() ||
+            mesh.faces.size() != mesh.triangles.size())
+            return testing::AssertionFailure() << "wrong faces in " << mesh.name;
+        if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
+            return testing::AssertionFailure() << "wrong colours in " << mesh.name;
+        for (const Triangle& triangle : mesh.triangles)
+            for (const auto& [position, uv, normal] : triangle.corners)
+                if (position >= mesh.positions.size() ||
+                    (uv != no_index && uv >= mesh.uvs.size()) || normal >= mesh.normals.size() ||
+                    triangle.material >= scene.materials.size())
+                    return testing::AssertionFailure() << "wrong triangle in " << mesh.name;
+        if (!std::ranges::all_of(mesh.positions, is_finite<vec3>) ||
+            !std::ranges::all_of(mesh.normals, is_finite<vec3>) ||
+            !std::ranges::all_of(mesh.uvs, is_finite<vec2>) ||
+            !std::ranges::all_of(mesh.colors, is_finite<vec4>))
+            return testing::AssertionFailure() << "a number in " << mesh.name << " is not finite";
+    }
+    for (const Material& m : scene.materials)
+        for (const vec3& v : {m.ambient, m.diffuse, m.specular, m.emission,
+                              vec3(m.shininess, m.opacity, m.alpha_cutoff),
+                              vec3(m.diffuse_map.offset), vec3(m.diffuse_map.scale)})
+            if (!is_finite(v)) return testing::AssertionFailure() << "material " << m.name;
+    for (const SceneCamera& camera : scene.cameras)
+        for (int i = 0; i < 4; ++i)
+            if (!is_finite(camera.world_from_view[i]) || !(camera.near > 0))
+                return testing::AssertionFailure() << "camera " << camera.name;
+    for (const SceneLight& light : scene.lights)
+        if (!is_finite(light.color) || !is_finite(light.position_world) ||
+            !is_finite(light.direction_world) || !(light.cos_none < light.cos_full))
+            return testing::AssertionFailure() << "light " << light.name;
+    return testing::AssertionSuccess();
+}
+
+const Mesh& mesh_of(const Scene& scene, const std::string& name) {
+    const auto found = std::ranges::find(scene.meshes, name, &Mesh::name);
+    if (found == scene.meshes.end()) throw std::runtime_error("no mesh " + name);
+    return *found;
+}
+
+/// Position, normal and uv of a triangle's corner.
+std::array<float, 8> corner_of(const Mesh& mesh, const Triangle& triangle, std::size_t i) {
+    const Corner& corner = triangle.corners[i];
+    const vec3 p = mesh.positions.at(corner.position), n = mesh.normals.at(corner.normal);
+    const vec2 uv = mesh.uvs.at(corner.uv);
+    return {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y};
+}
+
+}  // namespace
+
+TEST(GltfFiles, BlendersSceneIsTheSameInBothFormats) {
+    // The OBJ file has 6 decimals of positions and uvs, and 4 of normals; the glTF file's
+    // quaternions are floats, times lengths of at most 5.
+    constexpr float of_position = 3e-6f, of_normal = 1e-4f, of_uv = 1e-6f;
+    const Scene as_obj = load_model(data / "blender.obj");
+    const Scene as_gltf = load_model(data / "blender.glb");
+    EXPECT_TRUE(as_gltf.warnings.empty());
+    EXPECT_TRUE(is_sound(as_gltf));
+    ASSERT_EQ(as_gltf.meshes.size(), 3u);
+    for (const Mesh& mesh : as_gltf.meshes) {
+        SCOPED_TRACE(mesh.name);
+        const Mesh& other = mesh_of(as_obj, mesh.name);
+        ASSERT_EQ(mesh.triangles.size(), other.triangles.size());
+        EXPECT_EQ(mesh.positions.size(), other.positions.size());  // as many points
+        std::set<std::size_t> taken;
+        for (const Triangle& triangle : mesh.triangles) {
+            bool is_found = false;
+            for (std::size_t t = 0; t < other.triangles.size() && !is_found; ++t)
+                for (std::size_t turn = 0; turn < 3 && !is_found; ++turn) {
+                    bool agrees = !taken.contains(t);
+                    for (std::size_t i = 0; i < 3 && agrees; ++i) {
+                        const auto a = corner_of(mesh, triangle, i);
+                        const auto b = corner_of(other, other.triangles[t], (i + turn) % 3);
+                        for (std::size_t k = 0; k < 8; ++k)
+                            agrees = agrees && std::abs(a[k] - b[k]) < (k < 3   ? of_position
+                                                                        : k < 6 ? of_normal
+                                                                                : of_uv);
+                    }
+                    if (agrees) taken.insert(t), is_found = true;
+                }
+            const auto [x, y, z, nx, ny, nz, u, v] = corner_of(mesh, triangle, 0);
+            EXPECT_TRUE(is_found) << "a triangle has no like: its first corner has position " << x
+                                  << ' ' << y << ' ' << z << ", normal " << nx << ' ' << ny << ' '
+                                  << nz << ", uv " << u << ' ' << v;
+        }
+        const Material& ours = as_gltf.materials.at(mesh.triangles[0].material);
+        const Material& its = as_obj.materials.at(other.triangles[0].material);
+        EXPECT_EQ(ours.name, its.name);
+        // There Kd is the colour of a metal, too; a textured Kd is left out, and means white.
+        const float share = mesh.name == "ball" ? 0.5f : 1.0f;
+        const vec3 diffuse = its.diffuse_map.file.empty() ? its.diffuse : vec3(1);
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(ours.diffuse[i], share * diffuse[i], 1e-6f);
+        EXPECT_EQ(ours.diffuse_map.file.empty(), its.diffuse_map.file.empty());
+        EXPECT_EQ(ours.opacity, its.opacity);
+    }
+    const TextureMap& map =
+        as_gltf.materials.at(mesh_of(as_gltf, "box").triangles[0].material).diffuse_map;
+    ASSERT_TRUE(map.embedded);
+    EXPECT_EQ(decode_image(*map.embedded, map.file), read_image(data / "blender_checker.png"));
+}
+
+TEST(GltfFiles, BlendersCameraAndLightsStandWhereTheyWerePut) {
+    constexpr float tolerance = 1e-5f;  // of floats in the file, times lengths of at most 10
+    const Scene scene = load_model(data / "blender.glb");
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    // There z is up: (x, y, z) is (x, z, -y) here.
+    EXPECT_EQ(scene.cameras[0].name, "eye");
+    EXPECT_EQ(vec3(scene.cameras[0].world_from_view[3]), vec3(7, 5, 7));
+    // Turned by 1.1 from looking down, then by 0.785 around the vertical.
+    const vec3 ahead = -vec3(scene.cameras[0].world_from_view[2]);
+    EXPECT_NEAR(ahead.y, -std::cos(1.1f), tolerance);
+    EXPECT_NEAR(ahead.x, -std::sin(1.1f) * std::sin(0.785f), tolerance);
+    EXPECT_NEAR(ahead.z, -std::sin(1.1f) * std::cos(0.785f), tolerance);
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.lights[0].kind, SceneLight::Kind::directional);
+    EXPECT_EQ(scene.lights[1].kind, SceneLight::Kind::spot);
+    EXPECT_EQ(scene.lights[1].position_world, vec3(4, 5, 4));
+    EXPECT_NEAR(scene.lights[1].cos_none, std::cos(glm::radians(25.0f)), tolerance);
+    // Turned by 0.7 from shining down, then by 0.8.
+    EXPECT_NEAR(scene.lights[1].direction_world.y, -std::cos(0.7f), tolerance);
+    EXPECT_NEAR(scene.lights[1].direction_world.x, -std::sin(0.7f) * std::sin(0.8f), tolerance);
+}
+
+TEST(GltfFiles, TheScenesOfTheCourseCallForWhatTheyAreFor) {
+    const Scene unlit = load_model(models / "unlit.glb"),
+                textured = load_model(models / "textured.gltf"),
+                bumpy = load_model(models / "bumpy.glb"), toon = load_model(models / "toon.glb");
+    for (const Scene* scene : {&unlit, &textured, &bumpy, &toon}) {
+        EXPECT_TRUE(is_sound(*scene));
+        EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
+        EXPECT_GE(scene->cameras.size(), 1u);
+        for (const Material& material : scene->materials)
+            for (const TextureMap* map : {&material.diffuse_map, &material.normal_map})
+                EXPECT_TRUE(map->file.empty() || fs::is_regular_file(map->file)) << map->file;
+    }
+    const auto count = [](const Scene& scene, auto is) {
+        return std::count_if(scene.materials.begin() + 1, scene.materials.end(), is);
+    };
+    EXPECT_TRUE(unlit.lights.empty());
+    EXPECT_EQ(count(unlit, [](const Material& m) { return m.illumination > 0; }), 0);
+    for (const Mesh& mesh : unlit.meshes) EXPECT_FALSE(mesh.colors.empty());
+    EXPECT_FALSE(textured.lights.empty());
+    EXPECT_EQ(count(textured, [](const Material& m) { return !m.normal_map.file.empty(); }), 0);
+    EXPECT_EQ(count(textured, [](const Material& m) { return !m.diffuse_map.file.empty(); }), 3);
+    EXPECT_EQ(std::ranges::count(textured.meshes, 8u,
+                                 [](const Mesh& mesh) { return mesh.positions.size(); }),
+              4);  // crates
+    EXPECT_EQ(count(bumpy, [](const Material& m) { return !m.normal_map.file.empty(); }), 4);
+    EXPECT_EQ(bumpy.lights.size(), 2u);
+    EXPECT_EQ(count(toon, [](const Material& m) { return !m.toon; }), 0);
+}
+
+TEST(GltfFiles, FilesDamagedAtRandomGiveASoundSceneOrAnError) {
+    struct Original {
+        fs::path file;
+        std::string bytes;
+        std::size_t json_end;
+    };
+    const fs::path folder = fresh_folder("gltf_damaged");
+    fs::create_directory_symlink(fs::path(RASTERBOOK_ASSETS) / "textures", folder / "textures");
+    fs::create_directory(folder / "models");
+    fs::copy_file(models / "textured.bin", folder / "models/textured.bin");
+    std::vector<Original> originals;
+    for (const fs::path& file : {models / "unlit.glb", models / "textured.gltf",
+                                 models / "bumpy.glb", models / "toon.glb", data / "blender.glb"}) {
+        const std::string bytes = read_text(file);
+        const bool is_binary = file.extension() == ".glb";
+        std::size_t end = bytes.size();
+        if (is_binary) end = 20 + std::uint8_t(bytes[12]) + 256u * std::uint8_t(bytes[13]);
+        originals.push_back({file, bytes, end});
+    }
+    constexpr unsigned seed = 1;
+    std::mt19937 random(seed);
+    const auto below = [&](std::size_t n) { return std::size_t(random() % n); };
+    int read = 0, refused = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Original& original = originals[below(originals.size())];
+        std::string bytes = original.bytes;
+        const std::string signs = "0123456789-.,:[]{}\"eE ";
+        for (std::size_t k = 0, times = 1 + below(4); k < times; ++k) {
+            // Most of it in the JSON, where the structure is.
+            const std::size_t at = below(4) == 0
+                                       ? below(bytes.size())
+                                       : std::min(below(original.json_end), bytes.size() - 1);
+            const std::size_t kind = below(8);
+            if (kind == 0) bytes[at] = char(below(256));
+            if (kind >= 1 && kind <= 5) {  // another digit: the JSON stays whole
+                const auto digit = bytes.find_first_of("0123456789", at);
+                if (digit < original.json_end && digit < bytes.size())
+                    bytes[digit] = char('0' + below(10));
+            }
+            if (kind == 6) bytes[at] = signs[below(signs.size())];
+            if (kind == 7 && below(4) == 0) bytes.resize(at + 1);
+        }
+        const fs::path file =
+            folder / "models" / (std::string("damaged") + original.file.extension().string());
+        fs::remove(file);
+        std::ofstream(file, std::ios::binary) << bytes;
+        try {
+            ASSERT_TRUE(is_sound(load_model(file)))
+                << "seed " << seed << ", case " << i << " of " << original.file;
+            ++read;
+        } catch (const InputError& error) {
+            ++refused;
+            const std::string text = error.what();
+            EXPECT_TRUE(text.starts_with(file.string() + ": ")) << text;
+            EXPECT_EQ(text.find('\n'), text.npos) << text;
+        }
+    }
+    EXPECT_GT(read, 200);  // Else the damage is too great to find anything.
+    EXPECT_GT(refused, 200);
+}
+
+TEST(GltfFiles, EachWayToWrapAPictureIsATextureOfItsOwn) {
+    const fs::path folder = fresh_folder("gltf_wrapped");
+    write_image(folder / "wood.png", Image<u8vec3>({1, 1}, {255, 160, 40}));
+    GltfBuilder made = one_triangle();
+    made.document["images"] = json::array({{{"uri", "wood.png"}}});
+    for (const int wrap : {10497, 33071, 33648, 33648}) {
+        const auto index = made.document["textures"].size();
+        made.document["samplers"].push_back({{"wrapS", wrap}, {"wrapT", wrap}});
+        made.document["textures"].push_back({{"source", 0}, {"sampler", index}});
+        json material = {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
+        material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = index;
+        made.document["materials"][index] = material;
+        json primitive = made.primitive();
+        primitive["material"] = index;
+        if (index > 0) made.document["meshes"][0]["primitives"].push_back(primitive);
+    }
+    const struct {
+        TextureOptions texture;
+    } options;
+    const TexturedScene scene(load_model(made.write(folder / "scene.gltf")), options);
+    const MaterialTextures& textures = scene.diffuse_textures;
+    ASSERT_EQ(textures.size(), 5u);
+    EXPECT_EQ(textures[1]->wrap, Wrap::repeat);
+    EXPECT_EQ(textures[2]->wrap, Wrap::clamp);
+    EXPECT_EQ(textures[3]->wrap, Wrap::mirror);
+    EXPECT_EQ(textures[3], textures[4]);
+}
+
+TEST(GltfFiles, ALessonDrawsAPictureInAGltfFileAsItDrawsItOfAnObjFile) {
+    const fs::path folder = fresh_folder("gltf_drawn");
+    Image<u8vec3> picture({8, 8}, {255, 160, 40});
+    for (int i = 0; i < 32; ++i) picture[{i % 8, i / 8}] = {u8vec3(20, 8 * i, 200)};
+    write_image(folder / "wood.png", picture);
+    std::ofstream(folder / "square.mtl") << "newmtl m\nKd 1 1 1\nillum 0\nmap_Kd wood.png\n";
+    std::ofstream(folder / "square.obj")
+        << "mtllib square.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+           "vt 0 1\nusemtl m\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    GltfBuilder made = one_triangle();
+    made.primitive() = {
+        {"attributes",
+         {{"POSITION", made.add({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, "VEC3", gl_float)},
+          {"TEXCOORD_0", made.add({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2", gl_float)}}},
+        {"indices", made.add({0, 1, 2, 0, 2, 3}, "SCALAR", gl_unsigned_byte)},
+        {"material", 0}};
+    const std::size_t begin = made.bytes.size();
+    made.bytes += read_text(folder / "wood.png");
+    made.document["images"] =
+        json::array({{{"bufferView", made.add_view(begin)}, {"mimeType", "image/png"}}});
+    made.document["textures"] = json::array({{{"source", 0}}});
+    made.material() = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                       {"extensions", {{"KHR_materials_unlit", json::object()}}}};
+    made.write(folder / "square.GLB", GltfForm::binary);
+    const auto drawn = [&](const char* model) {
+        const fs::path out = folder / (std::string(model) + ".png");
+        const ProcessResult result = run_program(
+            "05_textures", {"--model", folder / model, "--out", out, "--size", "64x48"});
+        EXPECT_EQ(result.exit_status, 0) << result.err;
+        EXPECT_EQ(result.err, "");
+        return read_image(out);
+    };
+    const Image<u8vec4> of_obj = drawn("square.obj");
+    EXPECT_EQ(drawn("square.GLB"), of_obj);
+    EXPECT_GT(std::ranges::count_if(of_obj.pixels(), [](u8vec4 color) { return color.r > 100; }),
+              100);
+
+    made.document["images"] = json::array({{{"uri", "none.png"}}});
+    const fs::path broken = made.write(folder / "broken.gltf");
+    const ProcessResult result = run_program(
+        "05_textures", {"--model", broken, "--out", folder / "none.png", "--size", "8x8"});
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_EQ(result.err, "error: " + broken.string() + ": material 0: baseColorTexture: " +
+                              (folder / "none.png").string() + ": there is no such file\n");
+}

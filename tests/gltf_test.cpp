@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What glTF files give: shapes, places, and the order of corners.
+#include "common/gltf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "common/obj.hpp"
+#include "support/gltf_builder.hpp"
+#include "support/lesson_process.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+const std::filesystem::path models = std::filesystem::path(RASTERBOOK_ASSETS) / "models";
+
+Scene read(const GltfBuilder& made, GltfForm form = GltfForm::embedded) {
+    return load_gltf(made.write(
+        fresh_folder("gltf") / (form == GltfForm::binary ? "scene.glb" : "scene.gltf"), form));
+}
+
+/// Of a triangle's corner.
+vec3 position(const Mesh& mesh, std::size_t triangle, std::size_t corner) {
+    return mesh.positions.at(mesh.triangles.at(triangle).corners[corner].position);
+}
+
+vec3 normal(const Mesh& mesh, std::size_t triangle, std::size_t corner) {
+    return mesh.normals.at(mesh.triangles.at(triangle).corners[corner].normal);
+}
+
+/// All corners as positions, normals and uvs, in order; for EXPECT_EQ.
+std::vector<float> numbers_of(const Scene& scene) {
+    std::vector<float> numbers;
+    const auto add = [&](const auto& v) {
+        for (int i = 0; i < v.length(); ++i) numbers.push_back(v[i]);
+    };
+    for (const Mesh& mesh : scene.meshes)
+        for (const Triangle& triangle : mesh.triangles)
+            for (const Corner& corner : triangle.corners) {
+                add(mesh.positions.at(corner.position));
+                if (corner.normal != no_index) add(mesh.normals.at(corner.normal));
+                if (corner.uv != no_index) add(mesh.uvs.at(corner.uv));
+            }
+    return numbers;
+}
+
+using Wide = long double;
+using Wide3 = glm::vec<3, Wide>;
+using Wide4 = glm::mat<4, 4, Wide>;
+
+}  // namespace
+
+TEST(Gltf, ATriangleIsReadTheSameFromAllThreeFormsOfFiles) {
+    const GltfBuilder made = one_triangle();
+    // Positions and normals as written, v upside down.
+    const std::vector<float> expected = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0,
+                                         0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0.75f};
+    for (const GltfForm form : {GltfForm::embedded, GltfForm::separate, GltfForm::binary}) {
+        const Scene scene = read(made, form);
+        EXPECT_EQ(numbers_of(scene), expected);
+        ASSERT_EQ(scene.meshes.size(), 1u);
+        EXPECT_EQ(scene.meshes[0].name, "triangle");
+        ASSERT_EQ(scene.materials.size(), 2u);
+        EXPECT_EQ(scene.materials[0].diffuse, vec3(0.8f));  // for faces without a material
+        EXPECT_EQ(scene.materials[scene.meshes[0].triangles[0].material].name, "paint");
+        EXPECT_EQ(scene.meshes[0].faces.size(), 1u);
+        EXPECT_EQ(scene.meshes[0].faces[0].corner_count, 3u);
+        EXPECT_EQ(scene.bounds().max, vec3(1, 1, 0));
+        EXPECT_TRUE(scene.warnings.empty());
+        EXPECT_TRUE(scene.cameras.empty() && scene.lights.empty());
+    }
+}
+
+TEST(Gltf, TheSameCrateAsObjAndAsGltfGivesTheSameScene) {
+    const Scene as_obj = load_obj(models / "crate.obj");
+    const Mesh& crate = as_obj.meshes.at(0);
+    std::vector<double> positions, normals, uvs;
+    for (const Triangle& triangle : crate.triangles)
+        for (const Corner& corner : triangle.corners) {
+            const vec3 p = crate.positions[corner.position], n = crate.normals[corner.normal];
+            const vec2 uv = crate.uvs[corner.uv];
+            positions.insert(positions.end(), {p.x, p.y, p.z});
+            normals.insert(normals.end(), {n.x, n.y, n.z});
+            uvs.insert(uvs.end(), {uv.x, 1 - uv.y});  // exact: they are 0 and 1
+        }
+    GltfBuilder made = one_triangle();
+    made.primitive() = {{"attributes",
+                         {{"POSITION", made.add(positions, "VEC3", gl_float)},
+                          {"NORMAL", made.add(normals, "VEC3", gl_float)},
+                          {"TEXCOORD_0", made.add(uvs, "VEC2", gl_float)}}},
+                        {"material", 0}};
+    made.document["images"] = json::array({{{"uri", "wood.png"}}});
+    made.document["textures"] = json::array({{{"source", 0}}});
+    made.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.9, 0.62, 0.38, 1}},
+                                               {"metallicFactor", 0},
+                                               {"roughnessFactor", 1},
+                                               {"baseColorTexture", {{"index", 0}}}};
+    const Scene as_gltf = read(made);
+    EXPECT_EQ(numbers_of(as_gltf), numbers_of(as_obj));
+    ASSERT_EQ(as_gltf.meshes.size(), 1u);
+    EXPECT_EQ(as_gltf.meshes[0].positions.size(), 8u);  // corners that meet are one point
+    EXPECT_EQ(as_gltf.meshes[0].bounds.max, crate.bounds.max);
+    EXPECT_EQ(as_gltf.materials.at(1).diffuse, as_obj.materials.at(1).diffuse);
+    EXPECT_EQ(as_gltf.materials[1].ambient, as_obj.materials[1].ambient);
+    EXPECT_EQ(as_gltf.materials[1].diffuse_map.file.filename(),
+              as_obj.materials[1].diffuse_map.file.filename());
+}
+
+TEST(Gltf, NodesTurnAndMoveAsInExactArithmetic) {
+    // The product is in double; the result is rounded to float: half an ulp of what is at most 100,
+    // and normals of a length near 1.
+    constexpr Wide position_tolerance = 4e-6L, normal_tolerance = 1.5e-7L;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> number(-1, 1), size(0.5, 2);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(i);
+        GltfBuilder made = one_triangle();
+        json& nodes = made.document["nodes"] = json::array();
+        Wide4 world(1);
+        for (int depth = 0; depth < 4; ++depth) {
+            json node = {{"children", {depth + 1}}};
+            if (depth == 3) node = {{"mesh", 0}};
+            Wide4 own(1);
+            if (depth == 2) {
+                node["matrix"] = json::array();
+                for (int k = 0; k < 16; ++k) {
+                    const double entry = k % 4 == 3 ? (k == 15 ? 1 : 0) : number(random);
+                    node["matrix"].push_back(entry);
+                    own[k / 4][k % 4] = entry;
+                }
+            } else {
+                double q[4] = {number(random), number(random), number(random), number(random)};
+                const double length =
+                    std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+                for (double& x : q) x /= length;
+                const Wide3 s(size(random), -size(random), size(random));
+                const Wide3 t(number(random), number(random), number(random));
+                node["rotation"] = q;
+                node["scale"] = {double(s.x), double(s.y), double(s.z)};
+                node["translation"] = {double(t.x), double(t.y), double(t.z)};
+                // q v q* by cross products: v + 2 w (u x v) + 2 u x (u x v).
+                const Wide3 u(q[0], q[1], q[2]);
+                for (int axis = 0; axis < 3; ++axis) {
+                    Wide3 v(0);
+                    v[axis] = s[axis];
+                    own[axis] = glm::vec<4, Wide>(v + Wide(2) * Wide(q[3]) * glm::cross(u, v) +
+                                                      Wide(2) * glm::cross(u, glm::cross(u, v)),
+                                                  0);
+                }
+                own[3] = glm::vec<4, Wide>(t, 1);
+            }
+            nodes.push_back(node);
+            world = world * own;
+        }
+        const glm::mat<3, 3, Wide> linear(world);
+        if (std::abs(glm::determinant(linear)) < 0.01L) continue;
+        const bool is_mirrored = glm::determinant(linear) < 0;
+        const Wide3 expected_normal =
+            glm::normalize(glm::transpose(glm::inverse(linear)) * Wide3(0, 0, 1));
+        const Scene scene = read(made);
+        const Mesh& mesh = scene.meshes.at(0);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const std::size_t from = is_mirrored && corner > 0 ? 3 - corner : corner;
+            const glm::vec<4, Wide> source(from == 1 ? 1 : 0, from == 2 ? 1 : 0, 0, 1);
+            const Wide3 expected(world * source);
+            EXPECT_LT(glm::distance(Wide3(position(mesh, 0, corner)), expected),
+                      position_tolerance);
+            EXPECT_LT(glm::distance(Wide3(normal(mesh, 0, corner)), expected_normal),
+                      normal_tolerance);
+        }
+    }
+}
+
+TEST(Gltf, AMirroredNodeTurnsTheWindingSoThatFacesStillLookOutwards) {
+    for (const std::vector<double>& scale :
+         {std::vector<double>{-1, 1, 1}, {1, -2, 1}, {-1, -1, -1}, {2, -1, -1}}) {
+        GltfBuilder made = one_triangle();
+        made.document["nodes"][0]["scale"] = scale;
+        const Scene scene = read(made);
+        const Mesh& mesh = scene.meshes.at(0);
+        const vec3 area = glm::cross(position(mesh, 0, 1) - position(mesh, 0, 0),
+                                     position(mesh, 0, 2) - position(mesh, 0, 0));
+        EXPECT_GT(glm::dot(area, normal(mesh, 0, 0)), 0);
+        EXPECT_EQ(normal(mesh, 0, 0).z, scale[2] < 0 ? -1 : 1);
+        EXPECT_EQ(mesh.corners[1], mesh.triangles[0].corners[1]);
+    }
+}
+
+TEST(Gltf, ANodeWithoutExtentGivesFiniteNormals) {
+    GltfBuilder made = one_triangle();
+    made.document["nodes"][0]["scale"] = {1, 1, 0};
+    const Scene flat = read(made);
+    EXPECT_EQ(normal(flat.meshes.at(0), 0, 0), vec3(0, 0, 1));
+    made.document["nodes"][0]["scale"] = {0, 1, 0};
+    const Scene line = read(made);
+    EXPECT_EQ(normal(line.meshes.at(0), 0, 0), vec3(0));
+    EXPECT_EQ(line.bounds().max, vec3(0, 1, 0));
+}
+
+TEST(Gltf, EachNodeIsAMeshOfItsOwnAndNodesOutsideOfTheSceneAreNone) {
+    GltfBuilder made = one_triangle();
+    made.document["nodes"] = json::array({{{"mesh", 0}, {"name", "near"}, {"children", {1}}},
+                                          {{"mesh", 0}, {"translation", {0, 0, -5}}},
+                                          {{"mesh", 0}, {"name", "in another scene"}}});
+    made.document["scenes"].push_back({{"nodes", {2}}});
+    const Scene scene = read(made);
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].name, "near");
+    EXPECT_EQ(scene.meshes[1].name, "triangle");
+    EXPECT_EQ(scene.meshes[1].bounds.min.z, -5);
+    made.document["scene"] = 1;
+    EXPECT_EQ(read(made).meshes.at(0).name, "in another scene");
+    made.document.erase("scene"), made.document.erase("scenes");
+    EXPECT_EQ(read(made).meshes.size(), 3u);  // all that are no child, and their children
+}
+
+TEST(Gltf, ListsStripsAndFansAreTriangles) {
+    const std::vector<double> square = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
+    const auto corners = [&](int mode, const std::vector<double>& indices, int type) {
+        GltfBuilder made = one_triangle();
+        made.primitive() = {{"attributes", {{"POSITION", made.add(square, "VEC3", gl_float)}}},
+                            {"mode", mode}};
+        if (!indices.empty()) made.primitive()["indices"] = made.add(indices, "SCALAR", type);
+        std::string text;
+        const Scene scene = read(made);
+        const Mesh& mesh = scene.meshes.at(0);
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            if (t > 0) text += ' ';
+            for (std::size_t c = 0; c < 3; ++c) {
+                const vec3 p = position(mesh, t, c);
+                text += char('0' + int(p.x) + 2 * int(p.y));
+            }
+        }
+        return text;
+    };
+    for (const int type : {gl_unsigned_byte, gl_unsigned_short, gl_unsigned_int})
+        EXPECT_EQ(corners(4, {0, 1, 2, 2, 1, 3}, type), "012 213");
+    EXPECT_EQ(corners(5, {}, 0), "012 213 234");  // every second one has its corners swapped
+    EXPECT_EQ(corners(5, {0, 1, 2, 3}, gl_unsigned_byte), "012 213");
+    EXPECT_EQ(corners(6, {0, 1, 3, 2}, gl_unsigned_byte), "013 032");
+    EXPECT_EQ(corners(4, {0, 1, 2, 3}, gl_unsigned_byte), "012");  // and a warning
+}
+
+TEST(Gltf, WithoutNormalsEachFaceHasItsOwn) {
+    GltfBuilder made = one_triangle();
+    made.primitive()["attributes"].erase("NORMAL");
+    made.primitive()["attributes"]["POSITION"] =
+        made.add({0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2}, "VEC3", gl_float);
+    made.primitive()["attributes"].erase("TEXCOORD_0");
+    made.primitive()["indices"] = made.add({0, 1, 2, 0, 3, 1}, "SCALAR", gl_unsigned_byte);
+    const Scene scene = read(made);
+    const Mesh& mesh = scene.meshes.at(0);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        EXPECT_EQ(normal(mesh, 0, corner), vec3(0, 0, 1));
+        EXPECT_EQ(normal(mesh, 1, corner), vec3(0, 1, 0));
+    }
+    EXPECT_EQ(mesh.positions.size(), 4u);
+    EXPECT_EQ(mesh.triangles[0].corners[0].uv, no_index);
+}
+
+TEST(Gltf, PointsThatDifferInColourAloneStayApart) {
+    GltfBuilder made = one_triangle();
+    made.primitive() = {
+        {"attributes",
+         {{"POSITION",
+           made.add({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, -0.0, 0, 1, 1, 0}, "VEC3", gl_float)},
+          {"COLOR_0",
+           made.add({0, 0, 0, 51, 102, 153, 0, 0, 255, 255, 0, 0, 0, 0, 0, 255, 255, 255}, "VEC3",
+                    gl_unsigned_byte, true)}}}};
+    const Scene scene = read(made);
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.positions.size(), 5u);  // 0 and 4 agree, 1 and 3 do not
+    ASSERT_EQ(mesh.colors.size(), 5u);
+    EXPECT_EQ(mesh.colors[mesh.corners[1].position], vec4(0.2f, 0.4f, 0.6f, 1));
+    EXPECT_EQ(mesh.colors[mesh.corners[3].position], vec4(1, 0, 0, 1));
+    EXPECT_EQ(mesh.corners[0].position, mesh.corners[4].position);
+}
+
+TEST(Gltf, PrimitivesOfAMeshShareItsPointsAndKeepTheirMaterials) {
+    GltfBuilder made = one_triangle();
+    json second = made.primitive();
+    second.erase("material");
+    second["attributes"]["COLOR_0"] =
+        made.add({0.5, 0.5, 0.5, 0.25, 1, 1, 1, 1, 1, 1, 1, 1}, "VEC4", gl_float);
+    made.document["meshes"][0]["primitives"].push_back(second);
+    const Scene scene = read(made);
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(mesh.triangles[0].material, 1u);
+    EXPECT_EQ(mesh.triangles[1].material, 0u);
+    ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
+    EXPECT_EQ(mesh.positions.size(), 4u);  // the first has no colours: they count as white
+    EXPECT_EQ(mesh.colors[mesh.triangles[1].corners[0].position], vec4(0.5f, 0.5f, 0.5f, 0.25f));
+    EXPECT_EQ(mesh.triangles[0].corners[1].position, mesh.triangles[1].corners[1].position);
+}
+
+TEST(Gltf, NumbersMayBeWholeAndMayStandBetweenOthers) {
+    GltfBuilder made = one_triangle();
+    // Whole positions, as of KHR_mesh_quantization; whole normals, and uvs, that mean fractions.
+    made.document["extensionsRequired"] = {"KHR_mesh_quantization"};
+    json& attributes = made.primitive()["attributes"];
+    attributes["POSITION"] = made.add({0, 0, 0, 300, 0, 0, 0, -300, 0}, "VEC3", gl_short);
+    attributes["NORMAL"] = made.add({0, 0, 127, 0, 0, -128, 0, -127, 0}, "VEC3", gl_byte, true);
+    attributes["TEXCOORD_0"] =
+        made.add({0, 65535, 13107, 0, 0, 0}, "VEC2", gl_unsigned_short, true);
+    const Scene whole = read(made);
+    EXPECT_EQ(position(whole.meshes.at(0), 0, 2), vec3(0, -300, 0));
+    EXPECT_EQ(normal(whole.meshes[0], 0, 0), vec3(0, 0, 1));
+    EXPECT_EQ(normal(whole.meshes[0], 0, 1), vec3(0, 0, -1));  // -128 counts as -127
+    EXPECT_EQ(whole.meshes[0].uvs.at(0), vec2(0, 0));
+    EXPECT_EQ(whole.meshes[0].uvs.at(1), vec2(0.2f, 1));
+
+    GltfBuilder mixed = one_triangle();
+    std::vector<double> both;
+    for (int i = 0; i < 3; ++i) {
+        const double p[3] = {i == 1 ? 4.0 : 0.0, i == 2 ? 4.0 : 0.0, 7};
+        both.insert(both.end(), {p[0], p[1], p[2], 0, 1, 0});
+    }
+    const int positions = mixed.add(both, "VEC3", gl_float);
+    json& all = mixed.document["accessors"];
+    const json view = all[std::size_t(positions)]["bufferView"];
+    mixed.document["bufferViews"][view.get<std::size_t>()]["byteStride"] = 24;
+    all[std::size_t(positions)]["count"] = 3;
+    all.push_back(all[std::size_t(positions)]);
+    all.back()["byteOffset"] = 12;
+    mixed.primitive()["attributes"]["POSITION"] = positions;
+    mixed.primitive()["attributes"]["NORMAL"] = positions + 1;
+    const Scene scene = read(mixed);
+    EXPECT_EQ(position(scene.meshes.at(0), 0, 1), vec3(4, 0, 7));
+    EXPECT_EQ(normal(scene.meshes[0], 0, 2), vec3(0, 1, 0));
+}
+
+TEST(Gltf, CamerasAndLightsStandWhereTheirNodesDo) {
+    GltfBuilder made = one_triangle();
+    const double s = std::sqrt(0.5);
+    // The parent turns x to -z and is twice as large; the camera below it looks along its -z.
+    made.document["nodes"] = json::array(
+        {{{"mesh", 0},
+          {"children", {1, 2, 3, 4}},
+          {"rotation", {0, s, 0, s}},
+          {"scale", {2, 2, 2}}},
+         {{"camera", 0}, {"name", "eye"}, {"translation", {1, 2, 3}}},
+         {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
+         {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}, {"translation", {0, 1, 0}}},
+         {{"extensions", {{"KHR_lights_punctual", {{"light", 2}}}}}, {"name", "lamp"}}});
+    made.document["cameras"] =
+        json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 0.75}, {"znear", 0.5}}}}});
+    made.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array(
+        {{{"type", "directional"}, {"name", "sun"}, {"color", {1, 0.5, 0.25}}, {"intensity", 4}},
+         {{"type", "spot"},
+          {"range", 9},
+          {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
+         {{"type", "point"}}});
+    const Scene scene = read(made);
+    constexpr float tolerance = 1e-6f;  // sqrt(0.5) is rounded, and so is the result
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    const SceneCamera& camera = scene.cameras[0];
+    EXPECT_EQ(camera.name, "eye");
+    EXPECT_EQ(camera.fov_y_radians, 0.75f);
+    EXPECT_EQ(camera.near, 0.5f);
+    EXPECT_TRUE(std::isinf(camera.far));
+    const auto expect_near = [&](vec3 a, vec3 b) { EXPECT_LT(glm::distance(a, b), tolerance); };
+    expect_near(vec3(camera.world_from_view[3]), vec3(6, 4, -2));
+    expect_near(vec3(camera.world_from_view[0]), vec3(0, 0, -1));  // without the parent's scale
+    expect_near(vec3(camera.world_from_view[1]), vec3(0, 1, 0));
+    expect_near(vec3(camera.world_from_view[2]), vec3(1, 0, 0));
+
+    ASSERT_EQ(scene.lights.size(), 3u);
+    EXPECT_EQ(scene.lights[0].kind, SceneLight::Kind::directional);
+    EXPECT_EQ(scene.lights[0].name, "sun");
+    EXPECT_EQ(scene.lights[0].color, vec3(4, 2, 1));
+    expect_near(scene.lights[0].direction_world, vec3(-1, 0, 0));
+    EXPECT_EQ(scene.lights[1].kind, SceneLight::Kind::spot);
+    expect_near(scene.lights[1].position_world, vec3(0, 2, 0));
+    EXPECT_EQ(scene.lights[1].range, 9);
+    EXPECT_FLOAT_EQ(scene.lights[1].cos_full, std::cos(0.25f));
+    EXPECT_FLOAT_EQ(scene.lights[1].cos_none, std::cos(0.5f));
+    EXPECT_EQ(scene.lights[2].kind, SceneLight::Kind::point);
+    EXPECT_EQ(scene.lights[2].name, "lamp");
+    EXPECT_EQ(scene.lights[2].color, vec3(1));
+    EXPECT_TRUE(std::isinf(scene.lights[2].range));
+}
