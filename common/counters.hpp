@@ -27,9 +27,12 @@ enum class Counter {
     outline_pixels,  ///< Inked; some several times.
     normal_map_samples,
     meshes_with_tangents,
-    shadow_passes,     ///< Depth maps drawn.
-    shadow_fragments,  ///< Compared with a depth map's texel.
-    shadow_lookups,    ///< Points for which a depth map was asked, with all its texels.
+    shadow_passes,      ///< Depth maps drawn.
+    shadow_fragments,   ///< Compared with a depth map's texel.
+    shadow_lookups,     ///< Points for which a depth map was asked, with all its texels.
+    colored_fragments,  ///< Coloured by the colours of corners.
+    masked_fragments,   ///< Asked whether they are there or a hole.
+    blended_fragments,  ///< Through which may be seen what lies behind.
     count
 };
 
@@ -53,7 +56,10 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "meshes_with_tangents",
     "shadow_passes",
     "shadow_fragments",
-    "shadow_lookups"};
+    "shadow_lookups",
+    "colored_fragments",
+    "masked_fragments",
+    "blended_fragments"};
 
 /// Counts.
 struct Counters {

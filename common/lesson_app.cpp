@@ -168,6 +168,11 @@ void Knobs::number(const std::string& name, int& value, int least, int most,
     add_number(command_line_, name, value, least, most, help);
 }
 
+void Knobs::text(const std::string& name, std::string& value, const std::string& type,
+                 const std::string& help) {
+    command_line_.add_option(name, value, help)->type_name(type);
+}
+
 void Knobs::add_choice(const std::string& name, const std::vector<std::string>& words,
                        const std::string& preset, const std::string& help,
                        std::function<void(std::size_t)> choose) {

@@ -39,6 +39,8 @@ struct Orbit {
     float pitch_degrees = 27.0f;  ///< Above the horizon, -90 to 90.
     float distance = 1.4f;        ///< From the scene's centre, in radii of the scene, > 0.
     float fov_degrees = 36.0f;    ///< From the picture's lower to its upper border, 1 to 170.
+
+    bool operator==(const Orbit&) const = default;
 };
 
 /// Where a lesson declares its knobs: one line gives the flag, its help, its check and its default.
@@ -54,6 +56,10 @@ class Knobs {
                 const std::string& help);
     void number(const std::string& name, int& value, int least, int most, const std::string& help);
 
+    /// `--name TEXT`: any text; `value` holds the default and takes the text.
+    void text(const std::string& name, std::string& value, const std::string& type,
+              const std::string& help);
+
     /// `--name WORD`: one of the words; `value` holds the default and takes the choice.
     template <typename Value>
     void choice(const std::string& name, Value& value,
@@ -68,6 +74,17 @@ class Knobs {
         const std::vector<std::pair<std::string, Value>> table(words);
         add_choice(name, names, preset, help,
                    [&value, table](std::size_t chosen) { value = table[chosen].second; });
+    }
+
+    /// Calls one of the functions when its word is given. A knob that is declared later is taken
+    /// later.
+    void choice(const std::string& name, const std::string& preset,
+                const std::vector<std::pair<std::string, std::function<void()>>>& words,
+                const std::string& help) {
+        std::vector<std::string> names;
+        for (const auto& [word, call] : words) names.push_back(word);
+        add_choice(name, names, preset, help,
+                   [words](std::size_t chosen) { words[chosen].second(); });
     }
 
   private:

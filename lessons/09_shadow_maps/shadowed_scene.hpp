@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -40,7 +41,8 @@ struct ShadowedScene : BumpyScene {
     /// Whether a material stops light: where it is lit itself (a sky or a bulb, illum 0, is not),
     /// and where none passes through (d is 1).
     bool casts(std::size_t material) const {
-        return effects[material].light && materials[material].opacity >= 1;
+        return effects[material].light && materials[material].opacity >= 1 &&
+               materials[material].alpha != AlphaMode::blend;
     }
 };
 
@@ -74,12 +76,16 @@ constexpr std::array<bool, 2> light_casts = {true, false};
 
 static_assert(margin_texels > most_pcf_radius);
 
+constexpr std::size_t most_lights = 16;
+constexpr std::size_t most_maps = 12;  ///< Of all lights: those of two lamps.
+
 /// A light and its depth maps.
 struct LightDepths {
     static constexpr std::size_t no_map = 6;
 
     Light light;
     std::vector<ShadowMap> maps;
+    std::size_t first_map = 0;               ///< Counted through all lights.
     std::array<std::size_t, 6> map_of_view;  ///< no_map where nothing can be in shadow.
     bool is_drawn = false;                   ///< Else the maps are there, but empty.
     bool has_faces = false;                  ///< The views are those of cube_face().
@@ -93,7 +99,7 @@ class Shadows {
     /// @param all_effects  Gives the other lights maps, too, with nothing in them.
     template <typename CounterPolicy>
     Shadows(const ShadowVariant& variant, bool all_effects, const ShadowedScene& scene,
-            std::span<const Light, light_casts.size()> lights, CounterPolicy& counters)
+            std::span<const Light> lights, CounterPolicy& counters)
         : Shadows(
               variant, all_effects, scene, lights, counters, [&](ShadowMap& map, bool is_drawn) {
                   map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
@@ -105,25 +111,40 @@ class Shadows {
 
     /// The same, drawn as `draw` does it.
     ///
-    /// @param draw  Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths, and
-    ///              draws the scene's casters, or nothing where a map stays empty.
+    /// @param lights  At most most_lights. One whose maps would be more than most_maps with those
+    ///                before it has none, and throws no shadow.
+    /// @param draw    Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths,
+    ///                and draws the scene's casters, or nothing where a map stays empty.
+    /// @param casts   For each light, whether it throws shadows.
     template <typename CounterPolicy, typename Draw>
     Shadows(const ShadowVariant& variant, bool all_effects, const ShadowedScene& scene,
-            std::span<const Light, light_casts.size()> lights, CounterPolicy& counters, Draw&& draw)
-        : radius_(variant.radius()), bias_(variant.bias) {
+            std::span<const Light> lights, CounterPolicy& counters, Draw&& draw,
+            std::span<const bool> casts = light_casts)
+        : radius_(variant.radius()), bias_(variant.bias), of_light_(lights.size()) {
+        assert(lights.size() <= most_lights && casts.size() >= lights.size());
+        std::size_t maps = 0;
         for (std::size_t l = 0; l < lights.size(); ++l) {
             of_light_[l].light = lights[l];
-            if (light_casts[l])
+            if (casts[l])
                 add_maps(of_light_[l], variant.size, scene, scene.casters, scene.receivers);
             of_light_[l].is_drawn = !of_light_[l].maps.empty();
             if (!of_light_[l].is_drawn && all_effects)
                 add_maps(of_light_[l], variant.size, scene, scene.bounds(), scene.bounds());
+            if (maps + of_light_[l].maps.size() > most_maps) {
+                of_light_[l].maps.clear();
+                of_light_[l].is_drawn = false;
+            }
+            of_light_[l].first_map = maps;
+            maps += of_light_[l].maps.size();
             for (ShadowMap& map : of_light_[l].maps) {
                 counters.add(Counter::shadow_passes);
                 draw(map, of_light_[l].is_drawn);
             }
         }
     }
+
+    /// How many maps a light has.
+    std::size_t maps_of(std::size_t light) const { return of_light_[light].maps.size(); }
 
   private:
     friend class TriangleShadows;
@@ -161,7 +182,7 @@ class Shadows {
 
     int radius_;
     Bias bias_;
-    std::array<LightDepths, light_casts.size()> of_light_;
+    std::vector<LightDepths> of_light_;
 };
 
 /// A surface gets all of a light from this cosine on; from there to 0, where it turns away, less
@@ -187,7 +208,7 @@ class TriangleShadows {
     /// where a surface is turned away from the light.
     template <typename CounterPolicy>
     void look_up(const LitPoints& points, CounterPolicy& counters) {
-        for (std::size_t l = 0; l < shares_.size(); ++l) {
+        for (std::size_t l = 0; l < shadows_.of_light_.size(); ++l) {
             if (shadows_.of_light_[l].maps.empty()) {
                 shares_[l].fill(1);
                 continue;
@@ -233,7 +254,7 @@ class TriangleShadows {
         if (map == LightDepths::no_map) return faded;
         counters.add(Counter::shadow_lookups);
         const bool is_back = glm::dot(front_, normal) < 0;
-        std::optional<Receiver>& of_side = receivers_[l][map][is_back];
+        std::optional<Receiver>& of_side = receivers_[of_light.first_map + map][is_back];
         if (!of_side)  // most triangles of a lamp are seen in one map, and from one side
             of_side = receiver(of_light.maps[map], shadows_.bias_, shadows_.radius_, corners_,
                                is_back ? -front_ : front_);
@@ -243,10 +264,9 @@ class TriangleShadows {
     const Shadows& shadows_;
     std::array<vec3, 3> corners_;
     vec3 front_;  ///< The flat triangle's normal, length 1; 0 where it has no area.
-    /// By light, map and side: front, back.
-    std::array<std::array<std::array<std::optional<Receiver>, 2>, 6>, light_casts.size()>
-        receivers_;
-    std::array<Numbers, light_casts.size()> shares_;
+    /// By map and side: front, back.
+    std::array<std::array<std::optional<Receiver>, 2>, most_maps> receivers_;
+    std::array<Numbers, most_lights> shares_;  ///< By light.
 };
 
 }  // namespace rasterbook

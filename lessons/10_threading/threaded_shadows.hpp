@@ -75,15 +75,22 @@ void draw_map(Pool& pool, ShadowMap& map, const ShadowedScene& scene, const Part
 /// The depth maps of all lights, as lesson 09 draws them.
 ///
 /// @param counters  One for each worker of the pool.
+/// @param casts     For each light, whether it throws shadows.
 template <typename Pool, typename CounterPolicy>
 Shadows draw_shadows(Pool& pool, const ThreadOptions& threads, const ShadowVariant& variant,
-                     bool all_effects, const ShadowedScene& scene,
-                     std::span<const Light, light_casts.size()> lights,
-                     WorkerCounters<CounterPolicy>& counters) {
+                     bool all_effects, const ShadowedScene& scene, std::span<const Light> lights,
+                     WorkerCounters<CounterPolicy>& counters,
+                     std::span<const bool> casts = light_casts) {
     const Parts parts = threads.parts_of(ivec2(variant.size), pool.size());
-    return {variant, all_effects, scene, lights, counters[0], [&](ShadowMap& map, bool is_drawn) {
+    return {variant,
+            all_effects,
+            scene,
+            lights,
+            counters[0],
+            [&](ShadowMap& map, bool is_drawn) {
                 draw_map(pool, map, scene, parts, is_drawn, counters);
-            }};
+            },
+            casts};
 }
 
 }  // namespace rasterbook
