@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Surfaces that are there in part: those with holes, and those that one sees through. Introduced
+/// in lesson 11; derivation: docs/derivations/11_scenes.md.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "common/image.hpp"
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+/// Whether a surface with holes is there (Eq. 11.6).
+///
+/// @param opacity  Any number; of NaN, there is a hole.
+inline bool is_there(float opacity, float cutoff) { return opacity >= cutoff; }
+
+/// A colour over what lies behind it (Eq. 11.7): exactly itself with an opacity of 1, exactly what
+/// lies behind with one of 0.
+///
+/// @param opacity      0 to 1.
+/// @param color,behind Finite.
+inline vec3 over(vec3 color, float opacity, vec3 behind) {
+    return opacity * color + (1 - opacity) * behind;
+}
+
+/// One layer in one pixel.
+struct Layer {
+    ivec2 pixel;
+    float depth;
+    float opacity;  ///< 0 to 1.
+    vec3 color;
+};
+
+/// The layers of a part of a picture, gathered in any order, drawn from back to front.
+///
+/// Sorted in each pixel by themselves: triangles that cut through each other, or overlap in a ring,
+/// have no order as a whole.
+class Layers {
+  public:
+    void add(const Layer& layer) { layers_.push_back(layer); }
+
+    bool empty() const { return layers_.empty(); }
+
+    /// Draws all of them over the picture (Eq. 11.8). Of two layers at the same depth, that which
+    /// was added first lies on top: it is the first that stays in the depth buffer, too.
+    void draw_over(Image<vec3>& color) {
+        order_.resize(layers_.size());
+        for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint32_t>(i);
+        std::ranges::sort(order_, [this](std::uint32_t a, std::uint32_t b) {
+            const Layer &first = layers_[a], &second = layers_[b];
+            return std::tuple(first.pixel.y, first.pixel.x, second.depth, b) <
+                   std::tuple(second.pixel.y, second.pixel.x, first.depth, a);
+        });
+        for (const std::uint32_t i : order_) {
+            vec3& pixel = color[layers_[i].pixel];
+            pixel = over(layers_[i].color, layers_[i].opacity, pixel);
+        }
+        layers_.clear();
+    }
+
+  private:
+    std::vector<Layer> layers_;
+    std::vector<std::uint32_t> order_;
+};
+
+}  // namespace rasterbook

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The plan of a picture in words: what runs, what does not and why, counters, and times.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "11_scenes/finished_scene.hpp"
+#include "common/counters.hpp"
+
+namespace rasterbook {
+
+/// Takes the times of a picture's steps.
+class StepClock {
+  public:
+    /// Ends the step before, if there is one.
+    void begin(const std::string& step) {
+        end();
+        is_over_ = false;
+        steps_.emplace_back(step, 0.0);
+        start_ = std::chrono::steady_clock::now();
+    }
+    void end() {
+        if (is_over_) return;
+        const auto now = std::chrono::steady_clock::now();
+        steps_.back().second = std::chrono::duration<double, std::milli>(now - start_).count();
+        is_over_ = true;
+    }
+
+    /// Each step and its milliseconds.
+    const std::vector<std::pair<std::string, double>>& steps() const { return steps_; }
+
+  private:
+    std::vector<std::pair<std::string, double>> steps_;
+    std::chrono::steady_clock::time_point start_;
+    bool is_over_ = true;
+};
+
+/// Takes its place where nobody asks for times: compiles to nothing.
+struct NoClock {
+    void begin(const char*) {}
+    void end() {}
+};
+
+/// A sum of many words, comma by comma.
+inline void add_word(std::string& words, const std::string& word) {
+    words += (words.empty() ? "" : ", ") + word;
+}
+
+/// Writes what of a scene is drawn and what is not.
+///
+/// @param camera    Its name.
+/// @param counters  Of the picture.
+inline void explain(std::ostream& out, const FinishedScene& scene, const std::string& camera,
+                    const Counters& counters, const StepClock& clock) {
+    std::size_t triangles = 0;
+    for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size();
+    out << scene.meshes.size() << " meshes, " << triangles << " triangles, "
+        << scene.materials.size() << " materials\n";
+    out << "camera: " << camera << '\n';
+    for (std::size_t l = 0; l < scene.lit_by.lights.size(); ++l) {
+        constexpr const char* kinds[] = {"sun", "lamp", "spot"};
+        const std::string& name = scene.lit_by.names[l];
+        out << "light: " << (name.empty() ? "unnamed" : name) << ", a "
+            << kinds[static_cast<std::size_t>(scene.lit_by.lights[l].kind)]
+            << (scene.lit_by.casts[l] ? "" : ", throws no shadows") << '\n';
+    }
+    out << "\neffects\n";
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const MaterialPlan& plan = scene.plan.materials[i];
+        if (!plan.is_seen) continue;
+        std::string on;
+        std::map<std::string, std::string> off;  // by the reason
+        for (std::size_t e = 0; e < effect_count; ++e)
+            if (plan.runs[e])
+                add_word(on, std::string(effect_names[e]));
+            else
+                add_word(off[plan.why_not[e]], std::string(effect_names[e]));
+        const std::string& name = scene.materials[i].name;
+        out << "  " << (name.empty() ? "(no name)" : name) << ": "
+            << (on.empty() ? "its own colour" : on) << "\n    skipped:";
+        const char* between = " ";
+        for (const auto& [reason, effects] : off) {
+            out << between << effects << " (" << reason << ')';
+            between = "; ";
+        }
+        out << '\n';
+    }
+    out << "\ncounters\n";
+    for (std::size_t i = 0; i < counter_names.size(); ++i)
+        out << "  " << counter_names[i] << ": " << counters.values[i] << '\n';
+    out << "\nmilliseconds\n";
+    for (const auto& [step, ms] : clock.steps()) {
+        std::ostringstream number;
+        number.precision(3);
+        number << ms;
+        out << "  " << step << ": " << number.str() << '\n';
+    }
+}
+
+}  // namespace rasterbook

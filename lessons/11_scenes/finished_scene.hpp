@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A scene of any file with all that it calls for. Introduced in lesson 11.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "09_shadow_maps/shadowed_scene.hpp"
+#include "10_threading/split.hpp"
+#include "11_scenes/scene_lights.hpp"
+#include "11_scenes/scene_plan.hpp"
+#include "11_scenes/toon_look.hpp"
+#include "common/backdrop.hpp"
+
+namespace rasterbook {
+
+/// A scene, its lights, its plan and its outlines.
+struct FinishedScene : ShadowedScene {
+    SceneLights lit_by;
+    ScenePlan plan;
+    std::vector<OutlineHull> hulls;
+    bool is_on_paper;  ///< All of it is a comic, with dark outlines: paper lies behind.
+
+    /// @param options  As of ShadowedScene, with LightOptions `shading`.
+    template <typename Options>
+    FinishedScene(Scene scene, const Options& options)
+        : ShadowedScene(with_outline_materials(std::move(scene)), options),
+          lit_by(lights_of(*this, options.shading.key_light, warnings)),
+          plan(*this, !lit_by.lights.empty(), has_shadows(),
+               options.normal_map.space != MapSpace::none, options.shading),
+          hulls(outline_hulls(*this)),
+          is_on_paper(plan.all(Effect::toon) && plan.any(Effect::outline)) {
+        for (const Material& material : materials)
+            if (!material.opacity_map.file.empty())
+                warnings.push_back("material \"" + material.name +
+                                   "\": map_d is passed over: holes are drawn for glTF files, by "
+                                   "the fourth number of their colour");
+        // What all_effects forces needs something to work on.
+        for (std::size_t i = 0; i < materials.size(); ++i)
+            if (plan.materials[i][Effect::toon] && !materials[i].toon)
+                materials[i].toon = ToonLook{.shade = materials[i].diffuse};
+        if (options.shading.all_effects)
+            for (Mesh& mesh : meshes)
+                if (mesh.colors.empty()) mesh.colors.assign(mesh.positions.size(), vec4(1));
+    }
+
+  private:
+    bool has_shadows() const {
+        return casters.min.x <= casters.max.x && receivers.min.x <= receivers.max.x;
+    }
+};
+
+/// Draws paper behind a part of a picture.
+inline void draw_paper(Image<vec3>& color, const Part& part) {
+    for_each_strip(part, [&](const PixelBox& strip) {
+        for (int y = strip.first.y; y <= strip.last.y; ++y)
+            for (int x = strip.first.x; x <= strip.last.x; ++x) color[{x, y}] = paper_color;
+    });
+}
+
+/// Triangles that are drawn together: those of materials that are opaque or are not, and that are
+/// seen from both sides or from the front alone.
+struct Pass {
+    const char* name;
+    bool is_blended, two_sided;
+    std::vector<const Mesh*> meshes;
+
+    bool takes(const FinishedScene& scene, std::size_t material) const {
+        const MaterialPlan& plan = scene.plan.materials[material];
+        return plan[Effect::blend] == is_blended && plan.two_sided == two_sided;
+    }
+};
+
+/// The passes that a scene calls for: opaque ones first, as blended ones are drawn over them.
+///
+/// @param meshes  Those in the camera's view: of the scene, and of outlines.
+inline std::vector<Pass> passes_of(const FinishedScene& scene,
+                                   std::span<const Mesh* const> meshes) {
+    std::vector<Pass> passes;
+    for (const Pass& kind :
+         {Pass{"opaque", false, false, {}}, Pass{"opaque, both sides", false, true, {}},
+          Pass{"blended", true, false, {}}, Pass{"blended, both sides", true, true, {}}}) {
+        Pass pass = kind;
+        for (const Mesh* const mesh : meshes)
+            for (const Triangle& triangle : mesh->triangles)
+                if (pass.takes(scene, triangle.material)) {
+                    pass.meshes.push_back(mesh);
+                    break;
+                }
+        if (!pass.meshes.empty()) passes.push_back(std::move(pass));
+    }
+    return passes;
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a scene can be asked for beside the knobs of the earlier lessons: `--quality`, `--camera`
+/// and `--explain`.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "05_textures/texture_variants.hpp"
+#include "09_shadow_maps/shadow_variants.hpp"
+#include "common/lesson_app.hpp"
+
+namespace rasterbook {
+
+/// The knobs that decide most of a picture's time and error, by what was measured: see
+/// docs/accuracy/05_textures.md and docs/accuracy/09_shadow_maps.md.
+struct Quality {
+    Filter filter;
+    int shadow_size, pcf, samples_per_side;
+};
+
+constexpr Quality fast{Filter::bilinear, 1024, 1, 1};
+constexpr Quality balanced{Filter::trilinear, 2048, 3, 1};
+constexpr Quality exact{Filter::trilinear, 4096, 3, 4};
+
+struct SceneOptions {
+    std::string camera;
+    bool explain = false;
+
+    /// To be called before the other knobs are declared: what they say counts more than --quality.
+    ///
+    /// @param options  LessonOptions with TextureOptions `texture` and ShadowVariant `shadow`.
+    template <typename Options>
+    void declare(Knobs& knobs, Options& options) {
+        const auto choose = [&options](const Quality& quality) {
+            options.texture.filter = quality.filter;
+            options.shadow.size = quality.shadow_size;
+            options.shadow.pcf = quality.pcf;
+            if (options.samples_per_side == LessonOptions().samples_per_side)
+                options.samples_per_side = quality.samples_per_side;
+        };
+        knobs.choice("--quality", "balanced",
+                     {{"fast", [=] { choose(fast); }},
+                      {"balanced", [=] { choose(balanced); }},
+                      {"exact", [=] { choose(exact); }}},
+                     "Sets --filter, --shadow-size, --pcf and --samples together");
+        knobs.text("--camera", camera, "NAME|NUMBER|orbit",
+                   "One of the file's cameras [the first one, if no orbit is asked for]");
+        knobs.flag("--explain", explain,
+                   "Say what is drawn, what is left out and why, and how long it takes");
+    }
+};
+
+}  // namespace rasterbook
