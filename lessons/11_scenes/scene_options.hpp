@@ -22,9 +22,9 @@ struct Quality {
     int shadow_size, pcf, samples_per_side;
 };
 
-constexpr Quality fast{Filter::bilinear, 1024, 1, 1};
-constexpr Quality balanced{Filter::trilinear, 2048, 3, 1};
-constexpr Quality exact{Filter::trilinear, 4096, 3, 4};
+constexpr Quality fast_quality{Filter::bilinear, 1024, 1, 1};
+constexpr Quality balanced_quality{Filter::trilinear, 2048, 3, 1};
+constexpr Quality exact_quality{Filter::trilinear, 4096, 3, 4};
 
 struct SceneOptions {
     std::string camera;
@@ -43,9 +43,9 @@ struct SceneOptions {
                 options.samples_per_side = quality.samples_per_side;
         };
         knobs.choice("--quality", "balanced",
-                     {{"fast", [=] { choose(fast); }},
-                      {"balanced", [=] { choose(balanced); }},
-                      {"exact", [=] { choose(exact); }}},
+                     {{"fast", [=] { choose(fast_quality); }},
+                      {"balanced", [=] { choose(balanced_quality); }},
+                      {"exact", [=] { choose(exact_quality); }}},
                      "Sets --filter, --shadow-size, --pcf and --samples together");
         knobs.text("--camera", camera, "NAME|NUMBER|orbit",
                    "One of the file's cameras [the first one, if no orbit is asked for]");

@@ -1,0 +1,452 @@
+// SPDX-License-Identifier: MIT
+// Pictures of scenes: only what is called for, the same bits with all of it, files and cameras.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+// All that the lesson's main.cpp includes, so that it can be included within a namespace.
+#include <iostream>
+
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "05_textures/textured_scene.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "08_normal_maps/normal_map_variants.hpp"
+#include "09_shadow_maps/shadow_variants.hpp"
+#include "10_threading/binned_triangles.hpp"
+#include "10_threading/thread_options.hpp"
+#include "10_threading/thread_pool.hpp"
+#include "10_threading/threaded_shadows.hpp"
+#include "11_scenes/explain.hpp"
+#include "11_scenes/finished_scene.hpp"
+#include "11_scenes/kernels.hpp"
+#include "11_scenes/scene_camera.hpp"
+#include "11_scenes/scene_options.hpp"
+#include "common/backdrop.hpp"
+#include "common/lesson_app.hpp"
+#include "common/model_file.hpp"
+#include "support/golden.hpp"
+#include "support/lesson_process.hpp"
+#include "support/look_up.hpp"
+#include "support/pretend_pool.hpp"
+#include "support/printers.hpp"
+
+#define main main_of_lesson
+namespace lesson {
+#include "11_scenes/main.cpp"
+}
+#undef main
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr std::array scenes = {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"};
+
+Scene loaded(const char* name) {
+    return load_model(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name);
+}
+
+lesson::Options small_picture(ivec2 size = {160, 90}) {
+    lesson::Options options;
+    options.size = size;
+    options.shadow.size = 128;
+    options.threads.tile = 16;
+    return options;
+}
+
+/// A picture, and what was done to make it.
+struct Drawn {
+    Image<vec3> picture;
+    Counters counters;
+
+    std::uint64_t count(Counter counter) const {
+        return counters.values[static_cast<std::size_t>(counter)];
+    }
+};
+
+Drawn drawn(Scene scene, const lesson::Options& options) {
+    const FinishedScene finished(std::move(scene), options);
+    ThreadPool pool(2);
+    NoClock no_clock;
+    Drawn result;
+    result.picture = lesson::render(options, finished, pool, result.counters, no_clock);
+    return result;
+}
+
+bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+/// Work of effects.
+const std::map<Effect, std::vector<Counter>> work_of = {
+    {Effect::light, {Counter::fragments_lit}},
+    {Effect::highlight, {Counter::highlights}},
+    {Effect::texture, {Counter::texture_samples}},
+    {Effect::vertex_colors, {Counter::colored_fragments}},
+    {Effect::normal_map, {Counter::normal_map_samples, Counter::meshes_with_tangents}},
+    {Effect::shadow, {Counter::shadow_passes, Counter::shadow_lookups}},
+    {Effect::toon, {Counter::toon_fragments}},
+    {Effect::mask, {Counter::masked_fragments}},
+    {Effect::blend, {Counter::blended_fragments}}};
+
+/// A scene of squares of side 2 around (0, 0, z), as seen by a camera far in front of them: each
+/// covers the picture. Unlit, unless a test says otherwise.
+class Squares {
+  public:
+    Scene scene;
+
+    Squares() {
+        scene.materials.resize(1);
+        scene.cameras = {{"front", translation(vec3(0, 0, 10)), 0.15f, 1, 100}};
+    }
+
+    /// @param tilt  The depth grows by so much from the left side to the right one.
+    Material& add(float z, vec3 color, float tilt = 0) {
+        Mesh mesh;
+        mesh.positions = {
+            {-1, -1, z + tilt}, {1, -1, z - tilt}, {1, 1, z - tilt}, {-1, 1, z + tilt}};
+        mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        mesh.normals = {{0, 0, 1}};
+        const auto material = static_cast<std::uint32_t>(scene.materials.size());
+        const auto corner = [](std::uint32_t i) { return Corner{i, i, 0}; };
+        mesh.triangles = {{{corner(0), corner(1), corner(2)}, material},
+                          {{corner(0), corner(2), corner(3)}, material}};
+        for (const vec3 p : mesh.positions) mesh.bounds.add(p);
+        scene.meshes.push_back(mesh);
+        Material& added = scene.materials.emplace_back();
+        added.name = "square " + std::to_string(material);
+        added.illumination = 0;
+        added.diffuse = added.ambient = color;
+        return added;
+    }
+
+    Material& add_glass(float z, vec3 color, float opacity, float tilt = 0) {
+        Material& glass = add(z, color, tilt);
+        glass.alpha = AlphaMode::blend, glass.opacity = opacity;
+        return glass;
+    }
+
+    vec3 middle() const { return drawn(scene, small_picture({8, 8})).picture[{5, 3}]; }
+};
+
+}  // namespace
+
+TEST(SceneFiles, HardCase_WhatASceneDoesNotCallForTakesNoWork) {
+    look_up("Eq. 11.3");
+    std::map<Effect, int> off, on;
+    for (const char* name : scenes) {
+        SCOPED_TRACE(name);
+        const lesson::Options options = small_picture();
+        const FinishedScene scene(loaded(name), options);
+        const Drawn picture = drawn(loaded(name), options);
+        EXPECT_GT(picture.count(Counter::fragments_shaded), 2000u);
+        for (const auto& [effect, counters] : work_of) {
+            SCOPED_TRACE(effect_names[static_cast<std::size_t>(effect)]);
+            // A comic's fragments are counted among the lit ones.
+            const bool runs =
+                scene.plan.any(effect) || (effect == Effect::light && scene.plan.any(Effect::toon));
+            ++(runs ? on : off)[effect];
+            for (const Counter counter : counters) {
+                SCOPED_TRACE(counter_names[static_cast<std::size_t>(counter)]);
+                EXPECT_EQ(picture.count(counter) > 0, runs);
+            }
+        }
+        EXPECT_EQ(picture.count(Counter::outline_tests), 0u) << "an outline is a mesh here";
+    }
+    for (const auto& [effect, counters] : work_of)
+        EXPECT_GT(off[effect], 0) << effect_names[static_cast<std::size_t>(effect)];
+    for (const Effect effect : {Effect::light, Effect::highlight, Effect::texture, Effect::toon,
+                                Effect::vertex_colors, Effect::normal_map, Effect::shadow})
+        EXPECT_GT(on[effect], 0) << effect_names[static_cast<std::size_t>(effect)];
+}
+
+TEST(SceneFiles, HardCase_AllEffectsForcedGiveTheSameBits) {
+    look_up("Eq. 11.3");
+    for (const char* name : {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb", "crate.obj",
+                             "scene_bumpy.obj", "figure.obj"}) {
+        SCOPED_TRACE(name);
+        lesson::Options options = small_picture();
+        const Drawn plain = drawn(loaded(name), options);
+        options.shading.all_effects = true;
+        const Drawn forced = drawn(loaded(name), options);
+        EXPECT_TRUE(are_the_same_bits(plain.picture, forced.picture));
+        EXPECT_GT(forced.count(Counter::colored_fragments), 1000u);
+        EXPECT_GT(forced.count(Counter::blended_fragments), 1000u);
+        EXPECT_GT(forced.count(Counter::texture_samples), 1000u);
+        EXPECT_GT(forced.count(Counter::toon_fragments) + forced.count(Counter::highlights), 1000u);
+    }
+}
+
+TEST(SceneFiles, HardCase_AnyThreadsAndOrderGiveTheSameBits) {
+    look_up("Eq. 11.8");
+    Squares glass;  // panes that cut through each other, and are gathered in each tile's own order
+    for (const float tilt : {-1.0f, 0.5f, 1.0f, 0.0f, -0.25f})
+        glass.add_glass(0, vec3(0.5f + 0.5f * tilt, 0.25f, 0.5f - 0.5f * tilt), 0.5f, tilt);
+    std::vector<Scene> all = {glass.scene};
+    for (const char* name : scenes) all.push_back(loaded(name));
+    for (const Scene& model : all) {
+        lesson::Options options = small_picture();
+        const FinishedScene scene(model, options);
+        NoCounters none;
+        NoClock no_clock;
+        std::optional<Image<vec3>> expected;
+        for (const int threads : {1, 2, 3, 7, 16})
+            for (const Split split : {Split::rows, Split::interleaved, Split::tiles}) {
+                options.threads.split = split;
+                options.threads.tile = 8 + threads;
+                ThreadPool pool(threads);
+                Image<vec3> picture = lesson::render(options, scene, pool, none, no_clock);
+                if (!expected)
+                    expected = std::move(picture);
+                else
+                    EXPECT_TRUE(are_the_same_bits(picture, *expected)) << threads;
+                ShuffledPool shuffled(static_cast<std::size_t>(threads), 7);
+                EXPECT_TRUE(are_the_same_bits(
+                    lesson::render(options, scene, shuffled, none, no_clock), *expected));
+            }
+    }
+}
+
+TEST(SceneFiles, Eq11_6_ThroughAHoleIsSeenWhatLiesBehind) {
+    for (const bool leaf_first : {true, false})
+        for (const float opacity : {0.5f, 0.4999f}) {
+            Squares squares;
+            const auto add_leaf = [&] {
+                Material& leaf = squares.add(1, vec3(0, 1, 0));
+                leaf.alpha = AlphaMode::mask, leaf.opacity = opacity;
+            };
+            if (leaf_first) add_leaf();
+            squares.add(0, vec3(1, 0, 0));
+            if (!leaf_first) add_leaf();
+            EXPECT_EQ(squares.middle(), opacity < 0.5f ? vec3(1, 0, 0) : vec3(0, 1, 0));
+        }
+    // The opacity is that of material and corners together.
+    Squares squares;
+    squares.add(0, vec3(1, 0, 0));
+    Material& leaf = squares.add(1, vec3(0, 1, 0));
+    leaf.alpha = AlphaMode::mask, leaf.opacity = 0.9f;
+    squares.scene.meshes[1].colors.assign(4, vec4(1, 0.5f, 1, 0.5f));
+    EXPECT_EQ(squares.middle(), vec3(1, 0, 0));
+    leaf.alpha_cutoff = 0.45f;
+    EXPECT_EQ(squares.middle(), vec3(0, 0.5f, 0)) << "and they are coloured";
+    const Drawn picture = drawn(squares.scene, small_picture({8, 8}));
+    EXPECT_EQ(picture.count(Counter::masked_fragments), 64u);
+    EXPECT_EQ(picture.count(Counter::colored_fragments), 64u);
+    EXPECT_EQ(picture.count(Counter::blended_fragments), 0u);
+}
+
+TEST(SceneFiles, Eq11_8_PanesThatCutThroughEachOtherAreRightInEachPixel) {
+    const vec3 red(1, 0, 0), blue(0, 0, 1), white(1);
+    for (const bool red_first : {true, false}) {
+        Squares squares;
+        if (red_first) squares.add_glass(0, red, 0.5f, 0.5f);
+        squares.add_glass(0, blue, 0.5f, -0.5f);
+        if (!red_first) squares.add_glass(0, red, 0.5f, 0.5f);
+        squares.add(-2, white);         // after the glass in the file, and seen through it
+        squares.add_glass(-3, red, 1);  // hidden
+        const Drawn picture = drawn(squares.scene, small_picture({16, 16}));
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)  // red is nearer on the left
+                EXPECT_EQ((picture.picture[{x, y}]),
+                          x < 8 ? vec3(0.75f, 0.25f, 0.5f) : vec3(0.5f, 0.25f, 0.75f))
+                    << x << " " << y;
+        EXPECT_EQ(picture.count(Counter::blended_fragments), 512u) << "not what is hidden";
+        EXPECT_EQ(picture.count(Counter::fragments_shaded), 768u);
+    }
+}
+
+TEST(SceneFiles, Eq11_10_CornersOfOneColourHaveItEverywhere) {
+    Squares squares;
+    squares.add(0, vec3(0.7f, 0.3f, 0.9f), 0.8f);
+    const Drawn plain = drawn(squares.scene, small_picture({64, 64}));
+    squares.scene.meshes[0].colors.assign(4, vec4(1));
+    const Drawn white = drawn(squares.scene, small_picture({64, 64}));
+    EXPECT_TRUE(are_the_same_bits(plain.picture, white.picture));
+    EXPECT_GT(white.count(Counter::colored_fragments), 1000u);
+    squares.scene.meshes[0].colors.assign(4, vec4(0.1f, 0.2f, 0.3f, 1));
+    const Drawn tinted = drawn(squares.scene, small_picture({64, 64}));
+    for (std::size_t i = 0; i < plain.picture.pixels().size(); ++i)
+        ASSERT_EQ(tinted.picture.pixels()[i], plain.picture.pixels()[i] * vec3(0.1f, 0.2f, 0.3f));
+    // From black on the left to white on the right, evenly: the camera is far away.
+    Squares ramp;
+    ramp.add(0, vec3(1));
+    ramp.scene.meshes[0].colors = {vec4(0), vec4(1), vec4(1), vec4(0)};
+    const Image<vec3> picture = drawn(ramp.scene, small_picture({16, 16})).picture;
+    const float half_width = 10 * std::tan(0.075f);  // of what is seen of it
+    for (int x = 0; x < 16; ++x) {
+        const float place = (static_cast<float>(x) + 0.5f) / 8 - 1;
+        // Corners lie within half a sub-pixel of their place, and the square is 22 pixels wide.
+        EXPECT_NEAR((picture[{x, 8}].r), 0.5f + 0.5f * place * half_width, 1.0f / 256 / 20) << x;
+    }
+}
+
+TEST(SceneFiles, HardCase_BacksAreSeenOfWhatHasTwoSidesAlone) {
+    look_up("Eq. 11.8");
+    for (const bool is_glass : {false, true})
+        for (const bool two_sided : {false, true}) {
+            Squares squares;
+            Material& square = squares.add(0, vec3(1, 0, 0));
+            square.two_sided = two_sided;
+            if (is_glass) square.alpha = AlphaMode::blend;
+            for (Triangle& triangle : squares.scene.meshes[0].triangles)
+                std::swap(triangle.corners[1], triangle.corners[2]);
+            EXPECT_EQ(squares.middle() == vec3(1, 0, 0), two_sided);
+        }
+}
+
+TEST(SceneFiles, HardCase_EmptyScenesAreTheBackdrop) {
+    look_up("Eq. 11.3");
+    Scene empty;
+    empty.materials.resize(1);
+    for (const bool all_effects : {false, true}) {
+        lesson::Options options = small_picture();
+        options.shading.all_effects = all_effects;
+        EXPECT_TRUE(is_backdrop(drawn(empty, options).picture));
+        EXPECT_EQ(drawn({}, options).count(Counter::shadow_passes), 0u);
+    }
+}
+
+TEST(SceneFiles, HardCase_GlassThrowsNoShadow) {
+    look_up("Eq. 11.7");
+    for (const bool is_glass : {false, true}) {
+        Squares squares;
+        squares.add(0, vec3(1)).illumination = 1;
+        Material& above = squares.add(1, vec3(1));
+        above.illumination = 1;
+        if (is_glass) above.alpha = AlphaMode::blend, above.opacity = 0.5f;
+        squares.scene.lights = {{"sun", SceneLight::Kind::directional, vec3(3), vec3(0),
+                                 vec3(0, 0, -1), std::numeric_limits<float>::infinity()}};
+        EXPECT_EQ(drawn(squares.scene, small_picture()).count(Counter::shadow_fragments) > 0, true);
+        const FinishedScene scene(squares.scene, small_picture());
+        EXPECT_EQ(scene.casts(2), !is_glass);
+        EXPECT_TRUE(scene.casts(1));
+    }
+}
+
+TEST(SceneFiles, HardCase_WhatIsNotSupportedIsNamed) {
+    look_up("Eq. 11.1");
+    Squares squares;
+    squares.add(0, vec3(1)).opacity_map.file = "holes.png";
+    const FinishedScene scene(squares.scene, small_picture());
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("\"square 1\": map_d"), std::string::npos);
+    const ProcessResult wrong =
+        run_program("11_scenes", {"--model", "toon.glb", "--camera", "side", "--size", "32x18",
+                                  "--out", (fresh_folder("no_camera") / "a.png").string()});
+    EXPECT_EQ(wrong.exit_status, 1);
+    EXPECT_EQ(wrong.err,
+              "error: there is no camera 'side'; the file has 0 \"front\"; or --camera orbit\n");
+}
+
+TEST(SceneFiles, HardCase_NumbersThatAreNoneAreAnErrorInOneLine) {
+    look_up("Eq. 11.1");
+    const auto folder = fresh_folder("not_numbers");
+    std::ofstream(folder / "bad.obj") << "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n";
+    const auto run = [&](const char* file) {
+        return run_program("11_scenes", {"--model", (folder / file).string(), "--size", "32x18",
+                                         "--out", (folder / "a.png").string()});
+    };
+    const ProcessResult obj = run("bad.obj");
+    EXPECT_EQ(obj.exit_status, 1);
+    EXPECT_EQ(std::ranges::count(obj.err, '\n'), 1) << obj.err;
+    EXPECT_NE(obj.err.find("bad.obj:2: "), std::string::npos) << obj.err;
+    std::ofstream(folder / "bad.gltf")
+        << R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "translation": [1e300, 0, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}]})";
+    const ProcessResult gltf = run("bad.gltf");
+    EXPECT_EQ(gltf.exit_status, 1);
+    EXPECT_EQ(std::ranges::count(gltf.err, '\n'), 1) << gltf.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
+TEST(SceneFiles, HardCase_TheFinishedRendererDrawsLesson10sPicture) {
+    look_up("Eq. 11.3");
+    const auto folder = fresh_folder("as_lesson_10");
+    for (const std::vector<std::string>& knobs :
+         {std::vector<std::string>{}, {"--light", "lamp"}, {"--light", "spot", "--two-sided"}}) {
+        std::array<std::string, 2> bytes;
+        for (const auto& [i, name] : {std::pair{0u, "10_threading"}, {1u, "11_scenes"}}) {
+            const std::string file = (folder / name).string() + ".png";
+            std::vector<std::string> arguments = {
+                "--model", "scene_bumpy.obj", "--size", "320x180", "--shadow-size",
+                "512",     "--out",           file};
+            arguments.insert(arguments.end(), knobs.begin(), knobs.end());
+            ASSERT_EQ(run_program(name, arguments).exit_status, 0);
+            bytes[i] = read_text(file);
+        }
+        ASSERT_FALSE(bytes[0].empty());
+        EXPECT_EQ(bytes[0] == bytes[1], true);
+    }
+}
+
+TEST(SceneFiles, HardCase_ThePlanIsExplained) {
+    look_up("Eq. 11.3");
+    const std::string file = (fresh_folder("explained") / "a.png").string();
+    const ProcessResult run =
+        run_program("11_scenes", {"--model", "bumpy.glb", "--explain", "--size", "64x36",
+                                  "--shadow-size", "64", "--out", file});
+    ASSERT_EQ(run.exit_status, 0) << run.err;
+    for (const char* line :
+         {"camera: 0 \"front\" of the file\n", "light: sun, a sun\n", "light: lamp, a spot\n",
+          "  copper: light, highlight, texture, normal map, shadow\n",
+          "  tea: light, highlight, shadow\n", "normal map (names none)", "mask, blend (opaque)",
+          "  toon_fragments: 0\n", "  shadow_passes: 2\n",
+          "  shadow maps: ", "  triangles: ", "  picture: "})
+        EXPECT_NE(run.out.find(line), std::string::npos) << line << "\n" << run.out;
+}
+
+TEST(SceneFiles, HardCase_QualitySetsWhatNoOtherKnobSays) {
+    look_up("Eq. 11.3");
+    const auto folder = fresh_folder("quality");
+    const auto bytes_of = [&](std::vector<std::string> arguments) {
+        const std::string file = (folder / "a.bmp").string();
+        arguments.insert(arguments.end(),
+                         {"--model", "textured.gltf", "--size", "64x36", "--out", file});
+        EXPECT_EQ(run_program("11_scenes", arguments).exit_status, 0);
+        return read_text(file);
+    };
+    const std::string balanced_bytes = bytes_of({});
+    EXPECT_EQ(bytes_of({"--quality", "balanced"}), balanced_bytes);
+    const std::string fast_bytes = bytes_of({"--quality", "fast"});
+    EXPECT_NE(fast_bytes, balanced_bytes);
+    EXPECT_EQ(fast_bytes,
+              bytes_of({"--filter", "bilinear", "--shadow-size", "1024", "--pcf", "1"}));
+    EXPECT_EQ(bytes_of({"--filter", "trilinear", "--pcf", "3", "--quality", "fast"}),
+              bytes_of({"--shadow-size", "1024"}))
+        << "in whatever order they are given";
+    EXPECT_EQ(bytes_of({"--quality", "exact"}),
+              bytes_of({"--shadow-size", "4096", "--samples", "16"}));
+}
+
+TEST(SceneFiles, PictureOfReliefInALowSun) { EXPECT_TRUE(equals_golden("11_scenes", "11_scenes")); }
+
+TEST(SceneFiles, PictureOfBakedLight) {
+    EXPECT_TRUE(equals_golden("11_scenes", "11_scenes_unlit", {"--model", "unlit.glb"}));
+}
+
+TEST(SceneFiles, PictureOfCrates) {
+    EXPECT_TRUE(equals_golden("11_scenes", "11_scenes_textured", {"--model", "textured.gltf"}));
+}
+
+TEST(SceneFiles, PictureOfARobot) {
+    EXPECT_TRUE(
+        equals_golden("11_scenes", "11_scenes_toon", {"--model", "toon.glb", "--samples", "4"}));
+}

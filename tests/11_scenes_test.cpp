@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+// Lights of files, kernels, a comic's paint and outline, holes, layers, corners' colours.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "11_scenes/blending.hpp"
+#include "11_scenes/finished_scene.hpp"
+#include "11_scenes/kernels.hpp"
+#include "11_scenes/scene_camera.hpp"
+#include "11_scenes/scene_lights.hpp"
+#include "11_scenes/toon_look.hpp"
+#include "support/look_up.hpp"
+#include "support/printers.hpp"
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+constexpr double pi = 3.14159265358979323846;
+
+SceneLight file_light(SceneLight::Kind kind, vec3 color) {
+    return {"lamp",        kind,           color,
+            vec3(1, 2, 3), vec3(0, -1, 0), std::numeric_limits<float>::infinity()};
+}
+
+}  // namespace
+
+TEST(Scenes, Eq11_1_ASunOfPiLuxMakesAWhiteSurfaceWhite) {
+    const Light sun =
+        light_of(file_light(SceneLight::Kind::directional, vec3(lux_of_white, 2, 0)), 7);
+    EXPECT_EQ(sun.kind, LightKind::directional);
+    EXPECT_EQ(sun.direction_world, vec3(0, 1, 0)) << "towards the light; the file has it from it";
+    const Incoming incoming = incoming_light(sun, vec3(50, -4, 9));
+    EXPECT_EQ(incoming.color.r, 1);
+    EXPECT_NEAR(incoming.color.g, 2 / pi, 2e-7);  // an ulp of a quotient, and of pi in float
+    EXPECT_EQ(incoming.color.b, 0);
+}
+
+TEST(Scenes, Eq11_2_ALampsLightFallsWithTheSquareOfTheDistance) {
+    constexpr float radius = 4;
+    const Light lamp = light_of(file_light(SceneLight::Kind::point, vec3(60)), radius);
+    EXPECT_EQ(lamp.position_world, vec3(1, 2, 3));
+    const double size = double{lamp_size} * radius;
+    for (const double distance : {0.0, 0.25, 0.5, 1.0, 3.0, 40.0}) {
+        const vec3 point = lamp.position_world + vec3(0, -distance, 0);
+        const double arriving = incoming_light(lamp, point).color.r;
+        // A dozen roundings on the way.
+        const double exact = 60 / pi / (distance * distance + size * size);
+        EXPECT_NEAR(arriving, exact, 1e-6 * exact) << distance;
+        if (distance >= 11 * size) {
+            const double of_a_point = 60 / pi / (distance * distance);
+            EXPECT_NEAR(arriving, of_a_point, 0.01 * of_a_point) << distance;
+        }
+    }
+    EXPECT_NEAR(incoming_light(lamp, vec3(1, 2, 8)).color.r, 60 / (25 * pi), 1e-3) << "as worked";
+}
+
+TEST(Scenes, HardCase_LampsOfScenesOfAnySizeAreFinite) {
+    look_up("Eq. 11.2");
+    for (const float radius : {1e-37f, 1e-10f, 1.0f, 1e10f, 3e38f})
+        for (const SceneLight::Kind kind : {SceneLight::Kind::point, SceneLight::Kind::spot}) {
+            const Light lamp = light_of(file_light(kind, vec3(1e30f, 1, 0)), radius);
+            EXPECT_GE(lamp.half_distance, std::numeric_limits<float>::min());
+            for (const vec3 point : {vec3(1, 2, 3), vec3(0), vec3(1e30f), vec3(-5, 1, 2)}) {
+                const vec3 color = incoming_light(lamp, point).color;
+                EXPECT_TRUE(std::isfinite(color.r) && std::isfinite(color.g)) << radius;
+                EXPECT_EQ(color.b, 0);
+            }
+        }
+}
+
+TEST(Scenes, HardCase_MoreLightsThanAreDrawnWithAreNamed) {
+    look_up("Eq. 11.1");
+    Scene scene;
+    for (std::size_t i = 0; i < most_lights + 2; ++i) {
+        scene.lights.push_back(file_light(SceneLight::Kind::point, vec3(1)));
+        scene.lights.back().name = "lamp " + std::to_string(i);
+    }
+    std::vector<std::string> warnings;
+    const SceneLights lights = lights_of(scene, LightKind::directional, warnings);
+    EXPECT_EQ(lights.lights.size(), most_lights);
+    EXPECT_TRUE(lights.are_of_file);
+    EXPECT_TRUE(std::ranges::all_of(lights.casts, [](bool casts) { return casts; }));
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_NE(warnings[0].find("\"lamp 16\""), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[1].find("\"lamp 17\""), std::string::npos) << warnings[1];
+    scene.lights.clear();
+    const SceneLights own = lights_of(scene, LightKind::spot, warnings);
+    ASSERT_EQ(own.lights.size(), 2u) << "those of lesson 09";
+    EXPECT_EQ(own.lights[0].kind, LightKind::spot);
+    EXPECT_TRUE(own.casts[0] && !own.casts[1] && !own.are_of_file);
+}
+
+TEST(Scenes, Eq11_3_EachSetOfEffectsHasAKernelWithAllOfThem) {
+    std::set<std::size_t> used;
+    for (unsigned bits = 0; bits < 1u << effect_count; ++bits) {
+        MaterialPlan plan;
+        for (std::size_t e = 0; e < effect_count; ++e) plan.runs[e] = bits >> e & 1;
+        const std::size_t kernel = kernel_of(plan);
+        ASSERT_LT(kernel, all_kernels.size());
+        used.insert(kernel);
+        const KernelEffects effects = all_kernels[kernel];
+        const bool toon = plan[Effect::toon], light = plan[Effect::light];
+        EXPECT_EQ(effects.look, toon ? Look::toon : light ? Look::phong : Look::unlit);
+        EXPECT_EQ(effects.see_through, plan[Effect::mask] || plan[Effect::blend]);
+        if (!toon && !light) {
+            EXPECT_FALSE(effects.normal_map || effects.shadow) << "no light: nothing to tilt";
+            continue;
+        }
+        EXPECT_TRUE(effects.normal_map || !plan[Effect::normal_map]);
+        EXPECT_TRUE(effects.shadow || !plan[Effect::shadow]);
+        if (light && !toon && !effects.see_through) {  // the common ones have no more than asked
+            EXPECT_EQ(effects.normal_map, plan[Effect::normal_map]);
+            EXPECT_EQ(effects.shadow, plan[Effect::shadow]);
+        }
+    }
+    EXPECT_EQ(used.size(), all_kernels.size()) << "none is compiled for nothing";
+}
+
+TEST(Scenes, Eq11_4_TheBorderOfTheLight) {
+    const auto look = [](float toony, float shift) {
+        return ToonLook{.toony = toony, .shift = shift};
+    };
+    // The worked example: toony 0.95, shift -0.1.
+    EXPECT_EQ(toon_step(0.0f, look(0.95f, -0.1f)), 0);
+    EXPECT_NEAR(toon_step(0.1f, look(0.95f, -0.1f)), 0.5, 1e-6);  // 1 - 0.95 has 1e-6 of error
+    EXPECT_EQ(toon_step(0.2f, look(0.95f, -0.1f)), 1);
+    // Sharp: light from the threshold on.
+    EXPECT_EQ(toon_step(0.0f, look(1, 0)), 1);
+    EXPECT_EQ(toon_step(std::nextafter(0.0f, -1.0f), look(1, 0)), 0);
+    EXPECT_EQ(toon_step(-0.25f, look(1, 0.25f)), 1) << "a positive shift makes the lit side larger";
+    EXPECT_EQ(toon_step(-0.251f, look(1, 0.25f)), 0);
+    // As wide as the sphere: half of Lambert's way from one side to the other.
+    for (const float cosine : {-1.0f, -0.5f, 0.0f, 0.25f, 1.0f})
+        EXPECT_EQ(toon_step(cosine, look(0, 0)), 0.5f + 0.5f * cosine);
+    for (const float toony : {0.0f, 0.3f, 1.0f}) EXPECT_EQ(toon_step(nan_value, look(toony, 0)), 0);
+    for (const float toony : {0.0f, 0.5f, 0.9f, 1.0f})
+        for (const float shift : {-1.0f, -0.2f, 0.0f, 1.0f}) {
+            float last = 0;
+            for (int i = -100; i <= 100; ++i) {
+                const float step = toon_step(static_cast<float>(i) / 100, look(toony, shift));
+                EXPECT_GE(step, last);
+                EXPECT_LE(step, 1);
+                last = step;
+            }
+        }
+}
+
+TEST(Scenes, Eq11_5_OnlyHowBrightLightsAreBesideEachOtherCounts) {
+    const ToonLook sharp{.toony = 1};
+    const vec3 up(0, 1, 0);
+    const auto all = [](std::size_t) { return 1.0f; };
+    for (const float bright : {1e-6f, 0.3f, 1.0f, 1e6f}) {
+        const std::array sun = {Light{LightKind::directional, vec3(bright, 0, 0), up}};
+        EXPECT_EQ(toon_level(sun, vec3(0), 5.0f * up, sharp, all), 1) << bright;
+        EXPECT_EQ(toon_level(sun, vec3(0), -up, sharp, all), 0);
+        EXPECT_EQ(toon_level(sun, vec3(0), up, sharp, [](std::size_t) { return 0.5f; }), 1);
+        EXPECT_EQ(toon_level(sun, vec3(0), up, sharp, [](std::size_t) { return 0.49f; }), 0);
+    }
+    // The worked example: the sun is behind, and the sky of a quarter of its brightness is not.
+    const std::array lights = {Light{LightKind::directional, vec3(2, 1, 1), -up},
+                               Light{LightKind::directional, vec3(0.1f, 0.5f, 0.2f), up}};
+    EXPECT_EQ(toon_level(lights, vec3(0), up, sharp, all), 0.25f);
+    EXPECT_EQ(toon_level(lights, vec3(0), -up, sharp, all), 1);
+    const std::array both = {lights[0], Light{LightKind::directional, vec3(2), -up}};
+    EXPECT_EQ(toon_level(both, vec3(0), -up, sharp, all), 1) << "not more than lit";
+    // No light, no normal, no number.
+    EXPECT_EQ(toon_level({}, vec3(0), up, sharp, all), 0);
+    EXPECT_EQ(
+        toon_level(std::array{Light{LightKind::directional, vec3(0), up}}, vec3(0), up, sharp, all),
+        0);
+    EXPECT_EQ(toon_level(lights, vec3(0), vec3(nan_value), {.toony = 0.5f}, all), 0.625f)
+        << "without a normal as if all lights grazed it";
+    for (const float level : {0.0f, 0.3f, 1.0f})
+        EXPECT_EQ(toon_paint(vec3(0.1f, 0.7f, 3), vec3(0.1f, 0.7f, 3), level), vec3(0.1f, 0.7f, 3));
+    EXPECT_EQ(toon_paint(vec3(0.25f), vec3(0.75f), 0.5f), vec3(0.5f));
+}
+
+TEST(Scenes, Eq11_6_AtTheCutoffASurfaceIsThere) {
+    EXPECT_TRUE(is_there(0.5f, 0.5f));
+    EXPECT_FALSE(is_there(std::nextafter(0.5f, 0.0f), 0.5f));
+    EXPECT_TRUE(is_there(0, 0));
+    EXPECT_FALSE(is_there(1, 1.01f)) << "a cutoff above 1: all of it is a hole";
+    EXPECT_FALSE(is_there(nan_value, 0.5f));
+}
+
+TEST(Scenes, Eq11_7_OverIsExactAtBothEnds) {
+    std::mt19937 random(11);
+    const auto number = [&] { return static_cast<float>(random()) * 0x1p-30f; };
+    for (int k = 0; k < 10000; ++k) {
+        const vec3 color(number(), number(), number()), behind(number(), number(), number());
+        const float opacity = static_cast<float>(random()) * 0x1p-32f;
+        ASSERT_EQ(over(color, 1, behind), color);
+        ASSERT_EQ(over(color, 0, behind), behind);
+        const vec3 sum = over(color, opacity, behind);
+        for (int i = 0; i < 3; ++i) {
+            const long double exact =
+                static_cast<long double>(opacity) * color[i] + (1.0L - opacity) * behind[i];
+            // Two products, a difference and a sum are rounded, each by half an ulp of at most 4.
+            ASSERT_NEAR(sum[i], static_cast<double>(exact), 4 * 4 * 0x1p-24) << "seed 11, " << k;
+        }
+    }
+    EXPECT_EQ(over(vec3(1, 0, 0), 0.5f, vec3(0, 0, 1)), vec3(0.5f, 0, 0.5f)) << "as worked";
+}
+
+TEST(Scenes, Eq11_8_LayersAreDrawnFromBackToFrontInWhateverOrderTheyCome) {
+    std::mt19937 random(12);
+    const ivec2 size(5, 4);
+    for (int k = 0; k < 300; ++k) {
+        // Steps of an eighth, so that many layers have the same depth.
+        std::vector<Layer> layers(random() % 60);
+        for (Layer& layer : layers) {
+            layer.pixel = {static_cast<int>(random() % 5), static_cast<int>(random() % 4)};
+            layer.depth = static_cast<float>(random() % 9) / 8;
+            layer.opacity = static_cast<float>(random() % 5) / 4;
+            layer.color = vec3(random() % 8, random() % 8, random() % 8) / 8.0f;
+        }
+        Image<vec3> expected(size, vec3(0.25f));
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                std::vector<std::size_t> left;  // in this pixel
+                for (std::size_t i = 0; i < layers.size(); ++i)
+                    if (layers[i].pixel == ivec2(x, y)) left.push_back(i);
+                while (!left.empty()) {  // the farthest, and of equals the last
+                    std::size_t far = 0;
+                    for (std::size_t i = 1; i < left.size(); ++i)
+                        if (layers[left[i]].depth >= layers[left[far]].depth) far = i;
+                    const Layer& layer = layers[left[far]];
+                    vec3& pixel = expected[{x, y}];
+                    pixel = layer.opacity * layer.color + (1 - layer.opacity) * pixel;
+                    left.erase(left.begin() + static_cast<std::ptrdiff_t>(far));
+                }
+            }
+        Layers gathered;
+        for (const Layer& layer : layers) gathered.add(layer);
+        Image<vec3> actual(size, vec3(0.25f));
+        gathered.draw_over(actual);
+        ASSERT_EQ(actual, expected) << "seed 12, case " << k;
+        EXPECT_TRUE(gathered.empty());
+    }
+    // The worked example: glass of red at 0.3, of blue at 0.6, both of a half, over white.
+    for (const bool red_first : {true, false}) {
+        Layers panes;
+        const Layer red{{0, 0}, 0.3f, 0.5f, {1, 0, 0}}, blue{{0, 0}, 0.6f, 0.5f, {0, 0, 1}};
+        panes.add(red_first ? red : blue), panes.add(red_first ? blue : red);
+        Image<vec3> white({1, 1}, vec3(1));
+        panes.draw_over(white);
+        EXPECT_EQ((white[{0, 0}]), vec3(0.75f, 0.25f, 0.5f));
+    }
+}
+
+TEST(Scenes, Eq11_9_OutlinesAreAsWideAsTheyAreAskedToBe) {
+    Scene scene;
+    scene.materials.resize(3);
+    scene.materials[1].toon = ToonLook{.outline = ToonLook::Outline::world, .outline_width = 0.25f};
+    scene.materials[2].toon = ToonLook{
+        .outline = ToonLook::Outline::screen, .outline_width = 0.01f, .outline_color = vec3(0.5f)};
+    for (const std::uint32_t material : {0u, 1u, 2u}) {  // a tetrahedron of each
+        Mesh mesh;
+        mesh.positions = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+        for (const auto& [a, b, c] :
+             {std::array{0u, 1u, 2u}, {0u, 3u, 1u}, {0u, 2u, 3u}, {1u, 3u, 2u}})
+            mesh.triangles.push_back({{Corner{a}, Corner{b}, Corner{c}}, material});
+        for (const vec3 p : mesh.positions) mesh.bounds.add(p);
+        scene.meshes.push_back(mesh);
+    }
+    const Scene inked = with_outline_materials(scene);
+    ASSERT_EQ(inked.materials.size(), 5u);
+    EXPECT_EQ(inked.materials[4].diffuse, vec3(0.5f));
+    EXPECT_EQ(inked.materials[4].illumination, 0);
+    const std::vector<OutlineHull> hulls = outline_hulls(inked);
+    ASSERT_EQ(hulls.size(), 2u) << "the first has none";
+    const Camera camera = orbit_camera({.distance = 6, .fov_degrees = 50}, scene.bounds());
+    for (std::size_t h = 0; h < 2; ++h) {
+        const Mesh hull = pushed(hulls[h], camera);
+        ASSERT_EQ(hull.triangles.size(), 4u);
+        EXPECT_EQ(hull.triangles[0].material, h + 3);
+        const auto& [a, b, c] = hull.triangles[0].corners;
+        EXPECT_EQ(a.position, 0u);
+        EXPECT_EQ(b.position, 2u) << "turned inside out";
+        EXPECT_EQ(c.position, 1u);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const dvec3 place(scene.meshes[0].positions[i]), way(dvec3(hull.positions[i]) - place);
+            EXPECT_GT(glm::dot(way, place), 0) << "outwards";
+            // A tetrahedron's corner is pushed straight away from its middle.
+            EXPECT_NEAR(glm::length(glm::cross(way, place)), 0, 1e-6);
+            const double distance = -(camera.view_from_world * vec4(place, 1)).z;
+            const double height = 2 * distance * std::tan(25 * pi / 180);
+            EXPECT_NEAR(glm::length(way), h == 0 ? 0.25 : 0.01 * height, 2e-6);
+            EXPECT_LE(hull.bounds.min.x, hull.positions[i].x);
+            EXPECT_GE(hull.bounds.max.y, hull.positions[i].y);
+        }
+    }
+}
+
+TEST(Scenes, HardCase_OneMeshOfSeveralPaintsHasTheirOutlines) {
+    look_up("Eq. 11.9");
+    Scene scene;
+    scene.materials.resize(3);
+    scene.materials[2].toon = ToonLook{.outline = ToonLook::Outline::world, .outline_width = 0.5f};
+    scene.materials[1].toon = ToonLook{.outline = ToonLook::Outline::world, .outline_width = 0};
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+    mesh.triangles = {{{Corner{0}, Corner{1}, Corner{2}}, 1},
+                      {{Corner{3}, Corner{4}, Corner{5}}, 2}};
+    scene.meshes = {mesh};
+    const std::vector<OutlineHull> hulls = outline_hulls(with_outline_materials(scene));
+    ASSERT_EQ(hulls.size(), 1u);
+    ASSERT_EQ(hulls[0].mesh.triangles.size(), 1u) << "a width of 0 is none";
+    const Mesh hull = pushed(hulls[0], orbit_camera(Orbit(), {}));
+    EXPECT_EQ(hull.positions[0], vec3(0)) << "what has no outline stays";
+    EXPECT_EQ(hull.positions[3], vec3(5, 0, 0.5f));
+}
+
+TEST(Scenes, HardCase_CamerasByNameAndNumber) {
+    look_up("Eq. 11.1");
+    Scene scene;
+    EXPECT_FALSE(chosen_camera(scene, "", false)) << "none: around the scene";
+    scene.cameras = {{"front", mat4(1), 0.5f, 0.1f, 100}, {"7", mat4(1), 0.7f, 1, 2}};
+    scene.cameras[1].world_from_view =
+        translation(vec3(3, 4, 5)) * rotation_y(0.5f) * rotation_x(-0.25f);
+    EXPECT_EQ(chosen_camera(scene, "", false), 0u);
+    EXPECT_FALSE(chosen_camera(scene, "", true)) << "another orbit is asked for";
+    EXPECT_FALSE(chosen_camera(scene, "orbit", false));
+    EXPECT_EQ(chosen_camera(scene, "front", true), 0u);
+    EXPECT_EQ(chosen_camera(scene, "1", false), 1u);
+    EXPECT_EQ(chosen_camera(scene, "7", false), 1u);
+    for (const char* wrong : {"2", "Front", "-1", "0x0"}) {
+        try {
+            chosen_camera(scene, wrong, false);
+            ADD_FAILURE() << wrong;
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find("0 \"front\", 1 \"7\""), std::string::npos)
+                << error.what();
+        }
+    }
+    const Camera camera = camera_of(scene.cameras[1]);
+    EXPECT_EQ(camera.position_world, vec3(3, 4, 5));
+    EXPECT_EQ(camera.fov_y_radians, 0.7f);
+    const mat4 identity = camera.view_from_world * scene.cameras[1].world_from_view;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            EXPECT_NEAR(identity[c][r], c == r, 2e-6);  // sums of products of 5, each rounded
+    // What it looks at lies on its -z.
+    const vec4 center = camera.view_from_world * vec4(camera.center_world, 1);
+    EXPECT_NEAR(center.z, -1, 2e-6);
+    EXPECT_NEAR(center.x, 0, 2e-6);
+}
