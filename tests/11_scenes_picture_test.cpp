@@ -16,16 +16,22 @@
 
 #include <gtest/gtest.h>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
+// All that the lessons' main.cpp include, so that they can be included within namespaces.
 #include <iostream>
 
+#include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "05_textures/bands.hpp"
 #include "05_textures/textured_scene.hpp"
+#include "06_phong/fragments.hpp"
+#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
+#include "08_normal_maps/bumpy_scene.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
 #include "09_shadow_maps/shadow_variants.hpp"
+#include "09_shadow_maps/shadowed_scene.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
@@ -45,6 +51,9 @@
 #include "support/printers.hpp"
 
 #define main main_of_lesson
+namespace lesson_10 {
+#include "10_threading/main.cpp"
+}
 namespace lesson {
 #include "11_scenes/main.cpp"
 }
@@ -379,21 +388,41 @@ TEST(SceneFiles, HardCase_NumbersThatAreNoneAreAnErrorInOneLine) {
 
 TEST(SceneFiles, HardCase_TheFinishedRendererDrawsLesson10sPicture) {
     look_up("Eq. 11.3");
-    const auto folder = fresh_folder("as_lesson_10");
-    for (const std::vector<std::string>& knobs :
-         {std::vector<std::string>{}, {"--light", "lamp"}, {"--light", "spot", "--two-sided"}}) {
-        std::array<std::string, 2> bytes;
-        for (const auto& [i, name] : {std::pair{0u, "10_threading"}, {1u, "11_scenes"}}) {
-            const std::string file = (folder / name).string() + ".png";
-            std::vector<std::string> arguments = {
-                "--model", "scene_bumpy.obj", "--size", "320x180", "--shadow-size",
-                "512",     "--out",           file};
-            arguments.insert(arguments.end(), knobs.begin(), knobs.end());
-            ASSERT_EQ(run_program(name, arguments).exit_status, 0);
-            bytes[i] = read_text(file);
+    std::vector<lesson::Options> knobs(6, small_picture());
+    knobs[1].shading.key_light = LightKind::point;
+    knobs[2].shading.key_light = LightKind::spot, knobs[2].shading.two_sided = true;
+    knobs[3].texture.filter = Filter::nearest, knobs[3].shadow.pcf = 7;
+    knobs[4].normal_map.space = MapSpace::none, knobs[4].orbit.distance = 0.15f;
+    knobs[5].show_depth = true;
+    for (const char* name : {"scene_bumpy.obj", "crate_bump.obj", "teapot.obj"})
+        for (std::size_t k = 0; k < knobs.size(); ++k) {
+            const lesson::Options& options = knobs[k];
+            lesson_10::Options same;
+            static_cast<LessonOptions&>(same) = options;
+            same.orbit = options.orbit, same.show_depth = options.show_depth;
+            same.texture = options.texture, same.shading = options.shading;
+            same.normal_map = options.normal_map, same.shadow = options.shadow;
+            ThreadPool pool(2);
+            Counters counters;
+            const Image<vec3> expected =
+                lesson_10::render(same, ShadowedScene(loaded(name), same), pool, counters);
+            const Drawn actual = drawn(loaded(name), options);
+            EXPECT_TRUE(are_the_same_bits(actual.picture, expected)) << name << ", knobs " << k;
+            EXPECT_EQ(actual.counters.values, counters.values) << name << ", knobs " << k;
         }
-        ASSERT_FALSE(bytes[0].empty());
-        EXPECT_EQ(bytes[0] == bytes[1], true);
+}
+
+TEST(SceneFiles, Eq11_5_APaintHasTwoColours) {
+    for (const float toward_eye : {1.0f, -1.0f}) {
+        Squares squares;
+        Material& paint = squares.add(0, vec3(0.75f, 0.5f, 0.25f));
+        paint.illumination = 1, paint.emission = vec3(0.125f);
+        paint.toon = ToonLook{.shade = vec3(0.25f, 0.125f, 0.5f)};
+        squares.scene.lights = {{"sun", SceneLight::Kind::directional, vec3(9), vec3(0),
+                                 vec3(0, 0, -toward_eye), std::numeric_limits<float>::infinity()}};
+        // With a level of 0 or 1, and eighths, no step is rounded.
+        EXPECT_EQ(squares.middle(),
+                  toward_eye > 0 ? vec3(0.875f, 0.625f, 0.375f) : vec3(0.375f, 0.25f, 0.625f));
     }
 }
 
