@@ -35,6 +35,7 @@
 #include "accuracy/accuracy.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
+#include "common/memory.hpp"
 #include "common/obj.hpp"
 #include "support/pretend_pool.hpp"
 
@@ -109,10 +110,8 @@ Frame measured_frame(const lesson::Options& options, std::size_t workers) {
     pools.clear();
     for (std::size_t i = 0; i < frames; ++i) {
         pools.emplace_back(workers);
-        double ms = frame_ms(options, pools.back());
-        for (const auto& job : pools.back().jobs_ms)
-            ms -= std::accumulate(job.begin(), job.end(), 0.0);
-        serial_ms.push_back(ms);
+        const double ms = frame_ms(options, pools.back());
+        serial_ms.push_back(ms - pools.back().in_jobs_ms);
     }
     Frame frame{median_of(serial_ms), pools[0].jobs_ms};
     for (std::size_t job = 0; job < frame.jobs_ms.size(); ++job)
@@ -213,6 +212,7 @@ void add_meshes(const std::string& name, const std::string& model) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory();
     add_split("rows", Split::rows, 64);
     add_split("interleaved", Split::interleaved, 64);
     for (const int tile : {8, 16, 32, 64, 128, 256})
