@@ -434,7 +434,7 @@ TEST(Threading, PictureOfWhoDrewWhat) {
     // Threads would share it out anew each time; these do not.
     lesson::Options options;
     options.size = {960, 540};
-    options.threads.show = true;
+    options.threads.show = true, options.threads.tile = 64;
     const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
     NoCounters none;
     ShuffledPool by_chance(4, 1);

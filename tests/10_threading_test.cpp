@@ -138,13 +138,38 @@ TEST(Threading, HardCase_AllThreadsTakePart) {
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         std::atomic<int> begun = 0;
-        pool.run(pool.size(), [&](std::size_t, std::size_t) {
+        std::vector<std::atomic<int>> tasks_of(pool.size());
+        pool.run(pool.size(), [&](std::size_t, std::size_t worker) {
             ++begun;
+            ++tasks_of[worker];
             const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
             while (begun < threads && std::chrono::steady_clock::now() < end)
                 std::this_thread::yield();
             EXPECT_EQ(begun, threads);
         });
+        for (std::size_t worker = 0; worker < pool.size(); ++worker)
+            EXPECT_EQ(tasks_of[worker], 1) << "worker " << worker << " of " << threads;
+    }
+}
+
+TEST(Threading, HardCase_TenMillionShortTasks) {
+    look_up("Eq. 10.8");
+    // Whoever takes a task in two steps takes some that another one takes, too.
+    struct alignas(cache_line) Sum {
+        std::size_t tasks = 0, numbers = 0;
+    };
+    constexpr std::size_t tasks = 10000000;
+    for (const int threads : {2, 4}) {
+        ThreadPool pool(threads);
+        std::vector<Sum> sums(pool.size());
+        pool.run(tasks, [&](std::size_t task, std::size_t worker) {
+            ++sums[worker].tasks;
+            sums[worker].numbers += task;
+        });
+        Sum all;
+        for (const Sum& sum : sums) all.tasks += sum.tasks, all.numbers += sum.numbers;
+        EXPECT_EQ(all.tasks, tasks) << threads << " threads";
+        EXPECT_EQ(all.numbers, tasks * (tasks - 1) / 2) << threads << " threads";
     }
 }
 

@@ -25,7 +25,7 @@ struct ThreadOptions {
     int threads =
         std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_threads);
     Split split = Split::tiles;
-    int tile = 64;  ///< Pixels along a tile's side.
+    int tile = 32;  ///< Pixels along a tile's side.
     bool show = false;
 
     void declare(Knobs& knobs) {

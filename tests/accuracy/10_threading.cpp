@@ -35,6 +35,7 @@
 #include "accuracy/accuracy.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
+#include "common/memory.hpp"
 #include "common/obj.hpp"
 #include "support/pretend_pool.hpp"
 
@@ -55,10 +56,9 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+/// What a time is when nothing else on the machine makes it longer.
+double least_of(const std::vector<double>& times) {
+    return *std::min_element(times.begin(), times.end());
 }
 
 lesson::Options options_of(Split split, int tile) {
@@ -100,7 +100,7 @@ struct Frame {
     }
 };
 
-/// Medians of several frames, split for so many workers.
+/// The least of several frames, split for so many workers.
 Frame measured_frame(const lesson::Options& options, std::size_t workers) {
     constexpr std::size_t frames = 9;
     std::vector<MeasuredPool> pools;
@@ -109,17 +109,15 @@ Frame measured_frame(const lesson::Options& options, std::size_t workers) {
     pools.clear();
     for (std::size_t i = 0; i < frames; ++i) {
         pools.emplace_back(workers);
-        double ms = frame_ms(options, pools.back());
-        for (const auto& job : pools.back().jobs_ms)
-            ms -= std::accumulate(job.begin(), job.end(), 0.0);
-        serial_ms.push_back(ms);
+        const double ms = frame_ms(options, pools.back());
+        serial_ms.push_back(ms - pools.back().in_jobs_ms);
     }
-    Frame frame{median_of(serial_ms), pools[0].jobs_ms};
+    Frame frame{least_of(serial_ms), pools[0].jobs_ms};
     for (std::size_t job = 0; job < frame.jobs_ms.size(); ++job)
         for (std::size_t task = 0; task < frame.jobs_ms[job].size(); ++task) {
             std::vector<double> times;
             for (const MeasuredPool& pool : pools) times.push_back(pool.jobs_ms[job][task]);
-            frame.jobs_ms[job][task] = median_of(times);
+            frame.jobs_ms[job][task] = least_of(times);
         }
     return frame;
 }
@@ -146,14 +144,13 @@ void add_split(const std::string& name, Split split, int tile) {
     }
     // By the clock, one and two threads by turns.
     ThreadPool one(1), two(2);
-    std::vector<double> of_two, ratios;
+    std::vector<double> of_one, of_two;
     for (int i = 0; i < 25; ++i) {
-        const double ms = frame_ms(options, one);
+        of_one.push_back(frame_ms(options, one));
         of_two.push_back(frame_ms(options, two));
-        ratios.push_back(ms / of_two.back());
     }
-    errors["two threads, ms"] = median_of(of_two);
-    errors["two against one"] = median_of(ratios);
+    errors["two threads, ms"] = least_of(of_two);
+    errors["two against one"] = least_of(of_one) / least_of(of_two);
     add_variant("split", name, 1e6, errors, [=] {
         MeasuredPool pool(16);
         frame_ms(options, pool);
@@ -213,6 +210,7 @@ void add_meshes(const std::string& name, const std::string& model) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory();
     add_split("rows", Split::rows, 64);
     add_split("interleaved", Split::interleaved, 64);
     for (const int tile : {8, 16, 32, 64, 128, 256})

@@ -43,20 +43,27 @@ class MeasuredPool {
 
     template <typename Task>
     void run(std::size_t tasks, const Task& task) {
+        const auto begin = Clock::now();
         std::vector<double>& job_ms = jobs_ms.emplace_back();
         job_ms.reserve(tasks);
         for (std::size_t i = 0; i < tasks; ++i) {
-            const auto start = std::chrono::steady_clock::now();
+            const auto start = Clock::now();
             task(i, 0);
-            job_ms.push_back(
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                    .count());
+            job_ms.push_back(ms_from(start));
         }
+        in_jobs_ms += ms_from(begin);
     }
 
     std::vector<std::vector<double>> jobs_ms;  ///< Of each job so far, each task's time.
+    double in_jobs_ms = 0;                     ///< All jobs', and the measuring itself.
 
   private:
+    using Clock = std::chrono::steady_clock;
+
+    static double ms_from(Clock::time_point start) {
+        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    }
+
     std::size_t workers_;
 };
 
