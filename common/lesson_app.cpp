@@ -18,6 +18,7 @@
 #include "common/image_io.hpp"
 #include "common/input_error.hpp"
 #include "common/math/color.hpp"
+#include "common/memory.hpp"
 #include "common/model_file.hpp"
 
 namespace rasterbook {
@@ -182,6 +183,7 @@ void Knobs::add_choice(const std::string& name, const std::vector<std::string>& 
 }
 
 int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
+    keep_freed_memory();
     LessonOptions& options = program.options;
     options.out = program.name + ".png";
     CLI::App line(program.title, program.name);

@@ -3,8 +3,6 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
-#include <limits>
-#include <random>
 #include <span>
 #include <vector>
 
@@ -15,45 +13,23 @@
 #include "support/look_up.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
 
 namespace {
 
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float tiny = std::numeric_limits<float>::denorm_min();
 constexpr int cases = 1'000'000;
 
-/// Ordinary numbers from -2 to 2, and special ones as often.
-class Mix {
+/// Special numbers, and lights of such.
+class Mix : public SpecialNumbers {
   public:
-    explicit Mix(unsigned seed) : random_(seed) {}
+    using SpecialNumbers::SpecialNumbers;
 
-    unsigned below(unsigned count) { return static_cast<unsigned>(random_()) % count; }
-    /// Any number, finite or not.
-    float any() {
-        const auto bits = static_cast<unsigned>(random_());
-        const float sign = bits & 1 ? 1.0f : -1.0f;
-        if (bits & 2) return sign * special[(bits >> 2) % std::size(special)];
-        return 2 * sign * static_cast<float>(bits >> 8) * 0x1p-24f;
-    }
-    float finite() {
-        for (;;)
-            if (const float x = any(); std::isfinite(x)) return x;
-    }
     /// Any finite number >= 0.
     float amount() { return std::abs(finite()); }
     float up_to(float most) { return std::min(amount(), most); }
-    vec3 any_vector() {
-        const float x = any(), y = any(), z = any();
-        return {x, y, z};
-    }
-    vec3 place() {
-        const float x = finite(), y = finite(), z = finite();
-        return {x, y, z};
-    }
     vec3 direction() { return unit_or(place(), vec3(0, 1, 0)); }
     /// A light as the lesson makes them: any place, any size.
     Light light() {
@@ -67,12 +43,6 @@ class Mix {
                 cos_full,
                 std::max(-1.0f, cos_full - std::max(up_to(1), FLT_EPSILON))};
     }
-
-  private:
-    static constexpr float special[] = {0,           tiny,        1e-40f,  FLT_MIN,  1e-30f,
-                                        FLT_EPSILON, 0.5f,        1,       1e15f,    1e30f,
-                                        1e37f,       FLT_MAX / 2, FLT_MAX, infinity, not_a_number};
-    std::mt19937 random_;
 };
 
 /// A thousand lights, made beforehand: each takes as long as a test of it.
@@ -110,7 +80,7 @@ TEST(Phong, HardCase_SpecialNumbersHaveADirectionOrNone) {
     Mix mix(1);
     const vec3 fallback(0, 0, 1);
     for (int i = 0; i < cases; ++i) {
-        const vec3 v = mix.any_vector();
+        const vec3 v = mix.any_three();
         ASSERT_TRUE(is_direction(unit_or(v, fallback))) << "seed 1, case " << i;
         const bool has_direction = std::isfinite(v.x + 0.0) && std::isfinite(v.y + 0.0) &&
                                    std::isfinite(v.z + 0.0) && v != vec3(0);
@@ -123,7 +93,7 @@ TEST(Phong, HardCase_SpecialNumbersOfLamps) {
     Mix mix(2);
     for (int i = 0; i < cases; ++i) {
         const Light light = mix.light();
-        vec3 position = mix.any_vector();  // infinite ones, too
+        vec3 position = mix.any_three();  // infinite ones, too
         for (int axis = 0; axis < 3; ++axis)
             if (std::isnan(position[axis])) position[axis] = 0;
         const Incoming incoming = incoming_light(light, position);
@@ -139,7 +109,7 @@ TEST(Phong, HardCase_SpecialNumbersOfHighlights) {
         const auto highlight = static_cast<Highlight>(mix.below(2));
         // Not even of length 1.
         const float cosine =
-            highlight_cosine(highlight, mix.any_vector(), mix.any_vector(), mix.any_vector());
+            highlight_cosine(highlight, mix.any_three(), mix.any_three(), mix.any_three());
         ASSERT_TRUE(cosine >= 0 && cosine <= 1) << "seed 3, case " << i << ": " << cosine;
         const auto power = static_cast<Power>(mix.below(4));
         const float shininess = mix.amount();
@@ -185,7 +155,7 @@ TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
     for (int i = 0; i < cases; ++i) {
         Mesh& mesh = triangle.mesh();
         mesh.positions = {mix.place(), mix.place(), mix.place()};
-        mesh.normals = {mix.any_vector(), mix.any_vector(), mix.any_vector()};
+        mesh.normals = {mix.any_three(), mix.any_three(), mix.any_three()};
         for (std::uint32_t k = 0; k < 3; ++k)
             mesh.triangles[0].corners[k].normal = mix.below(16) == 0 ? no_index : k;
         complete_normals(mesh);

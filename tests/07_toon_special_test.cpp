@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <limits>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +10,7 @@
 #include "07_toon/toon_variants.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
+#include "support/special_numbers.hpp"
 #include "support/toon_pictures.hpp"
 
 using namespace rasterbook;
@@ -19,49 +18,19 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr int cases = 300'000;
 
-/// Ordinary numbers from -2 to 2, and special ones as often.
-class Mix {
+/// Special numbers, and colours of such.
+class Mix : public SpecialNumbers {
   public:
-    explicit Mix(unsigned seed) : random_(seed) {}
+    using SpecialNumbers::SpecialNumbers;
 
-    unsigned below(unsigned count) { return static_cast<unsigned>(random_()) % count; }
-    float any() {
-        const auto bits = static_cast<unsigned>(random_());
-        const float sign = bits & 1 ? 1.0f : -1.0f;
-        if (bits & 2) return sign * special[(bits >> 2) % std::size(special)];
-        return ordinary();
-    }
-    float ordinary() { return std::uniform_real_distribution<float>(-2, 2)(random_); }
-    float finite() {
-        for (;;)
-            if (const float x = any(); std::isfinite(x)) return x;
-    }
-    vec3 any_vector() {
-        const float x = any(), y = any(), z = any();
-        return {x, y, z};
-    }
-    vec3 place() {
-        const float x = finite(), y = finite(), z = finite();
-        return {x, y, z};
-    }
     vec3 color() { return glm::clamp(place(), -1e37f, 1e37f); }
     SurfaceColor surface() {
         const vec3 ambient = color(), diffuse = color(), specular = color();
         return {ambient, diffuse, specular, color()};
     }
-
-  private:
-    static constexpr float special[] = {0,           FLT_TRUE_MIN, 1e-40f,   FLT_MIN,     1e-30f,
-                                        FLT_EPSILON, 0.5f,         1,        1e15f,       1e30f,
-                                        1e37f,       FLT_MAX,      infinity, not_a_number};
-    std::mt19937 random_;
 };
-
-bool is_finite(vec3 c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
 
 /// Three triangles of any corners and normals, of a material of any numbers.
 Scene any_scene(Mix& mix, bool is_ordinary_place) {
@@ -69,7 +38,7 @@ Scene any_scene(Mix& mix, bool is_ordinary_place) {
     for (std::uint32_t i = 0; i < 9; ++i) {
         mesh.positions.push_back(
             is_ordinary_place ? vec3(mix.ordinary(), mix.ordinary(), mix.ordinary()) : mix.place());
-        mesh.normals.push_back(mix.any_vector());
+        mesh.normals.push_back(mix.any_three());
         mesh.bounds.add(mesh.positions.back());
     }
     for (std::uint32_t i = 0; i < 9; i += 3)
@@ -97,12 +66,11 @@ TEST(Toon, HardCase_SpecialNumbersOfPaint) {
                                    glm::min(glm::abs(mix.place()), vec3(20))};
         const int bands = 1 + static_cast<int>(mix.below(most_bands));
         ASSERT_TRUE(is_finite(toon(color, vec3(0.5f), light, bands))) << "seed 1, case " << i;
-        const vec3 of_nothing =
-            toon(color, vec3(0.5f), {mix.any_vector(), mix.any_vector()}, bands);
+        const vec3 of_nothing = toon(color, vec3(0.5f), {mix.any_three(), mix.any_three()}, bands);
         ASSERT_TRUE(is_finite(of_nothing)) << "seed 1, case " << i;
         const float level = smoothly_banded(mix.any(), mix.any(), bands);
         ASSERT_TRUE(level >= 0 && level <= 1) << "seed 1, case " << i << ": " << level;
-        const float share = highlight_share(brightness(mix.any_vector()), mix.any());
+        const float share = highlight_share(brightness(mix.any_three()), mix.any());
         ASSERT_TRUE(share >= 0 && share <= 1) << "seed 1, case " << i << ": " << share;
     }
 }
@@ -112,13 +80,13 @@ TEST(Toon, HardCase_SpecialNumbersOfHulls) {
     Mix mix(2);
     for (int i = 0; i < cases; ++i) {
         const vec4 position(mix.place(), mix.finite());
-        const vec4 normal(mix.any_vector(), mix.any());
+        const vec4 normal(mix.any_three(), mix.any());
         const vec4 at = pushed(position, normal, 3, {640, 360});
         ASSERT_EQ(at.z, position.z) << "seed 2, case " << i;
         ASSERT_EQ(at.w, position.w) << "seed 2, case " << i;
         if (std::abs(position.w) < 1e37f) { ASSERT_TRUE(is_finite(at)) << "seed 2, case " << i; }
         Mesh mesh = any_scene(mix, false).meshes[0];
-        mesh.positions[mix.below(9)] = mix.any_vector();
+        mesh.positions[mix.below(9)] = mix.any_three();
         mesh.positions[mix.below(9)] = mesh.positions[mix.below(9)];
         if (i % 10 == 0)
             for (const vec3 direction : hull_normals(mesh)) {

@@ -17,6 +17,7 @@
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -147,48 +148,6 @@ TEST(NormalMaps, Eq8_7_TiltedNormalsAsExactAsFloatsAllow) {
 
 namespace {
 
-/// Numbers as they come in files with mistakes: each second one is one of these.
-class Mix {
-  public:
-    explicit Mix(unsigned seed) : random_(seed) {}
-    unsigned below(unsigned count) { return static_cast<unsigned>(random_()) % count; }
-    float any() {
-        const auto bits = static_cast<unsigned>(random_());
-        const float sign = bits & 1 ? 1.0f : -1.0f;
-        if (bits & 2) return sign * special[(bits >> 2) % std::size(special)];
-        return 2 * sign * static_cast<float>(bits >> 8) * 0x1p-24f;
-    }
-    float finite() {
-        for (;;)
-            if (const float x = any(); std::isfinite(x)) return x;
-    }
-    vec2 two() {
-        const float x = any(), y = any();
-        return {x, y};
-    }
-    vec3 three() {
-        const float x = any(), y = any(), z = any();
-        return {x, y, z};
-    }
-    vec3 place() {
-        const float x = finite(), y = finite(), z = finite();
-        return {x, y, z};
-    }
-
-  private:
-    static constexpr float infinity = std::numeric_limits<float>::infinity();
-    static constexpr float special[] = {
-        0,           1e-45f,   1e-40f,
-        FLT_MIN,     1e-30f,   1e-8f,
-        FLT_EPSILON, 0.5f,     1,
-        128,         1e8f,     1e15f,
-        1e30f,       1e37f,    FLT_MAX / 2,
-        FLT_MAX,     infinity, std::numeric_limits<float>::quiet_NaN()};
-    std::mt19937 random_;
-};
-
-bool is_finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 /// A scene of one triangle, to be given any numbers, under one texture of normals.
 struct Bumpy {
     struct Options {
@@ -223,16 +182,16 @@ struct Bumpy {
 
 TEST(NormalMaps, HardCase_SpecialNumbersOfFrames) {
     look_up("Eq. 8.5, where nothing is left");
-    Mix mix(4);
+    SpecialNumbers mix(4);
     for (int i = 0; i < special_cases; ++i) {
-        const std::array p{mix.three(), mix.three(), mix.three()};
-        const std::array t{mix.two(), mix.two(), mix.two()};
+        const std::array p{mix.any_three(), mix.any_three(), mix.any_three()};
+        const std::array t{mix.any_two(), mix.any_two(), mix.any_two()};
         const UvDirections found = uv_directions(p, t);
         for (const vec3 direction : {found.tangent, found.bitangent})
             ASSERT_TRUE(direction == vec3(0) ||
                         std::abs(glm::length(direction) - 1) <= 2 * FLT_EPSILON)
                 << "seed 4, case " << i;
-        const vec3 normal = mix.three(), tangent = i % 2 ? found.tangent : mix.three();
+        const vec3 normal = mix.any_three(), tangent = i % 2 ? found.tangent : mix.any_three();
         const float handedness = mix.below(2) ? 1.0f : -1.0f;
         const auto [frame_t, frame_b, frame_n] = tangent_frame(tangent, normal, handedness);
         const dvec3 a = frame_t, b = frame_b, n = frame_n;
@@ -245,7 +204,7 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfFrames) {
 
 TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
     look_up("Eq. 8.7");
-    Mix mix(5);
+    SpecialNumbers mix(5);
     // Normals as no file holds them: of any length, and pointing into the surface.
     Image<vec4> normals({4, 4});
     for (vec4& n : normals.pixels()) n = vec4(glm::clamp(mix.place(), -1e8f, 1e8f), 1);
@@ -256,8 +215,8 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
     for (int i = 0; i < special_cases / 8; ++i) {
         Mesh& mesh = bumpy.mesh();
         mesh.positions = {mix.place(), mix.place(), mix.place()};
-        mesh.normals = {mix.three(), mix.three(), mix.three()};
-        for (vec2& uv : mesh.uvs) uv = mix.two();
+        mesh.normals = {mix.any_three(), mix.any_three(), mix.any_three()};
+        for (vec2& uv : mesh.uvs) uv = mix.any_two();
         for (std::uint32_t k = 0; k < 3; ++k)
             mesh.triangles[0].corners[k].normal = mix.below(16) == 0 ? no_index : k;
         complete_normals(mesh);
@@ -282,7 +241,7 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
         while (weights.count < 8) {
             const float x = static_cast<float>(mix.below(5)) / 4;
             const float y = (1 - x) * static_cast<float>(mix.below(5)) / 4;
-            weights.set(weights.count++, {{x, y, 1 - x - y}, mix.three(), mix.three()});
+            weights.set(weights.count++, {{x, y, 1 - x - y}, mix.any_three(), mix.any_three()});
         }
         BumpyPoints points;
         NoCounters none;

@@ -19,6 +19,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
 #include "04_mvp/mvp_variants.hpp"
+#include "05_textures/bands.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"

@@ -243,11 +243,14 @@ TEST(GltfMaterials, OfAPictureOfMetalAndRoughnessTheMeanCounts) {
 
 TEST(GltfMaterials, AMetalsHighlightHasTheMeanColourOfItsPicture) {
     GltfBuilder made = one_triangle();
-    const int texture = add_picture(made, {255, 255, 0}, {255, 0, 0});
+    const int texture = add_picture(made, {255, 188, 0}, {255, 0, 0});
     made.material()["pbrMetallicRoughness"] = {{"roughnessFactor", 1},
                                                {"baseColorTexture", {{"index", texture}}}};
     const Material material = material_of(made);
-    EXPECT_EQ(material.specular, vec3(0.25f, 0.125f, 0));  // light, not codes, is averaged
+    // Light, not codes, is averaged: of sRGB code 188 it is ((188/255 + 0.055) / 1.055)^2.4.
+    EXPECT_FLOAT_EQ(material.specular.r, 0.25f);
+    EXPECT_FLOAT_EQ(material.specular.g, 0.25f * 0.50288649f / 2);
+    EXPECT_EQ(material.specular.b, 0);
     EXPECT_EQ(material.diffuse, vec3(0));
 }
 

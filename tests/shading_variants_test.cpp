@@ -250,31 +250,6 @@ TEST(ShadingVariants, ManySamplesAreThatOfEachAlone) {
         }
 }
 
-TEST(ShadingVariants, BandsShowWhatAWholeTriangleShows) {
-    std::mt19937 random(1);
-    for (const ivec2 size :
-         {ivec2(1, 1), ivec2(63, 20), ivec2(64, 20), ivec2(65, 20), ivec2(300, 40)}) {
-        const vec2 far = vec2(size) + 20.0f;
-        std::uniform_real_distribution<float> x(-20, far.x), y(-20, far.y);
-        int visited = 0;
-        for (int i = 0; i < 2000; ++i) {
-            const auto corner = [&] { return vec2(x(random), y(random)); };
-            const ScreenTriangle triangle = snap_triangle(corner(), corner(), corner());
-            Image<vec3> whole(size, vec3(-1)), bands(size, vec3(-1));
-            fill_triangle(triangle, size, [&](ivec2 p, vec3 weights) { whole[p] = weights; });
-            ivec2 before(-1);
-            fill_in_bands(triangle, size, [&](ivec2 p, vec3 weights) {
-                ASSERT_EQ(bands[p], vec3(-1)) << "visited twice";
-                bands[p] = weights;
-                EXPECT_TRUE(p.y > before.y || p.x > before.x) << "neither below nor beside";
-                before = p, ++visited;
-            });
-            ASSERT_EQ(bands, whole) << size.x << ": case " << i;
-        }
-        EXPECT_GT(visited, 100);
-    }
-}
-
 TEST(ShadingVariants, EveryShadingIsThatOfTheSurfaceWhereItIsComputed) {
     // A highlight of 90 makes 90 of each half ulp that its cosine is off, and that has a dozen.
     constexpr double tolerance = 1e-4;

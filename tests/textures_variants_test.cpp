@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "05_textures/bands.hpp"
 #include "05_textures/texture_variants.hpp"
 #include "common/image_io.hpp"
 #include "support/lesson_process.hpp"
@@ -199,6 +200,47 @@ TEST(TextureVariants, SpansBeginWherePixelsWereLeftOut) {
             ASSERT_FALSE(HasFailure());
         }
     EXPECT_GT(within, 10'000);
+}
+
+TEST(TextureVariants, BandsShowWhatAWholeTriangleShows) {
+    std::mt19937 random(1);
+    for (const ivec2 picture :
+         {ivec2(1, 1), ivec2(63, 20), ivec2(64, 20), ivec2(65, 20), ivec2(300, 40)}) {
+        const vec2 far = vec2(picture) + 20.0f;
+        std::uniform_real_distribution<float> x(-20, far.x), y(-20, far.y);
+        int visited = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const auto corner = [&] { return vec2(x(random), y(random)); };
+            const ScreenTriangle triangle = snap_triangle(corner(), corner(), corner());
+            Image<vec3> at_once(picture, vec3(-1)), bands(picture, vec3(-1));
+            fill_triangle(triangle, picture, [&](ivec2 p, vec3 weights) { at_once[p] = weights; });
+            ivec2 before(-1);
+            fill_in_bands(triangle, picture, [&](ivec2 p, vec3 weights) {
+                ASSERT_EQ(bands[p], vec3(-1)) << "visited twice";
+                bands[p] = weights;
+                EXPECT_TRUE(p.y > before.y || p.x > before.x) << "neither below nor beside";
+                before = p, ++visited;
+            });
+            ASSERT_EQ(bands, at_once) << picture.x << ": case " << i;
+        }
+        EXPECT_GT(visited, 100);
+    }
+}
+
+TEST(TextureVariants, SpansBeginAnewInEachRowOfABand) {
+    int begun = 0;
+    for (const Case& c : random_cases(200, 50))
+        for (const int every : spans) {
+            const MappedWeights fresh({{}, every}, c.on_screen, c.clipped);
+            MappedWeights mapped = fresh, of_row = fresh;
+            int row = -1;
+            fill_in_bands(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+                if (pixel.y != row) of_row = fresh, row = pixel.y, ++begun;
+                expect_same(mapped.at(pixel, screen_weights), of_row.at(pixel, screen_weights));
+            });
+            ASSERT_FALSE(HasFailure());
+        }
+    EXPECT_GT(begun, 10'000);
 }
 
 TEST(TextureVariants, WeightsStaySharesHoweverDeepATriangleIs) {

@@ -6,6 +6,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "05_textures/bands.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
@@ -59,7 +60,7 @@ Image<vec3> render(const Options& options, const TexturedScene& scene, CounterPo
                 const vec3 face_color = flat_color(mesh, triangle, material);
                 const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
                 MappedWeights mapped(options.texture, on_screen, clipped);
-                fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
+                fill_in_bands(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
                     counters.add(Counter::fragments_tested);
                     if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
                     counters.add(Counter::fragments_shaded);

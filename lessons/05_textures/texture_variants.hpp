@@ -85,7 +85,8 @@ class MappedWeights {
         if (mapping_ == affine) begin_ = exact_.at({1, 0, 0});  // for the steps: all are the same
     }
 
-    /// @param pixel           As fill_triangle gives them, in its order; some may be left out.
+    /// @param pixel           As fill_triangle gives them, in its order or that of fill_in_bands;
+    ///                        some may be left out.
     /// @param screen_weights  The same.
     FragmentWeights at(ivec2 pixel, vec3 screen_weights) {
         if (mapping_ == 1) return exact_.at(screen_weights);

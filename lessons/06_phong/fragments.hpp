@@ -4,12 +4,10 @@
 /// in lesson 06.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
 
-#include "02_triangle_fill/triangle.hpp"
 #include "06_phong/lit_points.hpp"
 #include "common/math/types.hpp"
 
@@ -45,19 +43,5 @@ class Fragments {
     Shade& shade_;
     ManyFragments fragments_;
 };
-
-/// Columns that are filled together. What the row below asks of textures is mostly near to what
-/// this row asked; in rows as short as this it is still in the fastest cache.
-constexpr int band_width = 64;
-
-/// As fill_triangle, in bands of columns, the left one first.
-template <typename Emit>
-void fill_in_bands(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
-    const auto [a, b, c] = triangle.corners;
-    const int left = std::max(std::min({a.x, b.x, c.x}) >> subpixel_bits, 0);
-    const int right = std::min(std::max({a.x, b.x, c.x}) >> subpixel_bits, size.x - 1);
-    for (int x = left; x <= right; x += band_width)
-        fill_triangle(triangle, {x, 0}, {std::min(x + band_width - 1, right), size.y - 1}, emit);
-}
 
 }  // namespace rasterbook

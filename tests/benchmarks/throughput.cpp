@@ -20,11 +20,13 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "05_textures/bands.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"
 #include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/counters.hpp"
+#include "common/memory.hpp"
 #include "common/obj.hpp"
 #include "common/triangulate.hpp"
 
@@ -238,7 +240,7 @@ void textured_and_lit(benchmark::State& state) {
                                     *surface.texture, knobs.texture.filter,
                                     fragment_uv(surface.uvs, perspective.at(screen_weights))));
                         };
-                        fill_triangle(on_screen, size, emit_visible(paint));
+                        fill_in_bands(on_screen, size, emit_visible(paint));
                         continue;
                     }
                     const TriangleLight light(knobs.shading, lights, camera.position_world, mesh,
@@ -350,4 +352,11 @@ BENCHMARK_TEMPLATE(textured_and_lit, true)
     ->Apply(textured_and_lit_arguments);
 BENCHMARK(concave_polygon)->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
 BENCHMARK(obj_file)->Unit(benchmark::kMillisecond);
-BENCHMARK_MAIN();
+
+// As the lessons' program does.
+int main(int argc, char** argv) {
+    keep_freed_memory();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+}

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "benchmarks/unused_effects.hpp"
+#include "common/memory.hpp"
 #include "common/obj.hpp"
 
 using namespace rasterbook;
@@ -95,6 +96,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "error: say how many frames of each kind, at least 1\n");
         return 2;
     }
+    keep_freed_memory();  // as the lessons' program does
     std::vector<Row> rows = all_rows();
     for (const Row& row : rows)
         for (const Way way : {copy, without})
