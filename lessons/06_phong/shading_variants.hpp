@@ -215,10 +215,13 @@ class TriangleLight {
     template <typename Share>
     void compute(LitPoints& points, const Share& share) const {
         if (!at_once_) return;
-        if (reflect_light(
-                lights_, eye_world_, has_highlight_, points,
-                [this](float cosine) { return power(cosine); }, share))
-            return;
+        const auto reflect = [&](bool has_highlight) {
+            return reflect_light(
+                lights_, eye_world_, has_highlight, points,
+                [this](float cosine) { return power(cosine); }, share);
+        };
+        // Compiled twice: the second time without all that a highlight takes.
+        if (has_highlight_ ? reflect(true) : reflect(false)) return;
         for (std::size_t i = 0; i < points.count; ++i) {
             ReflectedLight sum;
             for (std::size_t l = 0; l < lights_.size(); ++l) {
