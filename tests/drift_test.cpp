@@ -10,103 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lesson_process.hpp"
+#include "support/texts.hpp"
 
 namespace fs = std::filesystem;
-using rasterbook::test::read_text;
-
-namespace {
-
-const fs::path root = fs::path(RASTERBOOK_ASSETS).parent_path();
-
-/// The course's files with one of the endings; not what is built, and not the reader's own.
-std::vector<fs::path> files_with(const std::set<std::string>& endings) {
-    std::vector<fs::path> files;
-    for (const char* folder : {"", "assets", "common", "docs", "lessons", "tests"}) {
-        const auto add = [&](const fs::directory_entry& entry) {
-            if (entry.is_regular_file() && endings.contains(entry.path().extension().string()))
-                files.push_back(entry.path());
-        };
-        if (*folder == '\0')
-            for (const auto& entry : fs::directory_iterator(root)) add(entry);
-        else
-            for (const auto& entry : fs::recursive_directory_iterator(root / folder)) add(entry);
-    }
-    return files;
-}
-
-/// "01_bresenham_lines" and so on, in order.
-std::vector<std::string> lessons() {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(root / "lessons"))
-        if (entry.is_directory()) names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
-/// A lesson's tests: of 04_mvp, those in 04_mvp_test.cpp and in 04_mvp_clip_test.cpp.
-std::string tests_of(const std::string& lesson) {
-    std::string tests;
-    for (const auto& entry : fs::directory_iterator(root / "tests"))
-        if (entry.is_regular_file() && entry.path().filename().string().starts_with(lesson + '_'))
-            tests += read_text(entry.path());
-    return tests;
-}
-
-/// What stands between `before` and `after`, wherever it does on one line.
-std::vector<std::string> all_between(const std::string& text, const std::string& before,
-                                     const std::string& after) {
-    std::vector<std::string> found;
-    for (auto at = text.find(before); at != text.npos; at = text.find(before, at)) {
-        at += before.size();
-        const auto end = text.find(after, at), line_end = text.find('\n', at);
-        if (end < line_end) found.push_back(text.substr(at, end - at));
-    }
-    return found;
-}
-
-/// A text without its blocks of code.
-std::string without_code(std::string text) {
-    const std::string fence = "\n```";
-    for (auto begin = text.find(fence); begin != text.npos; begin = text.find(fence, begin)) {
-        const auto end = text.find(fence, begin + fence.size());
-        text.erase(begin, end == text.npos ? end : end + fence.size() - begin);
-    }
-    return text;
-}
-
-/// A text whose lines all begin at the margin.
-std::string without_indentation(const std::string& text) {
-    std::string flat;
-    for (const char c : text)
-        if (c != ' ' || (!flat.empty() && flat.back() != '\n')) flat += c;
-    return flat;
-}
-
-/// The numbers in "Eq. 1.4", "Eq. 1.3, 1.4" or "Eq. 2.1 and 2.2".
-std::set<std::string> cited_equations(const std::string& text) {
-    std::set<std::string> numbers;
-    for (auto at = text.find("Eq. "); at != text.npos; at = text.find("Eq. ", at)) {
-        at += 4;
-        for (;;) {
-            const auto end = std::min(text.find_first_not_of("0123456789.", at), text.size());
-            std::string number = text.substr(at, end - at);
-            if (number.ends_with('.')) number.pop_back();
-            if (number.find('.') == number.npos) break;
-            numbers.insert(number);
-            at = end;
-            if (text.compare(at, 2, ", ") == 0)
-                at += 2;
-            else if (text.compare(at, 5, " and ") == 0)
-                at += 5;
-            else
-                break;
-        }
-    }
-    return numbers;
-}
-
-}  // namespace
+using namespace rasterbook::test;
 
 TEST(Drift, EveryLessonHasAllItsParts) {
     ASSERT_GE(lessons().size(), 3u);

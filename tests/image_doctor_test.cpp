@@ -24,6 +24,7 @@
 #include "common/parallel_view.hpp"
 #include "support/lesson_process.hpp"
 #include "support/picture_difference.hpp"
+#include "support/texts.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::diagnose, rasterbook::test::fresh_folder, rasterbook::test::ProcessResult,
@@ -430,6 +431,34 @@ TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAKnobShows) {
         EXPECT_EQ(result.out.rfind(begin, 0), 0u) << result.out;
         EXPECT_NE(result.out.find(equation), std::string::npos) << result.out;
     }
+}
+
+TEST(ImageDoctor, TheCommandFindsWhatTroubleshootingSaysItFinds) {
+#ifndef NDEBUG
+    GTEST_SKIP() << "sixteen samples a pixel take minutes with assertions and sanitizers";
+#endif
+    const std::filesystem::path docs = test::root / "docs";
+    const std::string page = test::read_text(docs / "troubleshooting.md");
+    int found = 0;
+    for (const std::string& section : test::parts_after(page, "\n## ")) {
+        if (section.find("`./tests/run --diagnose` finds it.") == section.npos) continue;
+        ++found;
+        std::istringstream command(test::all_between(section, "`./lessons/run ", "`").at(0));
+        std::string number;
+        command >> number;
+        std::vector<std::string> arguments = {
+            (docs / "troubleshooting" / test::all_between(section, "](troubleshooting/", ")").at(1))
+                .string()};
+        for (const std::string& lesson : test::lessons())
+            if (lesson.starts_with(number)) arguments.push_back(lesson);
+        for (std::string word; command >> word;) arguments.push_back(word);
+        arguments.insert(arguments.end(), {"--samples", "16"});  // as docs/pictures.py draws
+        const ProcessResult result = run_program(program, arguments);
+        EXPECT_EQ(result.exit_status, 1) << section;
+        EXPECT_NE(result.out, "") << result.err;
+        EXPECT_EQ(result.out.find(nothing_usual), std::string::npos) << result.out;
+    }
+    EXPECT_GE(found, 5);
 }
 
 TEST(ImageDoctor, HardCase_BadInputAndUsageOfTheCommand) {

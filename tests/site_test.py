@@ -15,7 +15,10 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 ROOT = Path(__file__).resolve().parents[1]
-TEXTS = r"index|side_by_side|conventions|assets|(lesson|derivation|accuracy|changes)_\d\d|code_.+"
+TEXTS = (
+    r"index|side_by_side|troubleshooting|glossary|conventions|assets"
+    r"|(lesson|derivation|accuracy|changes)_\d\d|code_.+"
+)
 CODE = r"files|annotated|(triangle|image|lesson__app)_8hpp(_source)?|classrasterbook_1_1Image"
 WIDTHS = {"desk": (1280, 900), "phone": (390, 844)}
 

@@ -42,6 +42,8 @@ COURSE = [lesson_pages(lesson) for lesson in LESSONS]
 OTHERS = [
     Page("index", "Start", ROOT / "README.md"),
     Page("side_by_side", "Side by side", ROOT / "docs/side_by_side.md"),
+    Page("troubleshooting", "Troubleshooting", ROOT / "docs/troubleshooting.md"),
+    Page("glossary", "Glossary", ROOT / "docs/glossary.md"),
     Page("conventions", "Conventions", ROOT / "docs/conventions.md"),
     Page("gltf", "glTF scenes", ROOT / "docs/gltf.md"),
     Page("assets", "Assets", ROOT / "assets/README.md"),
@@ -55,8 +57,8 @@ EQUATIONS = {
 
 # What a text is searched for, in this order: code stays as it is.
 TOKENS = re.compile(
-    r"""^```.*?^```$ | `[^`\n]+`
-      | \$\$(?P<display>.+?)\$\$
+    r"""^```diff\n(?P<diff>.*?)^```$ | ^```math\n(?P<display>.*?)\n```$ | \$`(?P<math>[^`\n]+)`\$
+      | ^```.*?^```$ | `[^`\n]+`
       | \$(?P<inline>[^$\n]+)\$
       | (?P<comment><!--.*?-->)
       | <details><summary>(?P<summary>.*?)</summary> | (?P<end></details>)
@@ -87,10 +89,10 @@ class Site:
 
     def link(self, text: Path, target: str) -> str:
         """The address on the site of what `target` is in a text."""
-        if re.match(r"https?:|#", target):
+        if re.match(r"https?:", target):
             return target
         path, _, anchor = target.partition("#")
-        file = (text.parent / path).resolve()
+        file = (text.parent / path).resolve() if path else text
         if file in PAGE_OF:
             return f"{PAGE_OF[file].name}.html" + (f"#{anchor}" if anchor else "")
         if file.suffix not in (".cpp", ".hpp"):
@@ -119,11 +121,13 @@ class Site:
         text = page.text.read_text(encoding="utf-8")
 
         def convert_token(found: re.Match[str]) -> str:
+            if found["diff"]:
+                return html_only(marked(found["diff"]))
             if formula := found["display"]:
                 tag = re.search(r"\\tag\{(\d+)\.(\d+)\}", formula)
                 anchor = tag and f'<a class="anchor" id="eq_{tag[1]}_{tag[2]}"></a>'
                 return (html_only(anchor) if anchor else "") + f"\\f[{formula}\\f]"
-            if formula := found["inline"]:
+            if formula := found["inline"] or found["math"]:
                 return f"\\htmlonly\\({html.escape(formula)}\\)\\endhtmlonly"
             if found["comment"]:
                 return ""
@@ -151,9 +155,17 @@ class Site:
         text = EMPHASIS_WITH_FORMULA.sub(
             lambda found: "<{0}>{1}</{0}>".format("b" if found[1] == "**" else "em", found[2]), text
         )
+        if f"]({page.name}.html#" in text:
+            text = re.sub(r"^## (.*)$", with_anchor, text, flags=re.MULTILINE)
         if page.name == "index":  # its headings are not to stand between the lessons in the tree
             text = re.sub(r"^## (.*)$", r"<h2>\1</h2>", text, flags=re.MULTILINE)
         return text
+
+
+def with_anchor(heading: re.Match[str]) -> str:
+    """A heading that is found by the name which GitHub gives it."""
+    name = re.sub(r"[^\w -]", "", heading[1].lower()).replace(" ", "-")
+    return html_only(f'<a class="anchor" id="{name}"></a>') + f"\n{heading[0]}"
 
 
 def title(page: Page) -> str:
@@ -178,7 +190,8 @@ def steps(lesson: int, current: Page) -> str:
 
 def neighbours(lesson: int, current: Page) -> str:
     """Links to the pages before and after, through the whole course."""
-    start, _, conventions, *_ = OTHERS
+    start = OTHERS[0]
+    conventions = next(page for page in OTHERS if page.name == "conventions")
     order = [start, *sum(COURSE, []), conventions]
     at = order.index(current)
     before, after = order[at - 1], order[at + 1]
@@ -226,7 +239,7 @@ def changes(lesson: int) -> str:
         summary + (" Indentation is passed over." if lesson else ""),
         "New files:" if lesson and new else "",
         *new,
-        *([html_only(marked(diff))] if diff else []),
+        *([html_only(marked(diff[diff.index("@@") :]))] if diff else []),
         f"In a terminal: `{command}`",
     ]
     return "\n\n".join(text) + "\n"
@@ -237,7 +250,7 @@ def marked(diff: str) -> str:
     kinds = {"+": "added", "-": "removed", "@": "place"}
     lines = [
         f'<span class="{kinds.get(line[:1], "same")}">{html.escape(line) or " "}</span>'
-        for line in diff[diff.index("@@") :].splitlines()
+        for line in diff.splitlines()
     ]
     return f'<pre class="diff">{"".join(lines)}</pre>'
 

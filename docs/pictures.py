@@ -1,0 +1,223 @@
+"""Draws the pictures that no test draws: pictures.py strip BUILD_FOLDER | mistakes [PICTURE...].
+
+`strip` puts README.md's picture together, a panel a lesson, each drawn by the lesson's own program
+with the options in its README's line "strip: OPTIONS".
+
+`mistakes` makes the mistakes of docs/troubleshooting.md, one after the other, in a copy of the code:
+in the file that a section links to last before its diff, the right line (+) is replaced by the
+wrong one (-). The lesson is built and draws with the section's command. Where the right line is
+not found once, that is an error: the page is not up to date.
+"""
+
+import re
+import shlex
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[1]
+LESSONS = sorted(folder.name for folder in (ROOT / "lessons").glob("[0-9][0-9]_*"))
+
+Picture = list[bytes]  # rows from the top, red, green and blue of each pixel
+
+
+def read_bmp(file: Path) -> Picture:
+    data = file.read_bytes()
+    (begin,) = struct.unpack_from("<I", data, 10)
+    width, height = struct.unpack_from("<ii", data, 18)
+    stride = (3 * width + 3) // 4 * 4
+    data = data.ljust(begin + stride * height, b"\0")  # a file may be wrong on purpose
+    rows = []
+    for y in range(height):
+        stored = data[begin + y * stride : begin + y * stride + 3 * width]
+        row = bytearray(len(stored))
+        row[0::3], row[1::3], row[2::3] = stored[2::3], stored[1::3], stored[0::3]
+        rows.insert(0, bytes(row))
+    return rows
+
+
+def filtered(row: bytes, above: bytes, channels: int) -> bytes:
+    """A row of a PNG, by the filter that leaves the smallest numbers."""
+
+    def paeth(a: int, b: int, c: int) -> int:
+        to_a, to_b, to_c = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+        return a if to_a <= to_b and to_a <= to_c else b if to_b <= to_c else c
+
+    left, corner = bytes(channels) + row, bytes(channels) + above
+    ways = [
+        row,
+        bytes((x - a) & 255 for x, a in zip(row, left)),
+        bytes((x - b) & 255 for x, b in zip(row, above)),
+        bytes((x - (a + b) // 2) & 255 for x, a, b in zip(row, left, above)),
+        bytes((x - paeth(a, b, c)) & 255 for x, a, b, c in zip(row, left, above, corner)),
+    ]
+    best = min(range(5), key=lambda i: sum(min(x, 256 - x) for x in ways[i]))
+    return bytes([best]) + ways[best]
+
+
+def write_png(file: Path, rows: Picture, channels: int = 3) -> None:
+    """Smaller than what the lessons write, which takes longer."""
+
+    def chunk(name: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    width = len(rows[0]) // channels
+    header = struct.pack(">IIBBBBB", width, len(rows), 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    above = [bytes(len(rows[0])), *rows]
+    lines = b"".join(filtered(row, before, channels) for row, before in zip(rows, above))
+    file.write_bytes(
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", header)
+        + chunk(b"IDAT", zlib.compress(lines, 9))
+        + chunk(b"IEND", b"")
+    )
+
+
+def draw(program: Path, options: list[str], size: str) -> Picture:
+    """What a lesson draws, with smooth edges."""
+    if "--size" not in options:
+        options = [*options, "--size", size]
+    if "--samples" not in options:
+        options = [*options, "--samples", "16"]
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "picture.bmp"
+        subprocess.run([program, *options, "--out", file], check=True, capture_output=True)
+        return read_bmp(file)
+
+
+# The strip: README.md
+
+
+PANEL, GAP = (168, 300), 6  # px
+
+
+def draw_strip(build: Path) -> None:
+    width, height = PANEL
+    gap = bytes(4 * GAP)  # transparent, so that it fits a light page and a dark one
+    strip = [b""] * height
+    for lesson in LESSONS:
+        readme = (ROOT / "lessons" / lesson / "README.md").read_text(encoding="utf-8")
+        asked = re.search(r"^strip:(.*)$", readme, re.MULTILINE)
+        if not asked:
+            continue
+        picture = draw(build / lesson, shlex.split(asked[1]), f"{width}x{height}")
+        left = (len(picture[0]) // 3 - width) // 2  # a wider picture is cut on both sides
+        for y in range(height):
+            row = picture[y][3 * left : 3 * (left + width)]
+            pixels = b"".join(row[i : i + 3] + b"\xff" for i in range(0, len(row), 3))
+            strip[y] += (gap if strip[y] else b"") + pixels
+    write_png(ROOT / "docs/strip.png", strip, channels=4)
+
+
+# The mistakes
+
+
+SIZE = "416x234"  # small enough that a picture takes less than 100 kB
+
+class Mistake(NamedTuple):
+    lesson: str
+    options: list[str]
+    right_picture: Path
+    wrong_picture: Path
+    file: Path  # relative to ROOT
+    right: list[str]
+    wrong: list[str]
+
+
+def mistakes() -> list[Mistake]:
+    """Those of the page, in its order."""
+    page = ROOT / "docs/troubleshooting.md"
+    found = []
+    for section in page.read_text(encoding="utf-8").split("\n## ")[1:]:
+        before, fence, after = section.partition("```diff\n")
+        if not fence:
+            continue
+        command = re.search(r"`\./lessons/run (\d\d)([^`]*)`", before)
+        right_picture, wrong_picture = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", before)
+        lines = after.partition("```")[0].splitlines()
+        found.append(
+            Mistake(
+                next(lesson for lesson in LESSONS if lesson.startswith(command[1])),
+                shlex.split(command[2]),
+                page.parent / right_picture,
+                page.parent / wrong_picture,
+                (page.parent / re.findall(r"\]\((\.\./[^)]+[ch]pp)\)", before)[-1])
+                .resolve()
+                .relative_to(ROOT),
+                [line[1:].strip() for line in lines if line.startswith("+")],
+                [line[1:].strip() for line in lines if line.startswith("-")],
+            )
+        )
+    return found
+
+
+def exchanged(code: str, right: list[str], wrong: list[str]) -> str:
+    """The code with the wrong lines in place of the right ones, which are there once."""
+    lines = code.splitlines()
+    bare = [line.strip() for line in lines]
+    places = [i for i in range(len(lines)) if bare[i : i + len(right)] == right]
+    if len(places) != 1:
+        raise SystemExit(f"error: {len(places)} times in the code: {' / '.join(right)}")
+    lines[places[0] : places[0] + len(right)] = wrong
+    return "\n".join(lines) + "\n"
+
+
+def build(tree: Path, lesson: str) -> Path:
+    subprocess.run(
+        ["cmake", "--build", tree / "build", "--target", lesson, "--", "-j1"],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+    return tree / "build" / lesson
+
+
+def draw_mistakes(only: list[str]) -> None:
+    tree = ROOT / "build/mistakes"
+    tree.mkdir(parents=True, exist_ok=True)
+    for name in ("CMakeLists.txt", "assets", "docs"):
+        if not (tree / name).exists():
+            (tree / name).symlink_to(ROOT / name)
+    for name in ("common", "lessons"):
+        # As if written just now: what a run that was broken off has built is built again.
+        shutil.copytree(ROOT / name, tree / name, copy_function=shutil.copy, dirs_exist_ok=True)
+    # Optimised enough to draw, and quickly built; a mistake may break what an assertion expects.
+    subprocess.run(
+        ["cmake", "-S", tree, "-B", tree / "build", "-G", "Ninja", "-D", "BUILD_TESTING=OFF",
+         "-D", "CMAKE_BUILD_TYPE=Debug", "-D", "CMAKE_CXX_FLAGS=-O1 -DNDEBUG -w"],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )  # fmt: skip
+    drawn = set()
+    for m in mistakes():
+        if only and m.wrong_picture.stem not in only:
+            continue
+        if m.right_picture not in drawn:
+            write_png(m.right_picture, draw(build(tree, m.lesson), m.options, SIZE))
+            drawn.add(m.right_picture)
+        copy = tree / m.file
+        code = copy.read_text(encoding="utf-8")
+        copy.write_text(exchanged(code, m.right, m.wrong), encoding="utf-8")
+        try:
+            write_png(m.wrong_picture, draw(build(tree, m.lesson), m.options, SIZE))
+        finally:
+            copy.write_text(code, encoding="utf-8")
+        print(m.wrong_picture.relative_to(ROOT))
+
+
+def main() -> None:
+    match sys.argv[1:]:
+        case ["strip", folder]:
+            draw_strip(Path(folder).resolve())
+        case ["mistakes", *only]:
+            draw_mistakes(only)
+        case _:
+            raise SystemExit(__doc__)
+
+
+if __name__ == "__main__":
+    main()
