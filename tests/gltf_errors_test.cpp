@@ -370,6 +370,14 @@ TEST(GltfErrors, WhatIsPassedOverIsAWarning) {
         std::function<void(GltfBuilder&)> change;
         std::string warning;
     };
+    const auto add_texture = [](GltfBuilder& made) -> json& {
+        made.document["images"] = json::array({{{"uri", "a.png"}}});
+        made.document["samplers"] = json::array({json::object()});
+        made.document["textures"] = json::array({{{"source", 0}, {"sampler", 0}}});
+        json& texture = made.material()["pbrMetallicRoughness"]["baseColorTexture"];
+        texture["index"] = 0;
+        return texture;
+    };
     for (const Row& row : std::vector<Row>{
              {"skin",
               [](GltfBuilder& made) {
@@ -415,6 +423,23 @@ TEST(GltfErrors, WhatIsPassedOverIsAWarning) {
              {"occlusion",
               [](GltfBuilder& made) { made.material()["occlusionTexture"]["index"] = 0; },
               "material 0 \"paint\": occlusionTexture is passed over"},
+             {"two ways to wrap",
+              [&](GltfBuilder& made) {
+                  add_texture(made);
+                  made.document["samplers"][0] = {{"wrapS", 33071}, {"wrapT", 10497}};
+              },
+              "wrapped in two ways"},
+             {"turned texture",
+              [&](GltfBuilder& made) {
+                  add_texture(made)["extensions"]["KHR_texture_transform"]["rotation"] = 0.5;
+              },
+              "baseColorTexture is turned"},
+             {"two sets of uvs",
+              [&](GltfBuilder& made) {
+                  add_texture(made);
+                  made.material()["normalTexture"] = {{"index", 0}, {"texCoord", 1}};
+              },
+              "several sets of texture coordinates; set 0 is taken"},
              {"primitive without attributes",
               [](GltfBuilder& made) {
                   made.document["meshes"][0]["primitives"].push_back(json::object());

@@ -10,6 +10,7 @@
 #include "common/gltf.hpp"
 #include "common/image_io.hpp"
 #include "common/metallic_roughness.hpp"
+#include "common/model_file.hpp"
 #include "support/gltf_builder.hpp"
 #include "support/lesson_process.hpp"
 
@@ -241,13 +242,30 @@ TEST(GltfMaterials, OfAPictureOfMetalAndRoughnessTheMeanCounts) {
     EXPECT_TRUE(material.specular_map.file.empty());
 }
 
+TEST(GltfMaterials, OfAPictureOfEmissionTheMeanCounts) {
+    GltfBuilder made = one_triangle();
+    const int texture = add_picture(made, {255, 0, 188}, {0, 0, 188});
+    made.material()["emissiveFactor"] = {1, 1, 0.5};
+    made.material()["emissiveTexture"]["index"] = texture;
+    const Scene scene = load_gltf(made.write(fresh_folder("gltf_emission") / "scene.gltf"));
+    const vec3 emission = scene.materials.at(1).emission;
+    EXPECT_EQ(emission.r, 0.5f);
+    EXPECT_EQ(emission.g, 0);
+    EXPECT_FLOAT_EQ(emission.b, 0.5f * 0.50288649f);  // sRGB code 188, as light
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("emissiveTexture is not drawn"), std::string::npos);
+}
+
 TEST(GltfMaterials, AMetalsHighlightHasTheMeanColourOfItsPicture) {
     GltfBuilder made = one_triangle();
-    const int texture = add_picture(made, {255, 255, 0}, {255, 0, 0});
+    const int texture = add_picture(made, {255, 188, 0}, {255, 0, 0});
     made.material()["pbrMetallicRoughness"] = {{"roughnessFactor", 1},
                                                {"baseColorTexture", {{"index", texture}}}};
     const Material material = material_of(made);
-    EXPECT_EQ(material.specular, vec3(0.25f, 0.125f, 0));  // light, not codes, is averaged
+    // Light, not codes, is averaged: of sRGB code 188 it is ((188/255 + 0.055) / 1.055)^2.4.
+    EXPECT_FLOAT_EQ(material.specular.r, 0.25f);
+    EXPECT_FLOAT_EQ(material.specular.g, 0.25f * 0.50288649f / 2);
+    EXPECT_EQ(material.specular.b, 0);
     EXPECT_EQ(material.diffuse, vec3(0));
 }
 
@@ -302,7 +320,7 @@ TEST(GltfMaterials, Vrm0SaysTheSameInAListBesideTheMaterials) {
                       {"vectorProperties",
                        {{"_ShadeColor", {0.5, 0, 1, 1}}, {"_OutlineColor", {0, 1, 0, 1}}}}}});
     const fs::path file = fresh_folder("gltf_vrm") / "figure.vrm";
-    const Scene scene = load_gltf(made.write(file, GltfForm::binary));
+    const Scene scene = load_model(made.write(file, GltfForm::binary));
     EXPECT_FALSE(scene.materials.at(1).toon);
     const std::optional<ToonLook>& toon = scene.materials.at(2).toon;
     ASSERT_TRUE(toon);

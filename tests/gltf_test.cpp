@@ -280,6 +280,18 @@ TEST(Gltf, PointsThatDifferInColourAloneStayApart) {
     EXPECT_EQ(mesh.colors[mesh.corners[1].position], vec4(0.2f, 0.4f, 0.6f, 1));
     EXPECT_EQ(mesh.colors[mesh.corners[3].position], vec4(1, 0, 0, 1));
     EXPECT_EQ(mesh.corners[0].position, mesh.corners[4].position);
+
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+        std::vector<double> colors(6 * 4, 0.5);
+        colors[3 * 4 + channel] = 0.25;
+        GltfBuilder one = one_triangle();
+        one.primitive() = {
+            {"attributes",
+             {{"POSITION",
+               one.add({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", gl_float)},
+              {"COLOR_0", one.add(colors, "VEC4", gl_float)}}}};
+        EXPECT_EQ(read(one).meshes.at(0).positions.size(), 4u) << "channel " << channel;
+    }
 }
 
 TEST(Gltf, PrimitivesOfAMeshShareItsPointsAndKeepTheirMaterials) {
@@ -312,9 +324,14 @@ TEST(Gltf, NumbersMayBeWholeAndMayStandBetweenOthers) {
     const Scene whole = read(made);
     EXPECT_EQ(position(whole.meshes.at(0), 0, 2), vec3(0, -300, 0));
     EXPECT_EQ(normal(whole.meshes[0], 0, 0), vec3(0, 0, 1));
-    EXPECT_EQ(normal(whole.meshes[0], 0, 1), vec3(0, 0, -1));  // -128 counts as -127
+    EXPECT_EQ(normal(whole.meshes[0], 0, 1), vec3(0, 0, -1));
     EXPECT_EQ(whole.meshes[0].uvs.at(0), vec2(0, 0));
     EXPECT_EQ(whole.meshes[0].uvs.at(1), vec2(0.2f, 1));
+    attributes["TEXCOORD_0"] = made.add({-128, -128, 127, 0, -127, 0}, "VEC2", gl_byte, true);
+    const Scene with_signs = read(made);
+    EXPECT_EQ(with_signs.meshes.at(0).uvs.at(0), vec2(-1, 2));
+    EXPECT_EQ(with_signs.meshes[0].uvs.at(1), vec2(1, 1));
+    EXPECT_EQ(with_signs.meshes[0].uvs.at(2), vec2(-1, 1));
 
     GltfBuilder mixed = one_triangle();
     std::vector<double> both;

@@ -10,6 +10,22 @@ renderMathInElement(document.querySelector(".contents"), {
   ],
 });
 
+// A mark behind a formula, or a bracket before it, goes with it: no line begins with a full stop.
+for (const formula of document.querySelectorAll(".contents :not(.katex-display) > .katex")) {
+  const pieces = formula.querySelectorAll(".katex-html > .base");
+  const take = (text, marks, put) => {
+    const found = text?.nodeType === Node.TEXT_NODE && text.data.match(marks);
+    if (!found || pieces.length === 0) return;
+    text.data = text.data.replace(marks, "");
+    const mark = document.createElement("span");
+    mark.className = "mark";
+    mark.textContent = found[0];
+    put(mark);
+  };
+  take(formula.parentElement.nextSibling, /^[.,:;!?)]+/, (mark) => pieces[pieces.length - 1].append(mark));
+  take(formula.parentElement.previousSibling, /\($/, (mark) => pieces[0].prepend(mark));
+}
+
 // A short piece of code stays on one line: "--stats" is not to end a line after its hyphens.
 for (const code of document.querySelectorAll(".textblock code"))
   if (code.textContent.length < 30) code.style.whiteSpace = "nowrap";
