@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What each effect costs in each scene, and what the picture would be without it; what it would
+/// cost to compute all effects everywhere; and the presets of --quality.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+// All that the lesson's main.cpp includes, so that it can be included within a namespace.
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "05_textures/textured_scene.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "08_normal_maps/normal_map_variants.hpp"
+#include "09_shadow_maps/shadow_variants.hpp"
+#include "10_threading/binned_triangles.hpp"
+#include "10_threading/thread_options.hpp"
+#include "10_threading/thread_pool.hpp"
+#include "10_threading/threaded_shadows.hpp"
+#include "11_scenes/explain.hpp"
+#include "11_scenes/finished_scene.hpp"
+#include "11_scenes/kernels.hpp"
+#include "11_scenes/scene_camera.hpp"
+#include "11_scenes/scene_options.hpp"
+#include "accuracy/accuracy.hpp"
+#include "common/backdrop.hpp"
+#include "common/lesson_app.hpp"
+#include "common/math/color.hpp"
+#include "common/memory.hpp"
+#include "common/model_file.hpp"
+
+#define main main_of_lesson
+namespace lesson {
+#include "11_scenes/main.cpp"
+}
+#undef main
+
+using namespace rasterbook;
+using namespace rasterbook::test;
+
+namespace {
+
+constexpr ivec2 picture_size(1280, 720), compared_size(640, 360);
+constexpr double frames_in_millions = 1e6;  // so that nanoseconds become milliseconds
+
+Scene loaded(const std::string& name) {
+    return load_model(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name);
+}
+
+Image<vec3> drawn(const lesson::Options& options, const FinishedScene& scene) {
+    static ThreadPool pool(1);
+    NoCounters none;
+    NoClock no_clock;
+    return lesson::render(options, scene, pool, none, no_clock);
+}
+
+/// Differences of codes, white being 1: as the eye weighs them.
+struct Difference {
+    double rms, share_percent;
+};
+
+Difference difference_of(const Image<vec3>& a, const Image<vec3>& b) {
+    double sum = 0;
+    std::size_t different = 0;
+    const auto code = [](float light) { return srgb_from_linear(std::clamp(light, 0.0f, 1.0f)); };
+    for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+        const vec3 p = a.pixels()[i], q = b.pixels()[i];
+        different += p != q;
+        for (int c = 0; c < 3; ++c) {
+            const double difference = double{code(p[c])} - double{code(q[c])};
+            sum += difference * difference;
+        }
+    }
+    const auto pixels = static_cast<double>(a.pixels().size());
+    return {std::sqrt(sum / (3 * pixels)), 100 * static_cast<double>(different) / pixels};
+}
+
+/// A way to take an effect out of a scene.
+struct Without {
+    Effect effect;
+    std::function<void(Scene&)> change;
+};
+
+template <typename Change>
+std::function<void(Scene&)> of_materials(Change change) {
+    return [=](Scene& scene) {
+        for (Material& material : scene.materials) change(material);
+    };
+}
+
+const std::vector<Without>& ways() {
+    static const std::vector<Without> all = {
+        {Effect::highlight, of_materials([](Material& m) { m.specular = vec3(0); })},
+        {Effect::texture, of_materials([](Material& m) { m.diffuse_map = {}; })},
+        {Effect::vertex_colors,
+         [](Scene& scene) {
+             for (Mesh& mesh : scene.meshes) mesh.colors.clear();
+         }},
+        {Effect::normal_map, of_materials([](Material& m) { m.normal_map = {}, m.bump_map = {}; })},
+        {Effect::shadow, {}},  // of the lights
+        {Effect::toon, of_materials([](Material& m) {
+             if (m.toon) m.toon.reset(), m.illumination = 0;
+         })},
+        {Effect::outline, of_materials([](Material& m) {
+             if (m.toon) m.toon->outline = ToonLook::Outline::none;
+         })}};
+    return all;
+}
+
+void add_scene(const std::string& name) {
+    lesson::Options options;
+    options.size = picture_size;
+    const auto whole = std::make_shared<const FinishedScene>(loaded(name), options);
+    const auto picture = std::make_shared<const Image<vec3>>(drawn(options, *whole));
+    const auto add = [&](const std::string& variant, const lesson::Options& own,
+                         const std::shared_ptr<const FinishedScene>& scene) {
+        const Difference difference = difference_of(*picture, drawn(own, *scene));
+        add_variant(name, variant, frames_in_millions,
+                    {{"RMS difference", difference.rms},
+                     {"pixels that differ, %", difference.share_percent}},
+                    [=] { drawn(own, *scene); });
+    };
+    add("as called for", options, whole);
+    for (const auto& [effect, change] : ways()) {
+        if (!whole->plan.any(effect)) continue;
+        Scene model = loaded(name);
+        if (change) change(model);
+        const auto scene = std::make_shared<FinishedScene>(std::move(model), options);
+        if (effect == Effect::shadow) scene->lit_by.casts.fill(false);
+        add("without " + std::string(effect_names[static_cast<std::size_t>(effect)]), options,
+            scene);
+    }
+    lesson::Options forced = options;
+    forced.shading.all_effects = true;
+    add("all effects", forced, std::make_shared<const FinishedScene>(loaded(name), forced));
+}
+
+lesson::Options with_quality(const Quality& quality, ivec2 size) {
+    lesson::Options options;
+    options.size = size * quality.samples_per_side;
+    options.texture.filter = quality.filter;
+    options.shadow.size = quality.shadow_size, options.shadow.pcf = quality.pcf;
+    return options;
+}
+
+/// The presets against 64 samples a pixel and maps of 8192 texels, all four scenes together.
+void add_qualities(const std::array<const char*, 4>& names) {
+    constexpr Quality best{Filter::trilinear, 8192, 3, 8};
+    const auto picture_of = [](const std::string& name, const Quality& quality) {
+        const lesson::Options options = with_quality(quality, compared_size);
+        return averaged(drawn(options, FinishedScene(loaded(name), options)),
+                        quality.samples_per_side);
+    };
+    std::vector<Image<vec3>> references;
+    for (const char* name : names) references.push_back(picture_of(name, best));
+    for (const auto& [title, quality] : {std::pair{"fast", fast_quality},
+                                         {"balanced", balanced_quality},
+                                         {"exact", exact_quality}}) {
+        double squares = 0;
+        std::vector<std::shared_ptr<const FinishedScene>> scenes;
+        const lesson::Options options = with_quality(quality, compared_size);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const double rms = difference_of(references[i], picture_of(names[i], quality)).rms;
+            squares += rms * rms / static_cast<double>(names.size());
+            scenes.push_back(std::make_shared<const FinishedScene>(loaded(names[i]), options));
+        }
+        const int per_side = quality.samples_per_side;
+        add_variant("quality", title, frames_in_millions * static_cast<double>(names.size()),
+                    {{"RMS difference", std::sqrt(squares)}}, [=] {
+                        for (const auto& scene : scenes) averaged(drawn(options, *scene), per_side);
+                    });
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    keep_freed_memory();
+    constexpr std::array names = {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"};
+    for (const char* name : names) add_scene(name);
+    add_qualities(names);
+    return measure_variants(argc, argv);
+}
