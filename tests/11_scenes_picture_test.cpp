@@ -203,7 +203,7 @@ TEST(SceneFiles, HardCase_AllEffectsForcedGiveTheSameBits) {
 }
 
 TEST(SceneFiles, HardCase_AnyThreadsAndOrderGiveTheSameBits) {
-    look_up("Eq. 11.8");
+    look_up("Eq. 11.9");
     Squares glass;  // panes that cut through each other, and are gathered in each tile's own order
     for (const float tilt : {-1.0f, 0.5f, 1.0f, 0.0f, -0.25f})
         glass.add_glass(0, vec3(0.5f + 0.5f * tilt, 0.25f, 0.5f - 0.5f * tilt), 0.5f, tilt);
@@ -232,7 +232,7 @@ TEST(SceneFiles, HardCase_AnyThreadsAndOrderGiveTheSameBits) {
     }
 }
 
-TEST(SceneFiles, Eq11_6_ThroughAHoleIsSeenWhatLiesBehind) {
+TEST(SceneFiles, Eq11_7_ThroughAHoleIsSeenWhatLiesBehind) {
     for (const bool leaf_first : {true, false})
         for (const float opacity : {0.5f, 0.4999f}) {
             Squares squares;
@@ -260,7 +260,7 @@ TEST(SceneFiles, Eq11_6_ThroughAHoleIsSeenWhatLiesBehind) {
     EXPECT_EQ(picture.count(Counter::blended_fragments), 0u);
 }
 
-TEST(SceneFiles, Eq11_8_PanesThatCutThroughEachOtherAreRightInEachPixel) {
+TEST(SceneFiles, Eq11_9_PanesThatCutThroughEachOtherAreRightInEachPixel) {
     const vec3 red(1, 0, 0), blue(0, 0, 1), white(1);
     for (const bool red_first : {true, false}) {
         Squares squares;
@@ -306,7 +306,7 @@ TEST(SceneFiles, Eq11_10_CornersOfOneColourHaveItEverywhere) {
 }
 
 TEST(SceneFiles, HardCase_BacksAreSeenOfWhatHasTwoSidesAlone) {
-    look_up("Eq. 11.8");
+    look_up("Eq. 11.9");
     for (const bool is_glass : {false, true})
         for (const bool two_sided : {false, true}) {
             Squares squares;
@@ -332,7 +332,7 @@ TEST(SceneFiles, HardCase_EmptyScenesAreTheBackdrop) {
 }
 
 TEST(SceneFiles, HardCase_GlassThrowsNoShadow) {
-    look_up("Eq. 11.7");
+    look_up("Eq. 11.8");
     for (const bool is_glass : {false, true}) {
         Squares squares;
         squares.add(0, vec3(1)).illumination = 1;

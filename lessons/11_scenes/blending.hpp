@@ -15,12 +15,12 @@
 
 namespace rasterbook {
 
-/// Whether a surface with holes is there (Eq. 11.6).
+/// Whether a surface with holes is there (Eq. 11.7).
 ///
 /// @param opacity  Any number; of NaN, there is a hole.
 inline bool is_there(float opacity, float cutoff) { return opacity >= cutoff; }
 
-/// A colour over what lies behind it (Eq. 11.7): exactly itself with an opacity of 1, exactly what
+/// A colour over what lies behind it (Eq. 11.8): exactly itself with an opacity of 1, exactly what
 /// lies behind with one of 0.
 ///
 /// @param opacity      0 to 1.
@@ -47,7 +47,7 @@ class Layers {
 
     bool empty() const { return layers_.empty(); }
 
-    /// Draws all of them over the picture (Eq. 11.8). Of two layers at the same depth, that which
+    /// Draws all of them over the picture (Eq. 11.9). Of two layers at the same depth, that which
     /// was added first lies on top: it is the first that stays in the depth buffer, too.
     void draw_over(Image<vec3>& color) {
         order_.resize(layers_.size());

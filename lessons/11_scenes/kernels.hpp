@@ -100,7 +100,7 @@ class TriangleTints {
         }
     }
 
-    /// How opaque they are, 0 to 1: by the material, its texture and the corners (Eq. 11.6).
+    /// How opaque they are, 0 to 1: by the material, its texture and the corners (Eq. 11.7).
     template <typename CounterPolicy>
     Numbers opacities(const TriangleSurface& surface, const ManyWeights& weights, Filter filter,
                       CounterPolicy& counters) const {

@@ -123,7 +123,7 @@ inline std::vector<OutlineHull> outline_hulls(const Scene& scene) {
 }
 
 /// A hull as a camera is to see it: each point is pushed along its normal, by the outline's width
-/// in the world, or by the length that looks so wide where the point is (Eq. 11.9).
+/// in the world, or by the length that looks so wide where the point is (Eq. 11.6).
 inline Mesh pushed(const OutlineHull& hull, const Camera& camera) {
     Mesh mesh = hull.mesh;
     const float height_per_distance = 2 * std::tan(camera.fov_y_radians / 2);
