@@ -16,13 +16,20 @@ inline vec3 backdrop_color(int y, int height) {
     return glm::mix(top, bottom, down);
 }
 
+/// Draws it into a part of a picture.
+///
+/// @param first,last  The part's upper left and lower right pixel; last before first: no pixel.
+inline void draw_backdrop(Image<vec3>& picture, ivec2 first, ivec2 last) {
+    for (int y = first.y; y <= last.y; ++y) {
+        const vec3 color = backdrop_color(y, picture.size().y);
+        for (int x = first.x; x <= last.x; ++x) picture[{x, y}] = color;
+    }
+}
+
 /// A picture that holds nothing else.
 inline Image<vec3> backdrop(ivec2 size) {
-    Image<vec3> image(size);
-    for (int y = 0; y < size.y; ++y) {
-        const vec3 color = backdrop_color(y, size.y);
-        for (int x = 0; x < size.x; ++x) image[{x, y}] = color;
-    }
+    Image<vec3> image(size, unset);
+    draw_backdrop(image, ivec2(0), size - 1);
     return image;
 }
 

@@ -60,11 +60,15 @@ struct Counters {
     std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> values{};
 
     void add(Counter counter) { ++values[static_cast<std::size_t>(counter)]; }
+    void add(const Counters& others) {
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] += others.values[i];
+    }
 };
 
 /// Takes the place of Counters where nothing is to be counted: compiles to nothing.
 struct NoCounters {
     void add(Counter) {}
+    void add(const NoCounters&) {}
 };
 
 }  // namespace rasterbook

@@ -5,6 +5,8 @@
 
 #include <cassert>
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -19,6 +21,29 @@ namespace rasterbook {
 /// @param position_screen  Finite, each coordinate within the range of int.
 inline ivec2 pixel_of(vec2 position_screen) { return ivec2(glm::floor(position_screen)); }
 
+/// For a picture whose pixels are not set when it is made. The system hands out memory when it is
+/// written for the first time, and that takes time: so it can be done by whoever draws there.
+struct Unset {};
+constexpr Unset unset;
+
+/// Leaves a pixel of which nothing is said as the memory was.
+template <typename Pixel>
+struct PixelAllocator : std::allocator<Pixel> {
+    template <typename Other>
+    struct rebind {
+        using other = PixelAllocator<Other>;
+    };
+
+    PixelAllocator() = default;
+    template <typename Other>
+    PixelAllocator(const PixelAllocator<Other>&) {}
+
+    template <typename Other>
+    void construct(Other* pixel) {
+        ::new (static_cast<void*>(pixel)) Other;
+    }
+};
+
 /// A width x height array of pixels, stored row by row from the top-left corner, without padding.
 ///
 /// The pixel (x, y) covers the square from (x, y) to (x + 1, y + 1) of screen space.
@@ -31,6 +56,12 @@ class Image {
     explicit Image(ivec2 size, Pixel value = Pixel{}) : size_(size) {
         assert(size.x >= 0 && size.y >= 0 && "an image has no negative side");
         pixels_.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), value);
+    }
+
+    /// The same with pixels of any value: each is to be written before it is read.
+    Image(ivec2 size, Unset) : size_(size) {
+        assert(size.x >= 0 && size.y >= 0 && "an image has no negative side");
+        pixels_.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     }
 
     ivec2 size() const { return size_; }
@@ -54,7 +85,7 @@ class Image {
     }
 
     ivec2 size_{0, 0};
-    std::vector<Pixel> pixels_;
+    std::vector<Pixel, PixelAllocator<Pixel>> pixels_;
 };
 
 /// The mean of each square of `per_side` * `per_side` pixels.

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "02_triangle_fill/triangle.hpp"
@@ -169,6 +170,27 @@ TEST(ZBuffer, HardCase_ClearValueZeroOneAndMinusZero) {
     EXPECT_FALSE(depth.test_and_write(origin, -0.0f)) << "-0 equals 0, and the first stays";
     EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()));
     EXPECT_EQ(depth.depths()[origin], 0.0f);
+}
+
+TEST(ZBuffer, HardCase_ClearsAPartAndNothingElse) {
+    look_up("Eq. 3.1: the buffer starts at 1");
+    const ivec2 size(7, 5);
+    for (const auto& [first, last] : {std::pair(ivec2(0), size - 1),
+                                      {ivec2(2, 1), ivec2(4, 3)},
+                                      {ivec2(3), ivec2(3)},
+                                      {ivec2(4, 1), ivec2(3, 4)},
+                                      {ivec2(0, 5), ivec2(6, 4)}}) {
+        DepthBuffer depth(size, unset);
+        depth.clear(ivec2(0), size - 1);
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) EXPECT_TRUE(depth.test_and_write({x, y}, 0.25f));
+        depth.clear(first, last);
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                const bool is_in = x >= first.x && y >= first.y && x <= last.x && y <= last.y;
+                EXPECT_EQ((depth.depths()[{x, y}]), is_in ? 1.0f : 0.25f) << x << ", " << y;
+            }
+    }
 }
 
 TEST(ZBuffer, HardCase_NotANumberIsNeverNearer) {

@@ -18,6 +18,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "05_textures/bands.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/shading_variants.hpp"
@@ -297,6 +298,37 @@ TEST(ShadowMaps, HardCase_ATriangleSeenInSeveralMapsHasABiasInEach) {
     }
     shadow.look_up(points, none);
     for (std::size_t i = 0; i < points.count; ++i) EXPECT_EQ(shadow(0, i), 1) << i;
+}
+
+TEST(ShadowMaps, HardCase_TheOrderInWhichPointsAskChangesNothing) {
+    look_up("Eq. 9.8");
+    // A floor in the shadow of a plate, with normals that lie on both sides of it: one leads to the
+    // side that lies in shadow, the other to the back, which is turned away from the light.
+    lesson::Options options = small_picture();
+    Scene scene;
+    scene.meshes.push_back(quad({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}));
+    scene.meshes.push_back(quad({-2, 1, -2}, {-2, 1, 2}, {2, 1, 2}, {2, 1, -2}));
+    scene.materials.resize(1);
+    const ShadowedScene shadowed(scene, options);
+    const std::array lights = {sun(glm::normalize(vec3(1, 1, 0))), sun({0, 1, 0})};
+    NoCounters none;
+    for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal}) {
+        options.shadow.bias = bias;
+        const Shadows shadows(options.shadow, false, shadowed, lights, none);
+        const auto shares = [&](vec3 first, vec3 second) {
+            TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
+            LitPoints points;
+            for (const vec3 normal : {first, second}) {
+                points.position_world.set(points.count, {-1.2f, 0, 0.1f});
+                points.normal_world.set(points.count++, normal);
+            }
+            shadow.look_up(points, none);
+            return std::pair(shadow(0, 0), shadow(0, 1));
+        };
+        const vec3 up(0.8f, 0.6f, 0), down(0.8f, -0.6f, 0);
+        EXPECT_EQ(shares(up, down), std::pair(0.0f, 1.0f)) << "bias " << int(bias);
+        EXPECT_EQ(shares(down, up), std::pair(1.0f, 0.0f)) << "bias " << int(bias);
+    }
 }
 
 TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@
 #include "08_normal_maps/normal_map_variants.hpp"
 #include "09_shadow_maps/shadow_variants.hpp"
 #include "09_shadow_maps/shadowed_scene.hpp"
+#include "10_threading/binned_triangles.hpp"
+#include "10_threading/thread_options.hpp"
+#include "10_threading/thread_pool.hpp"
+#include "10_threading/threaded_shadows.hpp"
 #include "common/backdrop.hpp"
 #include "common/lesson_app.hpp"
 
@@ -52,6 +57,9 @@ namespace lesson_08 {
 }
 namespace lesson_09 {
 #include "09_shadow_maps/main.cpp"
+}
+namespace lesson_10 {
+#include "10_threading/main.cpp"
 }
 #undef main
 
@@ -246,4 +254,28 @@ TEST(Allocations, OfLesson09DoNotDependOnTriangles) {
                 return count;
             }));
     }
+}
+
+TEST(Allocations, OfLesson10DependOnChunksAndNotOnTriangles) {
+    for (const Split split : {Split::rows, Split::interleaved, Split::tiles})
+        for (const float distance : {1.4f, 0.2f}) {
+            lesson_10::Options options;
+            options.size = {96, 64}, options.shadow.size = 64, options.orbit.distance = distance;
+            options.threads.split = split, options.threads.tile = 8;
+            const auto count_for = [&](int side) {
+                const ShadowedScene scene(waves(side), options);
+                ThreadPool pool(3);
+                Counters counters;
+                const std::size_t count =
+                    allocations_of([&] { lesson_10::render(options, scene, pool, counters); });
+                EXPECT_GT(counters.values[std::size_t(Counter::shadow_fragments)], 1000u);
+                return count;
+            };
+            const std::size_t triangles = 2 * 32 * 32 * 2, few = count_for(8);
+            // The picture and the map have chunks; each of these has three lists, and asks once
+            // more where clipping makes many triangles of few.
+            EXPECT_LE(count_for(32), few + 2 * 4 * chunks_of(triangles));
+            options.size = 2 * options.size, options.threads.tile = 16;
+            EXPECT_EQ(count_for(8), few) << "four times as many pixels";
+        }
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <glm/matrix.hpp>
@@ -50,12 +51,18 @@ struct ShadowMap {
 
     /// @param reach  World space: a box around all casters and receivers.
     ShadowMap(const mat4& clip, bool perspective, int texels, const Bounds& reach)
+        : ShadowMap(clip, perspective, texels, reach,
+                    DepthBuffer(ivec2(texels + 2 * most_pcf_radius))) {}
+
+    /// @param memory  Becomes `depths`: of texels + 2 most_pcf_radius a side.
+    ShadowMap(const mat4& clip, bool perspective, int texels, const Bounds& reach,
+              DepthBuffer memory)
         : size(texels),
           clip_from_world(clip),
           texels_from_world(viewport<double>(ivec2(texels)) * dmat4(clip)),
           plane_from_world(glm::transpose(glm::inverse(dmat4(texels_from_world)))),
           is_perspective(perspective),
-          depths(ivec2(texels + 2 * most_pcf_radius)) {
+          depths(std::move(memory)) {
         const dvec4 farthest(glm::max(glm::abs(dvec3(reach.min)), glm::abs(dvec3(reach.max))), 1);
         const dmat4 rows = glm::transpose(dmat4(texels_from_world));
         const auto size_of = [&](int row) { return glm::dot(glm::abs(rows[row]), farthest); };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
 #include "09_shadow_maps/shadow_variants.hpp"
+#include "common/math/numerics.hpp"
 
 namespace rasterbook {
 
@@ -92,6 +94,22 @@ class Shadows {
     template <typename CounterPolicy>
     Shadows(const ShadowVariant& variant, bool all_effects, const ShadowedScene& scene,
             std::span<const Light, light_casts.size()> lights, CounterPolicy& counters)
+        : Shadows(
+              variant, all_effects, scene, lights, counters, [&](ShadowMap& map, bool is_drawn) {
+                  map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
+                  const auto casts = [&](std::size_t material) { return scene.casts(material); };
+                  if (is_drawn)
+                      for (const Mesh& mesh : scene.meshes)
+                          draw_casters(map, mesh, casts, counters);
+              }) {}
+
+    /// The same, drawn as `draw` does it.
+    ///
+    /// @param draw  Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths, and
+    ///              draws the scene's casters, or nothing where a map stays empty.
+    template <typename CounterPolicy, typename Draw>
+    Shadows(const ShadowVariant& variant, bool all_effects, const ShadowedScene& scene,
+            std::span<const Light, light_casts.size()> lights, CounterPolicy& counters, Draw&& draw)
         : radius_(variant.radius()), bias_(variant.bias) {
         for (std::size_t l = 0; l < lights.size(); ++l) {
             of_light_[l].light = lights[l];
@@ -102,9 +120,7 @@ class Shadows {
                 add_maps(of_light_[l], variant.size, scene, scene.bounds(), scene.bounds());
             for (ShadowMap& map : of_light_[l].maps) {
                 counters.add(Counter::shadow_passes);
-                if (!of_light_[l].is_drawn) continue;
-                const auto casts = [&](std::size_t material) { return scene.casts(material); };
-                for (const Mesh& mesh : scene.meshes) draw_casters(map, mesh, casts, counters);
+                draw(map, of_light_[l].is_drawn);
             }
         }
     }
@@ -125,7 +141,8 @@ class Shadows {
                 continue;
             of_light.map_of_view[i] = of_light.maps.size();
             of_light.maps.emplace_back(views.clip_from_world[i], views.is_perspective, size,
-                                       scene.bounds());
+                                       scene.bounds(),
+                                       DepthBuffer(ivec2(size + 2 * most_pcf_radius), unset));
         }
     }
 
@@ -153,16 +170,18 @@ constexpr float full_cosine = 0.1f;
 
 /// How much of each light reaches points of a triangle.
 ///
-/// The bias in a map is fitted at the triangle's first look-up there, with that point's normal as
-/// `outward`. Normals of one triangle that lie on both sides of it are rare; there the first
-/// decides.
+/// A triangle has two sides. A point is on the one to which its normal leads, and the bias of that
+/// side in a map is fitted at the first look-up there. It is the same whichever point is the first.
 class TriangleShadows {
   public:
     TriangleShadows(const Shadows& shadows, const Mesh& mesh, const Triangle& triangle)
         : shadows_(shadows),
           corners_{mesh.positions[triangle.corners[0].position],
                    mesh.positions[triangle.corners[1].position],
-                   mesh.positions[triangle.corners[2].position]} {}
+                   mesh.positions[triangle.corners[2].position]},
+          front_(normalize_or(glm::cross(dvec3(corners_[1]) - dvec3(corners_[0]),
+                                         dvec3(corners_[2]) - dvec3(corners_[0])),
+                              dvec3(0))) {}
 
     /// Asks the maps for points with normals that are the surface's own, no relief's. None is asked
     /// where a surface is turned away from the light.
@@ -213,18 +232,20 @@ class TriangleShadows {
         const float faded = of_light.is_drawn ? std::min(cosine / full_cosine, 1.0f) : 1;
         if (map == LightDepths::no_map) return faded;
         counters.add(Counter::shadow_lookups);
-        if (!is_known_[l][map]) {  // most triangles of a lamp are seen in one map
-            receivers_[l][map] =
-                receiver(of_light.maps[map], shadows_.bias_, shadows_.radius_, corners_, normal);
-            is_known_[l][map] = true;
-        }
-        return faded * shadows_.lit(of_light.maps[map], receivers_[l][map], position);
+        const bool is_back = glm::dot(front_, normal) < 0;
+        std::optional<Receiver>& of_side = receivers_[l][map][is_back];
+        if (!of_side)  // most triangles of a lamp are seen in one map, and from one side
+            of_side = receiver(of_light.maps[map], shadows_.bias_, shadows_.radius_, corners_,
+                               is_back ? -front_ : front_);
+        return faded * shadows_.lit(of_light.maps[map], *of_side, position);
     }
 
     const Shadows& shadows_;
     std::array<vec3, 3> corners_;
-    std::array<std::array<Receiver, 6>, light_casts.size()> receivers_;
-    std::array<std::array<bool, 6>, light_casts.size()> is_known_{};
+    vec3 front_;  ///< The flat triangle's normal, length 1; 0 where it has no area.
+    /// By light, map and side: front, back.
+    std::array<std::array<std::array<std::optional<Receiver>, 2>, 6>, light_casts.size()>
+        receivers_;
     std::array<Numbers, light_casts.size()> shares_;
 };
 

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "common/image_io.hpp"
+#include "common/math/color.hpp"
 #include "support/image_doctor.hpp"
 #include "support/lesson_process.hpp"
 #include "support/picture_difference.hpp"
@@ -35,20 +36,19 @@ Image<u8vec3> side_by_side(const Image<u8vec4>& expected, const Image<u8vec4>& a
     return all;
 }
 
-}  // namespace
+std::filesystem::path actual_file_of(const std::string& golden) {
+    return std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_actual.png");
+}
 
-testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
-                                       const std::vector<std::string>& arguments,
-                                       std::size_t may_jump) {
+/// Compares the picture in actual_file_of(golden) with the golden one.
+///
+/// @param diagnosis  Called as diagnosis(actual, expected): what to say of pictures that differ.
+template <typename Diagnosis>
+testing::AssertionResult is_golden(const std::string& golden, std::size_t may_jump,
+                                   const Diagnosis& diagnosis) {
     const std::filesystem::path expected_file =
         std::filesystem::path(RASTERBOOK_GOLDEN) / (golden + ".png");
-    const std::filesystem::path actual_file =
-        std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_actual.png");
-    std::vector<std::string> all = {"--size", golden_size, "--out", actual_file.string()};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    const ProcessResult run = run_program(lesson, all);
-    if (run.exit_status != 0)
-        return testing::AssertionFailure() << lesson << " failed: " << run.err;
+    const std::filesystem::path actual_file = actual_file_of(golden);
     const auto replace_golden = [&] {
         std::filesystem::create_directories(RASTERBOOK_GOLDEN);
         std::filesystem::copy_file(actual_file, expected_file,
@@ -76,9 +76,31 @@ testing::AssertionResult equals_golden(const std::string& lesson, const std::str
     return testing::AssertionFailure()
            << difference.differing << " pixels differ, the most by " << difference.greatest
            << " of 255; up to " << difference.allowed << " may, by no more than "
-           << levels_that_may_differ << ", but for " << may_jump << " of them\nThe picture: "
-           << diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()))
+           << levels_that_may_differ << ", but for " << may_jump << " of them"
+           << diagnosis(actual, expected)
            << "\nexpected | actual | difference: " << comparison.string() << if_it_is_right;
+}
+
+}  // namespace
+
+testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
+                                       const std::vector<std::string>& arguments,
+                                       std::size_t may_jump) {
+    std::vector<std::string> all = {"--size", golden_size, "--out",
+                                    actual_file_of(golden).string()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ProcessResult run = run_program(lesson, all);
+    if (run.exit_status != 0)
+        return testing::AssertionFailure() << lesson << " failed: " << run.err;
+    return is_golden(golden, may_jump, [&](const auto& actual, const auto& expected) {
+        return "\nThe picture: " +
+               diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()));
+    });
+}
+
+testing::AssertionResult equals_golden(const Image<vec3>& picture, const std::string& golden) {
+    write_image(actual_file_of(golden), srgb8_from_linear(picture));
+    return is_golden(golden, 0, [](const auto&, const auto&) { return std::string(); });
 }
 
 }  // namespace rasterbook::test

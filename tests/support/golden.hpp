@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/image.hpp"
+
 namespace rasterbook::test {
 
 /// The golden pictures' size: small enough to keep, large enough for a README.
@@ -27,5 +29,8 @@ constexpr const char* golden_size = "960x540";
 testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
                                        const std::vector<std::string>& arguments = {},
                                        std::size_t may_jump = 0);
+
+/// The same for a picture that the test has drawn itself, in linear colour.
+testing::AssertionResult equals_golden(const Image<vec3>& picture, const std::string& golden);
 
 }  // namespace rasterbook::test

@@ -20,6 +20,17 @@ class DepthBuffer {
     /// @param size  Width and height in pixels.
     explicit DepthBuffer(ivec2 size) : depths_(size, cleared) {}
 
+    /// The same, with each pixel still to be cleared.
+    DepthBuffer(ivec2 size, Unset) : depths_(size, unset) {}
+
+    /// Clears a part.
+    ///
+    /// @param first,last  Its upper left and lower right pixel; last before first: no pixel.
+    void clear(ivec2 first, ivec2 last) {
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x) depths_[{x, y}] = cleared;
+    }
+
     /// Whether `depth` is nearer than all before it in this pixel; if so, it is kept (Eq. 3.1).
     ///
     /// Of equal depths the first stays: -0 equals 0. NaN is never nearer.

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Threads that are started once and then share out one job after the other. Introduced in lesson
+/// 10; derivation: docs/derivations/10_threading.md.
+#pragma once
+
+#include <atomic>
+#include <cassert>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+namespace rasterbook {
+
+/// Workers that wait for jobs. A job is a number of tasks, and whoever has nothing to do takes the
+/// next one.
+class ThreadPool {
+  public:
+    /// @param threads  The caller's among them: one less is started. At least 1.
+    /// @throws std::system_error  When the system does not give that many; none is left running.
+    explicit ThreadPool(int threads) {
+        assert(threads >= 1 && "the caller is a worker, too");
+        // TODO: one less than `threads`, each of which runs work() with its number.
+    }
+
+    /// How many work, the caller among them.
+    std::size_t size() const { return workers_.size() + 1; }
+
+    /// Does all tasks, and comes back when all are done.
+    ///
+    /// What is written before is seen by the tasks, and what they write is seen after.
+    ///
+    /// @param tasks  May be 0.
+    /// @param task   Called as task(i, worker) for i from 0 to tasks - 1, each once, by several
+    ///               threads at once, in no fixed order. Of the calls by one worker, numbered from
+    ///               0, the caller, to size() - 1, only one runs at a time. When one throws, no
+    ///               other is begun; when all that run have ended, run() throws what the first one
+    ///               threw, and the pool can be used as before.
+    ///
+    /// Not to be called by two threads at once, nor by a task.
+    template <typename Task>
+    void run(std::size_t tasks, const Task& task) {
+        Job job{tasks, std::addressof(task), [](const void* of, std::size_t i, std::size_t worker) {
+                    (*static_cast<const Task*>(of))(i, worker);
+                }};
+        // TODO: make the job known to all, wake them up, take tasks as worker 0, and wait until
+        // nobody is in the job any more. Who wakes up after that must not find it. Throw what was
+        // kept, if something was.
+    }
+
+  private:
+    struct Job {
+        std::size_t tasks;
+        const void* task;
+        void (*call)(const void* task, std::size_t i, std::size_t worker);
+        std::atomic<std::size_t> next = 0;  ///< The first task that nobody has taken.
+        std::exception_ptr error = nullptr;
+    };
+
+    void take_tasks(Job& job, std::size_t worker) {
+        // TODO: take tasks from job.next and call job.call(job.task, i, worker), as long as there
+        // are any. If one throws, keep it if it is the first, and let nobody begin another.
+    }
+
+    void work(const std::stop_token& stop, std::size_t worker) {
+        // TODO: wait for a job that this worker has not been in, take part, and again, until
+        // `stop`. has_job_.wait(lock, stop, condition) gives false when there is no more to come.
+    }
+
+    std::mutex mutex_;
+    std::condition_variable_any has_job_;
+    std::condition_variable is_done_;
+    Job* job_ = nullptr;
+    std::size_t jobs_ = 0;               ///< So many there have been: nobody joins one twice.
+    std::size_t busy_ = 0;               ///< Workers in the job, but for the caller.
+    std::vector<std::jthread> workers_;  ///< Last: they end before what they use.
+};
+
+/// Bytes that processors hand to each other at once, at most: two threads that write within them
+/// wait for each other.
+constexpr std::size_t cache_line = 128;
+
+/// Counters for each worker, so that none waits for another.
+template <typename CounterPolicy>
+class WorkerCounters {
+  public:
+    explicit WorkerCounters(std::size_t workers) : of_worker_(workers) {}
+
+    CounterPolicy& operator[](std::size_t worker) { return of_worker_[worker].counters; }
+
+    void add_to(CounterPolicy& sum) const {
+        for (const Apart& one : of_worker_) sum.add(one.counters);
+    }
+
+  private:
+    struct alignas(cache_line) Apart {
+        CounterPolicy counters;
+    };
+
+    std::vector<Apart> of_worker_;
+};
+
+}  // namespace rasterbook
