@@ -137,6 +137,7 @@ void add_scene(const std::string& name) {
         if (change) change(model);
         const auto scene = std::make_shared<FinishedScene>(std::move(model), options);
         if (effect == Effect::shadow) scene->lit_by.casts.fill(false);
+        scene->is_on_paper = whole->is_on_paper;  // what lies behind is none of the effects
         add("without " + std::string(effect_names[static_cast<std::size_t>(effect)]), options,
             scene);
     }

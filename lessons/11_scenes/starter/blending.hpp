@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Surfaces that are there in part: those with holes, and those that one sees through. Introduced
+/// in lesson 11; derivation: docs/derivations/11_scenes.md.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "common/image.hpp"
+#include "common/math/types.hpp"
+
+namespace rasterbook {
+
+/// Whether a surface with holes is there (Eq. 11.7).
+///
+/// @param opacity  Any number; of NaN, there is a hole.
+inline bool is_there(float opacity, float cutoff) {
+    // TODO: Eq. 11.7.
+    return true;
+}
+
+/// A colour over what lies behind it (Eq. 11.8): exactly itself with an opacity of 1, exactly what
+/// lies behind with one of 0.
+///
+/// @param opacity      0 to 1.
+/// @param color,behind Finite.
+inline vec3 over(vec3 color, float opacity, vec3 behind) {
+    // TODO: Eq. 11.8.
+    return color;
+}
+
+/// One layer in one pixel.
+struct Layer {
+    ivec2 pixel;
+    float depth;
+    float opacity;  ///< 0 to 1.
+    vec3 color;
+};
+
+/// The layers of a part of a picture, gathered in any order, drawn from back to front.
+///
+/// Sorted in each pixel by themselves: triangles that cut through each other, or overlap in a ring,
+/// have no order as a whole.
+class Layers {
+  public:
+    void add(const Layer& layer) { layers_.push_back(layer); }
+
+    bool empty() const { return layers_.empty(); }
+
+    /// Draws all of them over the picture (Eq. 11.9). Of two layers at the same depth, that which
+    /// was added first lies on top: it is the first that stays in the depth buffer, too.
+    void draw_over(Image<vec3>& color) {
+        // TODO: sort, in each pixel from the farthest to the nearest, and draw in this order
+        // (Eq. 11.9).
+        layers_.clear();
+    }
+
+  private:
+    std::vector<Layer> layers_;
+    std::vector<std::uint32_t> order_;
+};
+
+}  // namespace rasterbook

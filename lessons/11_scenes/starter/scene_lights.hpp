@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The lights of a scene file, or those that a file without lights is given. Introduced in lesson
+/// 11; derivation: docs/derivations/11_scenes.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "06_phong/light.hpp"
+#include "09_shadow_maps/shadowed_scene.hpp"
+#include "common/mesh.hpp"
+
+namespace rasterbook {
+
+/// Light of colour 1 makes a white surface white: so many lux.
+constexpr float lux_of_white = std::numbers::pi_v<float>;
+
+/// A lamp of a file is a point, and at a point its light would be infinite: here it is as large as
+/// this share of the scene's radius.
+constexpr float lamp_size = 1.0f / 128;
+
+/// A file's light in units of the lessons' (Eq. 11.1 and 11.2).
+///
+/// @param scene_radius  World space, > 0. Farther from a lamp than 10 times lamp_size of it, less
+///                      than 1% of its light is missing.
+/// @return  Its range is not minded: glTF calls it a hint.
+inline Light light_of(const SceneLight& from, float scene_radius) {
+    // TODO: its kind, place, direction (of a sun: towards it) and cone; Eq. 11.1, and of a lamp
+    // Eq. 11.2.
+    Light light{LightKind::directional, from.color, -from.direction_world};
+    return light;
+}
+
+/// All lights that a scene is drawn in.
+struct SceneLights {
+    std::vector<Light> lights;  ///< At most most_lights.
+    std::vector<std::string> names;
+    std::array<bool, most_lights> casts{};  ///< Whether each throws shadows.
+    bool are_of_file = false;               ///< Else those of lesson 09.
+};
+
+/// The file's lights; where it has none, the raking lights of lesson 09.
+///
+/// @param key       Of these, the kind of the first.
+/// @param warnings  Takes the names of the lights beyond most_lights: they are left out.
+inline SceneLights lights_of(const Scene& scene, LightKind key,
+                             std::vector<std::string>& warnings) {
+    SceneLights all;
+    const Bounds bounds = scene.bounds();
+    if (scene.lights.empty()) {
+        const std::array raking = raking_lights(key, bounds);
+        all.lights.assign(raking.begin(), raking.end());
+        all.names = {"key light of the lesson", "sky of the lesson"};
+        std::ranges::copy(light_casts, all.casts.begin());
+        return all;
+    }
+    all.are_of_file = true;
+    for (const SceneLight& light : scene.lights) {
+        if (all.lights.size() == most_lights) {
+            warnings.push_back("light \"" + light.name + "\" is left out: no more than " +
+                               std::to_string(most_lights) + " lights are drawn with");
+            continue;
+        }
+        all.casts[all.lights.size()] = true;
+        all.lights.push_back(light_of(light, bounds.radius()));
+        all.names.push_back(light.name);
+    }
+    return all;
+}
+
+}  // namespace rasterbook
