@@ -49,7 +49,7 @@ struct NoClock {
     void end() {}
 };
 
-/// A sum of many words, comma by comma.
+/// Adds a word to a list in words.
 inline void add_word(std::string& words, const std::string& word) {
     words += (words.empty() ? "" : ", ") + word;
 }
@@ -65,7 +65,9 @@ inline void explain(std::ostream& out, const FinishedScene& scene, const std::st
     out << scene.meshes.size() << " meshes, " << triangles << " triangles, "
         << scene.materials.size() << " materials\n";
     out << "camera: " << camera << '\n';
-    for (std::size_t l = 0; l < scene.lit_by.lights.size(); ++l) {
+    const bool is_lit = scene.plan.any(Effect::light) || scene.plan.any(Effect::toon);
+    if (!is_lit) out << "light: none is called for\n";
+    for (std::size_t l = 0; is_lit && l < scene.lit_by.lights.size(); ++l) {
         constexpr const char* kinds[] = {"sun", "lamp", "spot"};
         const std::string& name = scene.lit_by.names[l];
         out << "light: " << (name.empty() ? "unnamed" : name) << ", a "

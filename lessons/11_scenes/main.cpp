@@ -130,6 +130,7 @@ int main(int argc, char** argv) {
             Image<vec3> picture = render(options, scene, *pool, counted, clock);
             explain(std::cout, scene, camera_name(options, options.scene.camera, scene), counted,
                     clock);
+            if constexpr (requires { counters.add(counted); }) counters.add(counted);
             return picture;
         });
 }

@@ -48,6 +48,13 @@ struct MaterialPlan {
     bool two_sided = false;
 
     bool operator[](Effect effect) const { return runs[static_cast<std::size_t>(effect)]; }
+
+    /// @param reason  For which it does not run, if so.
+    void set(Effect effect, bool is_on, std::string reason) {
+        const auto i = static_cast<std::size_t>(effect);
+        runs[i] = is_on;
+        why_not[i] = is_on ? std::string() : std::move(reason);
+    }
 };
 
 /// The plan of a scene: for each material its effects.
@@ -74,35 +81,35 @@ class ScenePlan {
                 if (!mesh.colors.empty()) has_colors[triangle.material] = true;
             }
         for (std::size_t i = 0; i < materials.size(); ++i) {
-            plan_ = &materials[i];
+            MaterialPlan& plan = materials[i];
             const Material& material = scene.materials[i];
             const bool is_unlit = material.illumination == 0, is_toon = material.toon.has_value();
             const bool is_lit = !is_unlit && !is_toon;
             const char* const unlit = is_toon ? "a comic's paint" : "unlit";
-            plan_->two_sided = material.two_sided || options.two_sided;
-            set(Effect::light, is_lit && has_lights, is_lit ? "no lights" : unlit);
-            set(Effect::highlight, is_lit && scene.effects[i].highlight,
-                !is_lit                      ? unlit
-                : material.illumination == 1 ? "illum 1"
-                                             : "black");
-            set(Effect::texture, scene.effects[i].diffuse_map, "names no picture");
-            set(Effect::specular_map, is_lit && scene.effects[i].specular_map,
-                is_lit ? "names no picture" : unlit);
-            set(Effect::vertex_colors, has_colors[i] || all_effects, "corners have none");
-            set(Effect::normal_map, !is_unlit && scene.normal_textures[i] != nullptr,
-                is_unlit       ? "unlit"
-                : !normal_maps ? "none are read"
-                               : "names none");
-            set(Effect::shadow, !is_unlit && (has_shadows || all_effects),
-                is_unlit ? "unlit" : "nothing is thrown");
-            set(Effect::toon, is_toon || (is_unlit && plan_->is_seen && all_effects),
-                "not asked for");
-            set(Effect::outline, has_outline(material), "not asked for");
+            plan.two_sided = material.two_sided || options.two_sided;
+            plan.set(Effect::light, is_lit && has_lights, is_lit ? "no lights" : unlit);
+            plan.set(Effect::highlight, is_lit && scene.effects[i].highlight,
+                     !is_lit                      ? unlit
+                     : material.illumination == 1 ? "illum 1"
+                                                  : "black");
+            plan.set(Effect::texture, scene.effects[i].diffuse_map, "names no picture");
+            plan.set(Effect::specular_map, is_lit && scene.effects[i].specular_map,
+                     is_lit ? "names no picture" : unlit);
+            plan.set(Effect::vertex_colors, has_colors[i] || all_effects, "corners have none");
+            plan.set(Effect::normal_map, !is_unlit && scene.normal_textures[i] != nullptr,
+                     is_unlit       ? "unlit"
+                     : !normal_maps ? "none are read"
+                                    : "names none");
+            plan.set(Effect::shadow, !is_unlit && (has_shadows || all_effects),
+                     is_unlit ? "unlit" : "nothing is thrown");
+            plan.set(Effect::toon, is_toon || (is_unlit && plan.is_seen && all_effects),
+                     "not asked for");
+            plan.set(Effect::outline, has_outline(material), "not asked for");
             const bool is_masked = material.alpha == AlphaMode::mask;
             const bool is_blended = material.alpha == AlphaMode::blend || material.opacity < 1;
-            set(Effect::mask, is_masked, "opaque");
-            set(Effect::blend, !is_masked && (is_blended || all_effects),
-                is_masked ? "holes only" : "opaque");
+            plan.set(Effect::mask, is_masked, "opaque");
+            plan.set(Effect::blend, !is_masked && (is_blended || all_effects),
+                     is_masked ? "holes only" : "opaque");
         }
     }
 
@@ -122,15 +129,6 @@ class ScenePlan {
         }
         return has_some;
     }
-
-  private:
-    void set(Effect effect, bool runs, std::string why_not) {
-        const auto i = static_cast<std::size_t>(effect);
-        plan_->runs[i] = runs;
-        if (!runs) plan_->why_not[i] = std::move(why_not);
-    }
-
-    MaterialPlan* plan_ = nullptr;  ///< The one that is being made.
 };
 
 }  // namespace rasterbook
