@@ -202,6 +202,44 @@ TEST(SceneFiles, HardCase_AllEffectsForcedGiveTheSameBits) {
     }
 }
 
+TEST(SceneFiles, HardCase_AllEffectsForcedKeepHolesGlassAndPaper) {
+    look_up("Eq. 11.9");
+    // All at the same depth, in each order: the first opaque one stays, and glass is not seen.
+    const auto holes = [](Squares& squares) {
+        squares.add(0, vec3(0, 1, 0)).alpha = AlphaMode::mask;
+        squares.scene.meshes.back().colors = {vec4(1, 1, 1, 0), vec4(1), vec4(1), vec4(1, 1, 1, 0)};
+    };
+    const auto wall = [](Squares& squares) {
+        squares.add(0, vec3(1, 0, 0));
+        squares.scene.meshes.back().colors.assign(4, vec4(1, 1, 1, 0.5f));  // of which none counts
+    };
+    const auto back = [](Squares& squares) {  // seen from behind
+        squares.add(0, vec3(0, 0, 1)).two_sided = true;
+        for (Triangle& triangle : squares.scene.meshes.back().triangles)
+            std::swap(triangle.corners[1], triangle.corners[2]);
+    };
+    const auto glass = [](Squares& squares) { squares.add_glass(0, vec3(1, 1, 0), 0.5f); };
+    const auto near_glass = [](Squares& squares) { squares.add_glass(1, vec3(0, 1, 1), 0.25f, 1); };
+    const auto comic = [](Squares& squares) {
+        squares.add(0.5f, vec3(1), 2).toon =
+            ToonLook{.outline = ToonLook::Outline::world, .outline_width = 0.1f};
+    };
+    std::vector<void (*)(Squares&)> order = {holes, wall, back, glass, near_glass, comic};
+    std::vector<std::size_t> index = {0, 1, 2, 3, 4, 5};
+    int cases = 0;
+    do {
+        Squares squares;
+        for (const std::size_t i : index) order[i](squares);
+        lesson::Options options = small_picture({16, 16});
+        const Drawn plain = drawn(squares.scene, options);
+        options.shading.all_effects = true;
+        EXPECT_TRUE(are_the_same_bits(plain.picture, drawn(squares.scene, options).picture))
+            << "order " << index[0] << index[1] << index[2] << index[3] << index[4] << index[5];
+        ++cases;
+    } while (std::next_permutation(index.begin(), index.end()) && cases < 720);
+    EXPECT_EQ(cases, 720);
+}
+
 TEST(SceneFiles, HardCase_AnyThreadsAndOrderGiveTheSameBits) {
     look_up("Eq. 11.9");
     Squares glass;  // panes that cut through each other, and are gathered in each tile's own order

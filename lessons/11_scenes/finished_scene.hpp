@@ -3,6 +3,7 @@
 /// A scene of any file with all that it calls for. Introduced in lesson 11.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -32,7 +33,7 @@ struct FinishedScene : ShadowedScene {
           plan(*this, !lit_by.lights.empty(), has_shadows(),
                options.normal_map.space != MapSpace::none, options.shading),
           hulls(outline_hulls(*this)),
-          is_on_paper(plan.all(Effect::toon) && plan.any(Effect::outline)) {
+          is_on_paper(is_comic()) {
         for (const Material& material : materials)
             if (!material.opacity_map.file.empty())
                 warnings.push_back("material \"" + material.name +
@@ -48,6 +49,12 @@ struct FinishedScene : ShadowedScene {
     }
 
   private:
+    bool is_comic() const {
+        for (std::size_t i = 0; i < materials.size(); ++i)
+            if (plan.materials[i].is_seen && !materials[i].toon) return false;
+        return plan.any(Effect::outline);
+    }
+
     bool has_shadows() const {
         return casters.min.x <= casters.max.x && receivers.min.x <= receivers.max.x;
     }
@@ -61,37 +68,37 @@ inline void draw_paper(Image<vec3>& color, const Part& part) {
     });
 }
 
-/// Triangles that are drawn together: those of materials that are opaque or are not, and that are
-/// seen from both sides or from the front alone.
+/// Triangles that are drawn together: those of materials that are opaque, or are glass, and that
+/// are seen from both sides or from the front alone.
 struct Pass {
-    const char* name;
-    bool is_blended, two_sided;
-    std::vector<const Mesh*> meshes;
+    bool is_blended;  ///< They become layers: glass, and with all effects forced the others, too.
+    bool is_glass, two_sided;
+    std::vector<const Mesh*> meshes{};
 
     bool takes(const FinishedScene& scene, std::size_t material) const {
         const MaterialPlan& plan = scene.plan.materials[material];
-        return plan[Effect::blend] == is_blended && plan.two_sided == two_sided;
+        return plan[Effect::blend] == is_blended && plan.is_glass == is_glass &&
+               plan.two_sided == two_sided;
     }
 };
 
-/// The passes that a scene calls for: opaque ones first, as blended ones are drawn over them.
+/// The passes that a scene calls for: what is opaque first, as glass is drawn over it.
 ///
 /// @param meshes  Those in the camera's view: of the scene, and of outlines.
 inline std::vector<Pass> passes_of(const FinishedScene& scene,
                                    std::span<const Mesh* const> meshes) {
     std::vector<Pass> passes;
-    for (const Pass& kind :
-         {Pass{"opaque", false, false, {}}, Pass{"opaque, both sides", false, true, {}},
-          Pass{"blended", true, false, {}}, Pass{"blended, both sides", true, true, {}}}) {
-        Pass pass = kind;
-        for (const Mesh* const mesh : meshes)
-            for (const Triangle& triangle : mesh->triangles)
-                if (pass.takes(scene, triangle.material)) {
+    for (const auto& [is_blended, is_glass] :
+         {std::pair{false, false}, {true, false}, {true, true}})
+        for (const bool two_sided : {false, true}) {
+            Pass pass{is_blended, is_glass, two_sided};
+            for (const Mesh* const mesh : meshes)
+                if (std::ranges::any_of(mesh->triangles, [&](const Triangle& triangle) {
+                        return pass.takes(scene, triangle.material);
+                    }))
                     pass.meshes.push_back(mesh);
-                    break;
-                }
-        if (!pass.meshes.empty()) passes.push_back(std::move(pass));
-    }
+            if (!pass.meshes.empty()) passes.push_back(std::move(pass));
+        }
     return passes;
 }
 

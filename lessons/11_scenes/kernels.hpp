@@ -100,12 +100,14 @@ class TriangleTints {
         }
     }
 
-    /// How opaque they are, 0 to 1: by the material, its texture and the corners (Eq. 11.7).
+    /// How opaque they are, 0 to 1: by the material, its texture and the corners (Eq. 11.7). These
+    /// do not count for a material that is neither glass nor has holes.
     template <typename CounterPolicy>
     Numbers opacities(const TriangleSurface& surface, const ManyWeights& weights, Filter filter,
                       CounterPolicy& counters) const {
         Numbers opacities;
-        opacities.fill(material_.opacity);
+        opacities.fill(is_masked() || plan_.is_glass ? material_.opacity : 1.0f);
+        if (!is_masked() && !plan_.is_glass) return opacities;
         if (surface.effects.diffuse_map)
             sample_many(*surface.texture, filter, surface.uvs, weights,
                         [&](std::size_t i, vec4 texel) {
@@ -121,6 +123,7 @@ class TriangleTints {
     }
 
     bool is_masked() const { return plan_[Effect::mask]; }
+    bool is_layer() const { return plan_[Effect::blend]; }
     float cutoff() const { return material_.alpha_cutoff; }
 
   private:
@@ -241,14 +244,17 @@ void draw_triangle(const Frame& frame, const ReadyTriangle& ready, const Part& p
                 [&](std::size_t i, vec3 color) {
                     const ivec2 pixel = fragments.pixels[i];
                     const float depth = triangle_depth.at(fragments.screen_weights[i]);
-                    if (!shade.tints.is_masked()) {
+                    const bool is_masked = shade.tints.is_masked();
+                    if (is_masked) {
+                        counters.add(Counter::masked_fragments);
+                        if (!is_there(opacities[i], shade.tints.cutoff())) return;
+                    }
+                    if (shade.tints.is_layer()) {
                         counters.add(Counter::fragments_shaded);
                         counters.add(Counter::blended_fragments);
-                        layers.add({pixel, depth, opacities[i], color});
+                        layers.add({pixel, depth, is_masked ? 1.0f : opacities[i], color});
                         return;
                     }
-                    counters.add(Counter::masked_fragments);
-                    if (!is_there(opacities[i], shade.tints.cutoff())) return;
                     if (!frame.depth.test_and_write(pixel, depth)) return;
                     counters.add(Counter::fragments_shaded);
                     frame.color[pixel] = color;

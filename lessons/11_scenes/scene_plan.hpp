@@ -44,7 +44,8 @@ constexpr std::array<std::string_view, effect_count> effect_names = {
 struct MaterialPlan {
     std::array<bool, effect_count> runs{};
     std::array<std::string, effect_count> why_not;
-    bool is_seen = false;  ///< A triangle has it.
+    bool is_seen = false;   ///< A triangle has it.
+    bool is_glass = false;  ///< What lies behind shines through, whatever is forced.
     bool two_sided = false;
 
     bool operator[](Effect effect) const { return runs[static_cast<std::size_t>(effect)]; }
@@ -106,9 +107,10 @@ class ScenePlan {
                      "not asked for");
             plan.set(Effect::outline, has_outline(material), "not asked for");
             const bool is_masked = material.alpha == AlphaMode::mask;
-            const bool is_blended = material.alpha == AlphaMode::blend || material.opacity < 1;
+            plan.is_glass =
+                !is_masked && (material.alpha == AlphaMode::blend || material.opacity < 1);
             plan.set(Effect::mask, is_masked, "opaque");
-            plan.set(Effect::blend, !is_masked && (is_blended || all_effects),
+            plan.set(Effect::blend, plan.is_glass || all_effects,
                      is_masked ? "holes only" : "opaque");
         }
     }
