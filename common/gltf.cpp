@@ -142,6 +142,7 @@ Scene GltfReader::read() {
     read_nodes(roots());
     if (scene_.meshes.empty()) fail("holds no faces");
     scene_.warnings = warnings_.take();
+    scene_.is_gltf = true;
     return std::move(scene_);
 }
 

@@ -168,6 +168,7 @@ struct Scene {
     std::vector<std::string> warnings;   ///< What the loader passed over, each "FILE:LINE: ...".
     std::vector<SceneCamera> cameras{};  ///< As glTF has them; the lessons' own until lesson 11.
     std::vector<SceneLight> lights{};    ///< The same.
+    bool is_gltf = false;                ///< The file is of a kind that may have both.
 
     Bounds bounds() const {
         Bounds all;

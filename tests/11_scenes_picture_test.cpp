@@ -386,6 +386,40 @@ TEST(SceneFiles, HardCase_GlassThrowsNoShadow) {
     }
 }
 
+TEST(SceneFiles, HardCase_FilesWithoutCamerasAreSeenWhole) {
+    look_up("Eq. 11.11");
+    Scene scene = loaded("toon.glb");
+    const auto name_of = [&](const lesson::Options& options) {
+        return camera_of_picture(options, options.scene.camera, scene).name;
+    };
+    lesson::Options options = small_picture();
+    EXPECT_EQ(name_of(options), "0 \"front\" of the file");
+    scene.cameras.clear();
+    EXPECT_EQ(name_of(options), "the lesson's own, so far away that all is seen");
+    // Nothing of it touches the picture's border, and it is large enough.
+    const Image<vec3> picture = drawn(scene, options).picture;
+    const ivec2 size = picture.size();
+    int inked = 0;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const bool is_paper = picture[{x, y}] == paper_color;
+            inked += !is_paper;
+            if (x == 0 || y == 0 || x == size.x - 1 || y == size.y - 1) {
+                EXPECT_TRUE(is_paper) << x << " " << y;
+            }
+        }
+    EXPECT_GT(inked, size.x * size.y / 10);
+    options.scene.camera = "orbit";
+    EXPECT_EQ(name_of(options), "the lesson's own, around the scene");
+    options.scene.camera = "", options.orbit.yaw_degrees = 0;
+    EXPECT_EQ(name_of(options), "the lesson's own, around the scene");
+    scene = loaded("figure.obj");
+    options.orbit = Orbit();
+    EXPECT_EQ(name_of(options), "the lesson's own, around the scene") << "as in earlier lessons";
+    options.scene.camera = "fit";
+    EXPECT_EQ(name_of(options), "the lesson's own, so far away that all is seen");
+}
+
 TEST(SceneFiles, HardCase_WhatIsNotSupportedIsNamed) {
     look_up("Eq. 11.1");
     Squares squares;
@@ -397,8 +431,9 @@ TEST(SceneFiles, HardCase_WhatIsNotSupportedIsNamed) {
         run_program("11_scenes", {"--model", "toon.glb", "--camera", "side", "--size", "32x18",
                                   "--out", (fresh_folder("no_camera") / "a.png").string()});
     EXPECT_EQ(wrong.exit_status, 1);
-    EXPECT_EQ(wrong.err,
-              "error: there is no camera 'side'; the file has 0 \"front\"; or --camera orbit\n");
+    EXPECT_EQ(
+        wrong.err,
+        "error: there is no camera 'side'; the file has 0 \"front\"; or --camera orbit|fit\n");
 }
 
 TEST(SceneFiles, HardCase_NumbersThatAreNoneAreAnErrorInOneLine) {

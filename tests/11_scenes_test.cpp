@@ -334,7 +334,7 @@ TEST(Scenes, HardCase_CamerasByNameAndNumber) {
         translation(vec3(3, 4, 5)) * rotation_y(0.5f) * rotation_x(-0.25f);
     EXPECT_EQ(chosen_camera(scene, "", false), 0u);
     EXPECT_FALSE(chosen_camera(scene, "", true)) << "another orbit is asked for";
-    EXPECT_FALSE(chosen_camera(scene, "orbit", false));
+    EXPECT_FALSE(chosen_camera(scene, "orbit", false) || chosen_camera(scene, "fit", false));
     EXPECT_EQ(chosen_camera(scene, "front", true), 0u);
     EXPECT_EQ(chosen_camera(scene, "1", false), 1u);
     EXPECT_EQ(chosen_camera(scene, "7", false), 1u);
@@ -358,4 +358,39 @@ TEST(Scenes, HardCase_CamerasByNameAndNumber) {
     const vec4 center = camera.view_from_world * vec4(camera.center_world, 1);
     EXPECT_NEAR(center.z, -1, 2e-6);
     EXPECT_NEAR(center.x, 0, 2e-6);
+}
+
+TEST(Scenes, Eq11_11_AFittedSceneTakesNineTenthsOfThePicture) {
+    std::mt19937 random(13);
+    const auto number = [&](float low, float high) {
+        return low + (high - low) * static_cast<float>(random()) * 0x1p-32f;
+    };
+    for (int k = 0; k < 500; ++k) {
+        Bounds bounds;
+        for (int i = 0; i < 2; ++i) bounds.add(vec3(number(-9, 9), number(-9, 9), number(-9, 9)));
+        Orbit orbit{number(-180, 180), number(-90, 90), 1, number(5, 120)};
+        const ivec2 size(100 + random() % 900, 100 + random() % 900);
+        orbit.distance = fitting_distance(orbit, bounds, size);
+        const mat4 clip_from_world = orbit_camera(orbit, bounds).clip_from_world(size);
+        float farthest = 0;
+        for (int i = 0; i < 8; ++i) {
+            const vec4 corner = clip_from_world * vec4(i & 1 ? bounds.max.x : bounds.min.x,
+                                                       i & 2 ? bounds.max.y : bounds.min.y,
+                                                       i & 4 ? bounds.max.z : bounds.min.z, 1);
+            ASSERT_GT(corner.w, 0) << "seed 13, case " << k;
+            farthest =
+                std::max({farthest, std::abs(corner.x / corner.w), std::abs(corner.y / corner.w)});
+        }
+        // In float: the eye may be a thousand times as far away as a corner is beside the middle.
+        ASSERT_NEAR(farthest, 0.9f, 1e-3f) << "seed 13, case " << k;
+    }
+    // The worked example: a cube of side 2 from the front, 90 degrees, a square picture.
+    const Bounds cube{vec3(-1), vec3(1)};
+    const Orbit front{.yaw_degrees = 0, .pitch_degrees = 0, .distance = 7, .fov_degrees = 90};
+    EXPECT_NEAR(fitting_distance(front, cube, {64, 64}) * cube.radius(), 1 + 1 / 0.9, 1e-6);
+    // Twice as wide a picture is no higher; half as wide, the cube's sides touch.
+    EXPECT_NEAR(fitting_distance(front, cube, {128, 64}) * cube.radius(), 1 + 1 / 0.9, 1e-6);
+    EXPECT_NEAR(fitting_distance(front, cube, {32, 64}) * cube.radius(), 1 + 2 / 0.9, 1e-6);
+    EXPECT_EQ(fitting_distance(front, {}, {64, 64}), 7);
+    EXPECT_EQ(fitting_distance(front, {vec3(3), vec3(3)}, {64, 64}), 7);
 }

@@ -53,7 +53,7 @@ struct Options : LessonOptions {
 template <typename Pool, typename CounterPolicy, typename Clock>
 Image<vec3> render(const Options& options, const FinishedScene& scene, Pool& pool,
                    CounterPolicy& total, Clock& clock) {
-    const Camera camera = scene_camera(options, options.scene.camera, scene);
+    const Camera camera = camera_of_picture(options, options.scene.camera, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     WorkerCounters<CounterPolicy> counters_of(pool.size());
     clock.begin("shadow maps");
@@ -128,8 +128,8 @@ int main(int argc, char** argv) {
             StepClock clock;
             Counters counted;
             Image<vec3> picture = render(options, scene, *pool, counted, clock);
-            explain(std::cout, scene, camera_name(options, options.scene.camera, scene), counted,
-                    clock);
+            const auto [camera, name] = camera_of_picture(options, options.scene.camera, scene);
+            explain(std::cout, scene, name, counted, clock);
             if constexpr (requires { counters.add(counted); }) counters.add(counted);
             return picture;
         });

@@ -5,12 +5,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "04_mvp/camera.hpp"
 #include "common/lesson_app.hpp"
@@ -26,8 +30,37 @@ inline Camera camera_of(const SceneCamera& from) {
             from.far, eye - vec3(world_from_view[2])};
 }
 
-/// For --camera: the lessons' own camera.
-constexpr const char* orbit_name = "orbit";
+/// How much of the picture's width and height a fitted scene takes at most.
+constexpr double fitted_share = 0.9;
+
+/// From how far away a camera on the orbit just sees all of a box (Eq. 11.11).
+///
+/// @param bounds  World space.
+/// @param size    Of the picture.
+/// @return        In radii of the box; orbit.distance for an empty box, or one of no size.
+inline float fitting_distance(const Orbit& orbit, const Bounds& bounds, ivec2 size) {
+    const float yaw_radians = glm::radians(orbit.yaw_degrees);
+    const float pitch_radians = glm::radians(orbit.pitch_degrees);
+    const dvec3 back = direction_from_angles(yaw_radians, pitch_radians);
+    const dvec3 up = direction_from_angles(yaw_radians, pitch_radians + glm::radians(90.0f));
+    const dvec3 right = glm::cross(up, back);
+    const double tangent_y = fitted_share * std::tan(glm::radians(orbit.fov_degrees) / 2);
+    const double tangent_x = tangent_y * size.x / size.y;
+    double distance = 0;
+    for (int i = 0; i < 8; ++i) {
+        const dvec3 corner(i & 1 ? bounds.max.x : bounds.min.x, i & 2 ? bounds.max.y : bounds.min.y,
+                           i & 4 ? bounds.max.z : bounds.min.z);
+        const dvec3 from_center = corner - dvec3(bounds.center());
+        const double x = std::abs(glm::dot(from_center, right)) / tangent_x;
+        const double y = std::abs(glm::dot(from_center, up)) / tangent_y;
+        distance = std::max(distance, glm::dot(from_center, back) + std::max(x, y));
+    }
+    const bool is_usable = distance > 0 && distance <= std::numeric_limits<float>::max();
+    return is_usable ? static_cast<float>(distance / bounds.radius()) : orbit.distance;
+}
+
+/// For --camera: the lessons' own camera; the same, but so far away that all is seen.
+constexpr const char *orbit_name = "orbit", *fit_name = "fit";
 
 /// Which of a file's cameras is asked for: by its name, or by its number from 0.
 ///
@@ -36,7 +69,7 @@ constexpr const char* orbit_name = "orbit";
 /// @throws std::runtime_error  Where there is no such camera: names those that there are.
 inline std::optional<std::size_t> chosen_camera(const Scene& scene, const std::string& asked,
                                                 bool is_orbit_asked_for) {
-    if (asked == orbit_name) return {};
+    if (asked == orbit_name || asked == fit_name) return {};
     if (asked.empty()) {
         if (scene.cameras.empty() || is_orbit_asked_for) return {};
         return 0;
@@ -47,30 +80,35 @@ inline std::optional<std::size_t> chosen_camera(const Scene& scene, const std::s
         names += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + scene.cameras[i].name + "\"";
     }
     throw std::runtime_error("there is no camera '" + asked + "'; the file has " +
-                             (names.empty() ? "none" : names) + "; or --camera " + orbit_name);
+                             (names.empty() ? "none" : names) + "; or --camera " + orbit_name +
+                             "|" + fit_name);
 }
 
-/// Which camera a picture is taken by, as chosen_camera() has it.
+/// A picture's camera, and what it is called.
+struct NamedCamera {
+    Camera camera;
+    std::string name;
+};
+
+/// As chosen_camera() has it. A glTF file without cameras is fitted into the picture, if no other
+/// orbit is asked for; an OBJ file is seen as in the earlier lessons.
 ///
 /// @param options  LessonOptions with an `Orbit orbit`.
+/// @param asked    What --camera says.
 template <typename Options>
-std::optional<std::size_t> camera_of_picture(const Options& options, const std::string& asked,
-                                             const Scene& scene) {
-    return chosen_camera(scene, asked, options.frames > 1 || options.orbit != Orbit());
-}
-
-template <typename Options>
-Camera scene_camera(const Options& options, const std::string& asked, const Scene& scene) {
-    const auto chosen = camera_of_picture(options, asked, scene);
-    return chosen ? camera_of(scene.cameras[*chosen]) : orbit_camera(options.orbit, scene.bounds());
-}
-
-/// For --explain.
-template <typename Options>
-std::string camera_name(const Options& options, const std::string& asked, const Scene& scene) {
-    const auto chosen = camera_of_picture(options, asked, scene);
-    if (!chosen) return "the lesson's own, around the scene";
-    return std::to_string(*chosen) + " \"" + scene.cameras[*chosen].name + "\" of the file";
+NamedCamera camera_of_picture(const Options& options, const std::string& asked,
+                              const Scene& scene) {
+    const bool is_orbit_asked_for = options.frames > 1 || options.orbit != Orbit();
+    if (const auto chosen = chosen_camera(scene, asked, is_orbit_asked_for))
+        return {camera_of(scene.cameras[*chosen]),
+                std::to_string(*chosen) + " \"" + scene.cameras[*chosen].name + "\" of the file"};
+    Orbit orbit = options.orbit;
+    const bool is_fitted =
+        asked == fit_name || (asked.empty() && scene.is_gltf && !is_orbit_asked_for);
+    if (is_fitted) orbit.distance = fitting_distance(orbit, scene.bounds(), options.size);
+    return {orbit_camera(orbit, scene.bounds()),
+            is_fitted ? "the lesson's own, so far away that all is seen"
+                      : "the lesson's own, around the scene"};
 }
 
 }  // namespace rasterbook

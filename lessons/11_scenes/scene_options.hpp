@@ -47,8 +47,9 @@ struct SceneOptions {
                       {"balanced", [=] { choose(balanced_quality); }},
                       {"exact", [=] { choose(exact_quality); }}},
                      "Sets --filter, --shadow-size, --pcf and --samples together");
-        knobs.text("--camera", camera, "NAME|NUMBER|orbit",
-                   "One of the file's cameras [the first one, if no orbit is asked for]");
+        knobs.text(
+            "--camera", camera, "NAME|NUMBER|orbit|fit",
+            "One of the file's cameras, or our own [the first one, if no orbit is asked for]");
         knobs.flag("--explain", explain,
                    "Say what is drawn, what is left out and why, and how long it takes");
     }
