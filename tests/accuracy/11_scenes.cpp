@@ -141,6 +141,14 @@ void add_scene(const std::string& name) {
         add("without " + std::string(effect_names[static_cast<std::size_t>(effect)]), options,
             scene);
     }
+    if (whole->plan.any(Effect::light)) {  // the largest kernel, which asks at run time
+        const auto general = std::make_shared<FinishedScene>(loaded(name), options);
+        for (MaterialPlan& plan : general->plan.materials)
+            if (plan[Effect::light])
+                for (const Effect effect : {Effect::normal_map, Effect::shadow})
+                    plan.runs[static_cast<std::size_t>(effect)] = true;
+        add("one kernel for all", options, general);
+    }
     lesson::Options forced = options;
     forced.shading.all_effects = true;
     add("all effects", forced, std::make_shared<const FinishedScene>(loaded(name), forced));
