@@ -9,12 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
 #include "09_shadow_maps/shadowed_scene.hpp"
 #include "10_threading/split.hpp"
 #include "11_scenes/scene_lights.hpp"
 #include "11_scenes/scene_plan.hpp"
 #include "11_scenes/toon_look.hpp"
 #include "common/backdrop.hpp"
+#include "common/counters.hpp"
 
 namespace rasterbook {
 
@@ -66,6 +69,33 @@ inline void draw_paper(Image<vec3>& color, const Part& part) {
         for (int y = strip.first.y; y <= strip.last.y; ++y)
             for (int x = strip.first.x; x <= strip.last.x; ++x) color[{x, y}] = paper_color;
     });
+}
+
+/// The outlines as a camera is to see them.
+inline std::vector<Mesh> outlines_of(const FinishedScene& scene, const Camera& camera) {
+    std::vector<Mesh> outlines;
+    outlines.reserve(scene.hulls.size());
+    for (const OutlineHull& hull : scene.hulls) outlines.push_back(pushed(hull, camera));
+    return outlines;
+}
+
+/// What may be seen of a scene and its outlines. Only the scene's own meshes are counted.
+template <typename CounterPolicy>
+std::vector<const Mesh*> seen_meshes(const FinishedScene& scene, std::span<const Mesh> outlines,
+                                     const mat4& clip_from_world, CounterPolicy& counters) {
+    std::vector<const Mesh*> meshes;
+    for (const Mesh& mesh : scene.meshes) {
+        counters.add(Counter::meshes_in);
+        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
+            counters.add(Counter::meshes_culled_by_frustum);
+            continue;
+        }
+        if (!scene.tangents_of(mesh).empty()) counters.add(Counter::meshes_with_tangents);
+        meshes.push_back(&mesh);
+    }
+    for (const Mesh& mesh : outlines)
+        if (!is_outside_frustum(mesh.bounds, clip_from_world)) meshes.push_back(&mesh);
+    return meshes;
 }
 
 /// Triangles that are drawn together: those of materials that are opaque, or are glass, and that

@@ -6,7 +6,6 @@
 
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
@@ -64,20 +63,8 @@ Image<vec3> render(const Options& options, const FinishedScene& scene, Pool& poo
     DepthBuffer depth(options.size, unset);
 
     clock.begin("triangles");
-    std::vector<Mesh> outlines;
-    for (const OutlineHull& hull : scene.hulls) outlines.push_back(pushed(hull, camera));
-    std::vector<const Mesh*> meshes;
-    for (const Mesh& mesh : scene.meshes) {
-        total.add(Counter::meshes_in);
-        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
-            total.add(Counter::meshes_culled_by_frustum);
-            continue;
-        }
-        if (!scene.tangents_of(mesh).empty()) total.add(Counter::meshes_with_tangents);
-        meshes.push_back(&mesh);
-    }
-    for (const Mesh& mesh : outlines)
-        if (!is_outside_frustum(mesh.bounds, clip_from_world)) meshes.push_back(&mesh);
+    const std::vector<Mesh> outlines = outlines_of(scene, camera);
+    const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world, total);
     const Parts parts = options.threads.parts_of(options.size, pool.size());
     std::vector<BinnedTriangles> passes;
     for (const Pass& pass : passes_of(scene, meshes))
@@ -87,14 +74,10 @@ Image<vec3> render(const Options& options, const FinishedScene& scene, Pool& poo
 
     clock.begin("picture");
     const Kernels<CounterPolicy> kernels(scene.plan);
-    const Frame frame{scene,
-                      {options.shading},
-                      options.normal_map,
-                      options.texture.filter,
-                      camera.position_world,
-                      shadows,
-                      color,
-                      depth};
+    const ShadingVariant shading{options.shading};
+    const Frame frame{
+        scene, shading, options.normal_map, options.texture.filter, camera.position_world, shadows,
+        color, depth};
     pool.run(parts.count(), [&](std::size_t part, std::size_t worker) {
         clear_part(color, depth, parts[part]);
         if (scene.is_on_paper) draw_paper(color, parts[part]);
