@@ -61,7 +61,7 @@ class ThreadPool {
                 }};
         {
             const std::lock_guard lock(mutex_);
-            assert(job_ == nullptr && "one job at a time");
+            assert(job_ == nullptr && busy_ == 0 && "one job at a time");
             job_ = &job;
             ++jobs_;
         }

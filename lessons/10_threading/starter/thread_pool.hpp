@@ -70,7 +70,8 @@ class ThreadPool {
 
     void work(const std::stop_token& stop, std::size_t worker) {
         // TODO: wait for a job that this worker has not been in, take part, and again, until
-        // `stop`. has_job_.wait(lock, stop, condition) gives false when there is no more to come.
+        // `stop`. has_job_.wait(lock, stop, condition) gives false once the pool
+        // is to end and there is no job.
     }
 
     std::mutex mutex_;
