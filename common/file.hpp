@@ -6,9 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rasterbook {
+
+/// The ending of a file's name with its dot, in small letters; empty when there is none.
+std::string ending_of(const std::filesystem::path& file);
 
 /// To be asked before a file is opened: to open a FIFO would wait for its writer.
 ///

@@ -16,14 +16,6 @@
 namespace rasterbook {
 namespace {
 
-/// The ending of the name with its dot, in small letters; empty when there is none.
-std::string ending_of(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    for (char& c : ending)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return ending;
-}
-
 template <std::size_t N>
 bool begins_with(ByteView bytes, const std::array<std::uint8_t, N>& signature) {
     return bytes.size() >= N && std::equal(signature.begin(), signature.end(), bytes.begin());

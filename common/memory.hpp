@@ -3,6 +3,8 @@
 /// Memory for one frame after another.
 #pragma once
 
+#include <cstdlib>  // says whether the C library is glibc
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif

@@ -320,7 +320,7 @@ TEST(Threading, HardCase_PicturesOfAFewPixels) {
 }
 
 TEST(Threading, HardCase_AWorkerThatThrowsWhileItDraws) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     lesson::Options options = small_picture();
     const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
     NoCounters none;

@@ -92,7 +92,7 @@ ScreenTriangle any_triangle(std::mt19937& random, ivec2 size) {
 }  // namespace
 
 TEST(Threading, HardCase_EachTaskIsDoneOnceByOneWorker) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         EXPECT_EQ(pool.size(), static_cast<std::size_t>(threads));
@@ -113,7 +113,7 @@ TEST(Threading, HardCase_EachTaskIsDoneOnceByOneWorker) {
 }
 
 TEST(Threading, HardCase_ThreadsAreStartedOnce) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         std::vector<std::set<std::thread::id>> ids(pool.size());
@@ -121,7 +121,8 @@ TEST(Threading, HardCase_ThreadsAreStartedOnce) {
             pool.run(2 * pool.size(), [&](std::size_t, std::size_t worker) {
                 ids[worker].insert(std::this_thread::get_id());
             });
-        EXPECT_TRUE(ids[0].contains(std::this_thread::get_id())) << "the caller is worker 0";
+        for (const std::thread::id id : ids[0])  // it may be too late for each task
+            EXPECT_EQ(id, std::this_thread::get_id()) << "the caller is worker 0";
         std::set<std::thread::id> all;
         for (const auto& of_worker : ids) {
             EXPECT_LE(of_worker.size(), 1u) << "a worker is one thread";
@@ -132,7 +133,7 @@ TEST(Threading, HardCase_ThreadsAreStartedOnce) {
 }
 
 TEST(Threading, HardCase_AllThreadsTakePart) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     // Each task waits until all have begun: who does not take part lets the others wait for ever,
     // or for these ten seconds.
     for (const int threads : thread_counts) {
@@ -153,7 +154,7 @@ TEST(Threading, HardCase_AllThreadsTakePart) {
 }
 
 TEST(Threading, HardCase_TenMillionShortTasks) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     // Whoever takes a task in two steps takes some that another one takes, too.
     struct alignas(cache_line) Sum {
         std::size_t tasks = 0, numbers = 0;
@@ -174,7 +175,7 @@ TEST(Threading, HardCase_TenMillionShortTasks) {
 }
 
 TEST(Threading, HardCase_JobsSeeWhatTheOnesBeforeWrote) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     // Plain numbers, written by whichever thread: each job adds to what the last one left.
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
@@ -191,7 +192,7 @@ TEST(Threading, HardCase_JobsSeeWhatTheOnesBeforeWrote) {
 }
 
 TEST(Threading, HardCase_WhatATaskThrowsArrivesWholeAndNothingHangs) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         for (const std::size_t thrower : {0u, 1u, 40u, 99u}) {
@@ -213,7 +214,7 @@ TEST(Threading, HardCase_WhatATaskThrowsArrivesWholeAndNothingHangs) {
 }
 
 TEST(Threading, HardCase_WhenAllTasksThrowTheFirstArrives) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         for (int job = 0; job < 20; ++job) {
@@ -230,7 +231,7 @@ TEST(Threading, HardCase_WhenAllTasksThrowTheFirstArrives) {
 }
 
 TEST(Threading, HardCase_OfTwoThatThrowTheFirstArrives) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     ThreadPool pool(2);
     for (const std::size_t first : {0u, 1u}) {
         std::atomic<int> begun = 0;
@@ -254,7 +255,7 @@ TEST(Threading, HardCase_OfTwoThatThrowTheFirstArrives) {
 }
 
 TEST(Threading, HardCase_AfterATaskHasThrownNoOtherIsBegun) {
-    look_up("Eq. 10.8");
+    look_up("The pool");
     for (const int threads : {2, 4, 16}) {
         ThreadPool pool(threads);
         std::atomic<bool> is_thrown = false;
@@ -275,7 +276,7 @@ TEST(Threading, HardCase_AfterATaskHasThrownNoOtherIsBegun) {
 }
 
 TEST(Threading, HardCase_CountersOfTwoWorkersAreFarApart) {
-    look_up("Eq. 10.8");
+    look_up("Why no locks?");
     WorkerCounters<Counters> counters(3);
     for (std::size_t worker = 0; worker < 3; ++worker)
         for (std::size_t i = 0; i <= worker; ++i) counters[worker].add(Counter::fragments_lit);

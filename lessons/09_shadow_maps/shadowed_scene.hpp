@@ -146,6 +146,11 @@ class Shadows {
     /// How many maps a light has.
     std::size_t maps_of(std::size_t light) const { return of_light_[light].maps.size(); }
 
+    /// Whether any point can have to ask.
+    bool has_maps() const {
+        return std::ranges::any_of(of_light_, [](const auto& of) { return !of.maps.empty(); });
+    }
+
   private:
     friend class TriangleShadows;
 
@@ -200,9 +205,11 @@ class TriangleShadows {
           corners_{mesh.positions[triangle.corners[0].position],
                    mesh.positions[triangle.corners[1].position],
                    mesh.positions[triangle.corners[2].position]},
-          front_(normalize_or(glm::cross(dvec3(corners_[1]) - dvec3(corners_[0]),
-                                         dvec3(corners_[2]) - dvec3(corners_[0])),
-                              dvec3(0))) {}
+          front_(0) {
+        if (!shadows.has_maps()) return;
+        const dvec3 a = corners_[0], b = corners_[1], c = corners_[2];
+        front_ = normalize_or(glm::cross(b - a, c - a), dvec3(0));
+    }
 
     /// Asks the maps for points with normals that are the surface's own, no relief's. None is asked
     /// where a surface is turned away from the light.
@@ -263,7 +270,7 @@ class TriangleShadows {
 
     const Shadows& shadows_;
     std::array<vec3, 3> corners_;
-    vec3 front_;  ///< The flat triangle's normal, length 1; 0 where it has no area.
+    vec3 front_;  ///< The flat triangle's normal, length 1; 0 without area or maps.
     /// By map and side: front, back.
     std::array<std::array<std::optional<Receiver>, 2>, most_maps> receivers_;
     std::array<Numbers, most_lights> shares_;  ///< By light.

@@ -17,6 +17,15 @@
 
 namespace rasterbook {
 
+/// A number of tasks, and which one comes next.
+struct Job {
+    std::size_t tasks;
+    const void* task;
+    void (*call)(const void* task, std::size_t i, std::size_t worker);
+    std::atomic<std::size_t> next = 0;  ///< The first task that nobody has taken.
+    std::exception_ptr error = nullptr;
+};
+
 /// Workers that wait for jobs. A job is a number of tasks, and whoever has nothing to do takes the
 /// next one.
 class ThreadPool {
@@ -52,7 +61,7 @@ class ThreadPool {
                 }};
         {
             const std::lock_guard lock(mutex_);
-            assert(job_ == nullptr && "one job at a time");
+            assert(job_ == nullptr && busy_ == 0 && "one job at a time");
             job_ = &job;
             ++jobs_;
         }
@@ -65,14 +74,6 @@ class ThreadPool {
     }
 
   private:
-    struct Job {
-        std::size_t tasks;
-        const void* task;
-        void (*call)(const void* task, std::size_t i, std::size_t worker);
-        std::atomic<std::size_t> next = 0;  ///< The first task that nobody has taken.
-        std::exception_ptr error = nullptr;
-    };
-
     void take_tasks(Job& job, std::size_t worker) {
         try {
             // Only the count itself has to be whole: the mutex orders all else before and after.
@@ -113,6 +114,12 @@ class ThreadPool {
 /// wait for each other.
 constexpr std::size_t cache_line = 128;
 
+/// Counters that share no cache line with others.
+template <typename CounterPolicy>
+struct alignas(cache_line) ApartCounters {
+    CounterPolicy counters;
+};
+
 /// Counters for each worker, so that none waits for another.
 template <typename CounterPolicy>
 class WorkerCounters {
@@ -122,15 +129,11 @@ class WorkerCounters {
     CounterPolicy& operator[](std::size_t worker) { return of_worker_[worker].counters; }
 
     void add_to(CounterPolicy& sum) const {
-        for (const Apart& one : of_worker_) sum.add(one.counters);
+        for (const ApartCounters<CounterPolicy>& one : of_worker_) sum.add(one.counters);
     }
 
   private:
-    struct alignas(cache_line) Apart {
-        CounterPolicy counters;
-    };
-
-    std::vector<Apart> of_worker_;
+    std::vector<ApartCounters<CounterPolicy>> of_worker_;
 };
 
 }  // namespace rasterbook

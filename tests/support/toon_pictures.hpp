@@ -16,6 +16,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "05_textures/bands.hpp"
 #include "05_textures/textured_scene.hpp"
 #include "06_phong/fragments.hpp"
 #include "06_phong/lit_scene.hpp"

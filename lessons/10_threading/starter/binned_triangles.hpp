@@ -54,7 +54,8 @@ class Chunk {
 
 /// A chunk takes at least so many triangles or positions: less is not worth a task.
 constexpr std::size_t least_in_chunk = 256;
-/// More than this many chunks would take memory for their lists, and share out the work no better.
+/// More than this many chunks would take memory for their lists, and hardly share out the work
+/// better.
 constexpr std::size_t most_chunks = 64;
 
 /// How many chunks to make of so many things. It does not depend on the number of workers.

@@ -17,6 +17,15 @@
 
 namespace rasterbook {
 
+/// A number of tasks, and which one comes next.
+struct Job {
+    std::size_t tasks;
+    const void* task;
+    void (*call)(const void* task, std::size_t i, std::size_t worker);
+    std::atomic<std::size_t> next = 0;  ///< The first task that nobody has taken.
+    std::exception_ptr error = nullptr;
+};
+
 /// Workers that wait for jobs. A job is a number of tasks, and whoever has nothing to do takes the
 /// next one.
 class ThreadPool {
@@ -54,14 +63,6 @@ class ThreadPool {
     }
 
   private:
-    struct Job {
-        std::size_t tasks;
-        const void* task;
-        void (*call)(const void* task, std::size_t i, std::size_t worker);
-        std::atomic<std::size_t> next = 0;  ///< The first task that nobody has taken.
-        std::exception_ptr error = nullptr;
-    };
-
     void take_tasks(Job& job, std::size_t worker) {
         // TODO: take tasks from job.next and call job.call(job.task, i, worker), as long as there
         // are any. If one throws, keep it if it is the first, and let nobody begin another.
@@ -69,7 +70,8 @@ class ThreadPool {
 
     void work(const std::stop_token& stop, std::size_t worker) {
         // TODO: wait for a job that this worker has not been in, take part, and again, until
-        // `stop`. has_job_.wait(lock, stop, condition) gives false when there is no more to come.
+        // `stop`. has_job_.wait(lock, stop, condition) gives false once the pool
+        // is to end and there is no job.
     }
 
     std::mutex mutex_;
@@ -85,6 +87,12 @@ class ThreadPool {
 /// wait for each other.
 constexpr std::size_t cache_line = 128;
 
+/// Counters that share no cache line with others.
+template <typename CounterPolicy>
+struct alignas(cache_line) ApartCounters {
+    CounterPolicy counters;
+};
+
 /// Counters for each worker, so that none waits for another.
 template <typename CounterPolicy>
 class WorkerCounters {
@@ -94,15 +102,11 @@ class WorkerCounters {
     CounterPolicy& operator[](std::size_t worker) { return of_worker_[worker].counters; }
 
     void add_to(CounterPolicy& sum) const {
-        for (const Apart& one : of_worker_) sum.add(one.counters);
+        for (const ApartCounters<CounterPolicy>& one : of_worker_) sum.add(one.counters);
     }
 
   private:
-    struct alignas(cache_line) Apart {
-        CounterPolicy counters;
-    };
-
-    std::vector<Apart> of_worker_;
+    std::vector<ApartCounters<CounterPolicy>> of_worker_;
 };
 
 }  // namespace rasterbook
