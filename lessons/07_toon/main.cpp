@@ -96,7 +96,8 @@ Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy
         }
     }
     outlines.draw(scene, options.samples_per_side, depth, color, counters);
-    return options.show_depth ? depth_picture(depth) : color;
+    if (options.show_depth) return depth_picture(depth);
+    return color;
 }
 
 }  // namespace

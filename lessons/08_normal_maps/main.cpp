@@ -97,7 +97,8 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
             }
         }
     }
-    return options.show_depth ? depth_picture(depth) : color;
+    if (options.show_depth) return depth_picture(depth);
+    return color;
 }
 
 }  // namespace
