@@ -421,7 +421,8 @@ TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAKnobShows) {
           Case{"08_normal_maps", {"--normal-map", "object"}, "Eq. 8.7"},
           Case{"09_shadow_maps", {"--bias", "none"}, "Eq. 9.9"},
           Case{"09_shadow_maps", {"--bias", "constant"}, "Eq. 9.10"},
-          Case{"09_shadow_maps", {"--pcf", "1"}, "Eq. 9.13"}}) {
+          Case{"09_shadow_maps", {"--pcf", "1"}, "Eq. 9.13"},
+          Case{"10_threading", {"--bias", "constant"}, "Eq. 9.10"}}) {
         std::vector<std::string> arguments = knob;
         arguments.insert(arguments.end(), {"--yaw", "10", "--size", "160x90", "--out", file});
         ASSERT_EQ(run_program(lesson, arguments).exit_status, 0);
