@@ -297,7 +297,10 @@ TEST(Scenes, Eq11_9_LayersAreDrawnFromBackToFrontInWhateverOrderTheyCome) {
         for (const Layer& layer : layers) gathered.add(layer);
         Image<vec3> actual(size, vec3(0.25f));
         gathered.draw_over(actual);
-        ASSERT_EQ(actual, expected) << "seed 12, case " << k;
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                ASSERT_EQ((actual[{x, y}]), (expected[{x, y}]))
+                    << "seed 12, case " << k << ", pixel " << x << ' ' << y;
         EXPECT_TRUE(gathered.empty());
     }
     // The worked example: glass of red at 0.3, of blue at 0.6, both of a half, over white.
@@ -353,6 +356,9 @@ TEST(Scenes, Eq11_6_OutlinesAreAsWideAsTheyAreAskedToBe) {
             EXPECT_GE(hull.bounds.max.y, hull.positions[i].y);
         }
     }
+    OutlineHull behind = hulls[1];
+    for (vec3& place : behind.places) place += 2.0f * camera.position_world;
+    EXPECT_EQ(pushed(behind, camera).positions, behind.places) << "not inwards, behind the eye";
 }
 
 TEST(Scenes, HardCase_OneMeshOfSeveralPaintsHasTheirOutlines) {

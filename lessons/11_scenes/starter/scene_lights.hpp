@@ -29,7 +29,8 @@ constexpr float lamp_size = 1.0f / 128;
 
 /// A file's light in units of the lessons' (Eq. 11.1 and 11.2).
 ///
-/// @param scene_radius  World space, > 0. Farther from a lamp than 10 times lamp_size of it, less
+/// @param scene_radius  World space, > 0; any float. Farther from a lamp than 10 times lamp_size of
+/// it, less
 ///                      than 1% of its light is missing.
 /// @return  Its range is not minded: glTF calls it a hint.
 inline Light light_of(const SceneLight& from, float scene_radius) {
