@@ -15,8 +15,8 @@
 
 namespace rasterbook {
 
-/// The knobs that decide most of a picture's time and error, by what was measured: see
-/// docs/accuracy/05_textures.md and docs/accuracy/09_shadow_maps.md.
+/// The knobs that decide most of a picture's time and error, set by what docs/accuracy/costs.md
+/// measured.
 struct Quality {
     Filter filter;
     int shadow_size, pcf, samples_per_side;
