@@ -22,7 +22,7 @@ struct Quality {
     int shadow_size, pcf, samples_per_side;
 };
 
-constexpr Quality fast_quality{Filter::bilinear, 1024, 1, 1};
+constexpr Quality fast_quality{Filter::bilinear, 1024, 3, 1};
 constexpr Quality balanced_quality{Filter::trilinear, 2048, 3, 1};
 constexpr Quality exact_quality{Filter::trilinear, 4096, 3, 4};
 

@@ -267,7 +267,7 @@ int main() {
         return settings;
     };
     std::vector<Shot*> all_far;
-    for (const std::size_t s : {0, 2})
+    for (const std::size_t s : {std::size_t{0}, std::size_t{2}})
         for (std::size_t t = 0; t < 3; ++t) {
             const Choices choices = with(with(most_exact, samples, s), textures, t);
             all_far.push_back(&far.try_emplace(choices, Shot{horizon(choices)}).first->second);

@@ -71,12 +71,6 @@ def block_steps(measured, _):
                  ["---", "---"] + ["---:"] * 6, rows)
 
 
-def step_between(before, after):
-    """What changes from one frame of the front to the next, in words."""
-    units = {"samples a pixel": "{} samples", "textures": "{}", "depth maps": "{}²", "texels a look-up": "{} texels"}
-    return ", ".join(units[dial].format(after[dial]) for dial in DIALS if before[dial] != after[dial])
-
-
 def block_front(measured, page):
     frames = measured["combinations"]
     front = front_of(frames)
@@ -104,17 +98,21 @@ def block_edges(measured, _):
 
 
 def plot(frames, front, file):
-    """All frames as dots, the front as a line, and the names of its points."""
+    """All frames as dots, the front as a line, and rings around the presets."""
     low_ms, high_ms = min(f["ms"] for f in frames), max(f["ms"] for f in frames)
     low_error, high_error = min(f["both"] for f in frames), max(f["both"] for f in frames)
-    x = Axis(low_ms / 1.25, high_ms * 1.35, LEFT, WIDTH - RIGHT)
-    y = Axis(low_error / 1.35, high_error * 1.3, HEIGHT - BOTTOM, TOP)
+    x = Axis(low_ms / 1.35, high_ms * 1.45, LEFT, WIDTH - RIGHT)
+    y = Axis(low_error / 1.35, high_error * 1.5, HEIGHT - BOTTOM, TOP)
     ticks = [m * 10.0**e for e in range(-5, 0) for m in (1, 2, 5) if y.low <= m * 10.0**e <= y.high]
     at = {id(f): (x.at(f["ms"]), y.at(f["both"])) for f in frames}
     presets = [f for f in frames if "preset" in f]
-    named = [(f["preset"], *at[id(f)]) for f in presets]
-    others = [(f["name"], *at[id(f)]) for f in front if "preset" not in f and f.get("name")]
-    places = place_labels(named + others, [at[id(f)] for f in front])
+    dots = [("", *at[id(f)]) for f in frames]  # no label lies on one
+    places = place_labels([(f["preset"], *at[id(f)]) for f in presets] + dots, [at[id(f)] for f in front])
+    labels = [(f["preset"], place, "sans-serif:Bold,14") for f, place in zip(presets, places)]
+    for samples in ("1", "4", "16"):  # above all of them
+        xs, ys = zip(*(at[id(f)] for f in frames if f["samples a pixel"] == samples))
+        name = f"{samples} sample{'' if samples == '1' else 's'} a pixel"
+        labels.append((name, ((min(xs) + max(xs)) / 2, min(ys) - 16, "center"), "sans-serif,14"))
     script = [
         f"set terminal svg size {WIDTH},{HEIGHT} dynamic font 'sans-serif,14'",
         f"set output '{file}'",
@@ -128,8 +126,7 @@ def plot(frames, front, file):
         "set xlabel 'ms a frame'",
         f"set label 'error' at screen 0.025, screen {(1 - TOP / HEIGHT + BOTTOM / HEIGHT) / 2} rotate center",
     ]
-    for (name, *_), (px, py, alignment) in zip(named + others, places):
-        font = "sans-serif:Bold,14" if name in [n for n, *_ in named] else "sans-serif,13"
+    for name, (px, py, alignment), font in labels:
         script.append(f"set label \"{name}\" at screen {px / WIDTH}, screen {1 - py / HEIGHT} {alignment} font '{font}'")
     data = lambda fs: "\n".join(f"{f['ms']} {f['both']}" for f in fs) + "\ne"
     script.append(
