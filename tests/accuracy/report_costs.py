@@ -101,8 +101,8 @@ def plot(frames, front, file):
     """All frames as dots, the front as a line, and rings around the presets."""
     low_ms, high_ms = min(f["ms"] for f in frames), max(f["ms"] for f in frames)
     low_error, high_error = min(f["both"] for f in frames), max(f["both"] for f in frames)
-    x = Axis(low_ms / 1.35, high_ms * 1.45, LEFT, WIDTH - RIGHT)
-    y = Axis(low_error / 1.35, high_error * 1.5, HEIGHT - BOTTOM, TOP)
+    x = Axis(low_ms / 1.35, high_ms * 1.9, LEFT, WIDTH - RIGHT)
+    y = Axis(low_error / 1.7, high_error * 1.5, HEIGHT - BOTTOM, TOP)
     ticks = [m * 10.0**e for e in range(-5, 0) for m in (1, 2, 5) if y.low <= m * 10.0**e <= y.high]
     at = {id(f): (x.at(f["ms"]), y.at(f["both"])) for f in frames}
     presets = [f for f in frames if "preset" in f]
