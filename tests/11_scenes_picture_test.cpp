@@ -109,7 +109,7 @@ const std::map<Effect, std::vector<Counter>> work_of = {
     {Effect::texture, {Counter::texture_samples}},
     {Effect::vertex_colors, {Counter::colored_fragments}},
     {Effect::normal_map, {Counter::normal_map_samples, Counter::meshes_with_tangents}},
-    {Effect::shadow, {Counter::shadow_passes, Counter::shadow_lookups}},
+    {Effect::shadow, {Counter::shadow_passes, Counter::shadow_fragments, Counter::shadow_lookups}},
     {Effect::toon, {Counter::toon_fragments}},
     {Effect::mask, {Counter::masked_fragments}},
     {Effect::blend, {Counter::blended_fragments}}};
@@ -177,7 +177,15 @@ TEST(SceneFiles, HardCase_WhatASceneDoesNotCallForTakesNoWork) {
             }
         }
         EXPECT_EQ(picture.count(Counter::outline_tests), 0u) << "an outline is a mesh here";
+        std::uint64_t own_triangles = 0;
+        for (const Mesh& mesh : scene.meshes) own_triangles += mesh.triangles.size();
+        EXPECT_EQ(picture.count(Counter::triangles_in) > own_triangles,
+                  scene.plan.any(Effect::outline));
+        // Counted together with other textures; no scene has one.
+        EXPECT_FALSE(scene.plan.any(Effect::specular_map));
+        for (const auto& texture : scene.specular_textures) EXPECT_EQ(texture, nullptr);
     }
+    EXPECT_EQ(work_of.size() + 2, effect_count) << "and of outlines and specular maps";
     for (const auto& [effect, counters] : work_of)
         EXPECT_GT(off[effect], 0) << effect_names[static_cast<std::size_t>(effect)];
     for (const Effect effect : {Effect::light, Effect::highlight, Effect::texture, Effect::toon,
@@ -538,10 +546,9 @@ TEST(SceneFiles, HardCase_QualitySetsWhatNoOtherKnobSays) {
     EXPECT_EQ(bytes_of({"--quality", "balanced"}), balanced_bytes);
     const std::string fast_bytes = bytes_of({"--quality", "fast"});
     EXPECT_NE(fast_bytes, balanced_bytes);
-    EXPECT_EQ(fast_bytes,
-              bytes_of({"--filter", "bilinear", "--shadow-size", "1024", "--pcf", "1"}));
-    EXPECT_EQ(bytes_of({"--filter", "trilinear", "--pcf", "3", "--quality", "fast"}),
-              bytes_of({"--shadow-size", "1024"}))
+    EXPECT_EQ(fast_bytes, bytes_of({"--filter", "bilinear", "--shadow-size", "1024"}));
+    EXPECT_EQ(bytes_of({"--filter", "trilinear", "--pcf", "1", "--quality", "fast"}),
+              bytes_of({"--shadow-size", "1024", "--pcf", "1"}))
         << "in whatever order they are given";
     EXPECT_EQ(bytes_of({"--quality", "exact"}),
               bytes_of({"--shadow-size", "4096", "--samples", "16"}));

@@ -41,6 +41,7 @@ def lesson_pages(lesson: str) -> list[Page]:
 COURSE = [lesson_pages(lesson) for lesson in LESSONS]
 OTHERS = [
     Page("index", "Start", ROOT / "README.md"),
+    Page("costs", "What accuracy costs", ROOT / "docs/accuracy/costs.md"),
     Page("side_by_side", "Side by side", ROOT / "docs/side_by_side.md"),
     Page("troubleshooting", "Troubleshooting", ROOT / "docs/troubleshooting.md"),
     Page("glossary", "Glossary", ROOT / "docs/glossary.md"),

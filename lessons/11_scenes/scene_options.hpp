@@ -15,14 +15,14 @@
 
 namespace rasterbook {
 
-/// The knobs that decide most of a picture's time and error, by what was measured: see
-/// docs/accuracy/05_textures.md and docs/accuracy/09_shadow_maps.md.
+/// The knobs that decide most of a picture's time and error, set by what docs/accuracy/costs.md
+/// measured.
 struct Quality {
     Filter filter;
     int shadow_size, pcf, samples_per_side;
 };
 
-constexpr Quality fast_quality{Filter::bilinear, 1024, 1, 1};
+constexpr Quality fast_quality{Filter::bilinear, 1024, 3, 1};
 constexpr Quality balanced_quality{Filter::trilinear, 2048, 3, 1};
 constexpr Quality exact_quality{Filter::trilinear, 4096, 3, 4};
 

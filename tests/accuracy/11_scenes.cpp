@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What each effect costs in each scene, and what the picture would be without it; what it would
-/// cost to compute all effects everywhere; and the presets of --quality.
+/// What each effect costs in each scene, and what the picture would be without it; and what it
+/// would cost to compute all effects everywhere.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -50,7 +49,7 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr ivec2 picture_size(1280, 720), compared_size(640, 360);
+constexpr ivec2 picture_size(1280, 720);
 constexpr double frames_in_millions = 1e6;  // so that nanoseconds become milliseconds
 
 Scene loaded(const std::string& name) {
@@ -154,49 +153,11 @@ void add_scene(const std::string& name) {
     add("all effects", forced, std::make_shared<const FinishedScene>(loaded(name), forced));
 }
 
-lesson::Options with_quality(const Quality& quality, ivec2 size) {
-    lesson::Options options;
-    options.size = size * quality.samples_per_side;
-    options.texture.filter = quality.filter;
-    options.shadow.size = quality.shadow_size, options.shadow.pcf = quality.pcf;
-    return options;
-}
-
-/// The presets against 64 samples a pixel and maps of 8192 texels, all four scenes together.
-void add_qualities(const std::array<const char*, 4>& names) {
-    constexpr Quality best{Filter::trilinear, 8192, 3, 8};
-    const auto picture_of = [](const std::string& name, const Quality& quality) {
-        const lesson::Options options = with_quality(quality, compared_size);
-        return averaged(drawn(options, FinishedScene(loaded(name), options)),
-                        quality.samples_per_side);
-    };
-    std::vector<Image<vec3>> references;
-    for (const char* name : names) references.push_back(picture_of(name, best));
-    for (const auto& [title, quality] : {std::pair{"fast", fast_quality},
-                                         {"balanced", balanced_quality},
-                                         {"exact", exact_quality}}) {
-        double squares = 0;
-        std::vector<std::shared_ptr<const FinishedScene>> scenes;
-        const lesson::Options options = with_quality(quality, compared_size);
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            const double rms = difference_of(references[i], picture_of(names[i], quality)).rms;
-            squares += rms * rms / static_cast<double>(names.size());
-            scenes.push_back(std::make_shared<const FinishedScene>(loaded(names[i]), options));
-        }
-        const int per_side = quality.samples_per_side;
-        add_variant("quality", title, frames_in_millions * static_cast<double>(names.size()),
-                    {{"RMS difference", std::sqrt(squares)}}, [=] {
-                        for (const auto& scene : scenes) averaged(drawn(options, *scene), per_side);
-                    });
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     keep_freed_memory();
-    constexpr std::array names = {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"};
-    for (const char* name : names) add_scene(name);
-    add_qualities(names);
+    for (const char* name : {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"})
+        add_scene(name);
     return measure_variants(argc, argv);
 }

@@ -219,4 +219,5 @@ def main():
     print(f"wrote {page} and {count} plot{'s' if count > 1 else ''}")
 
 
-main()
+if __name__ == "__main__":
+    main()

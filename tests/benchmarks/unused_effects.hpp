@@ -12,7 +12,21 @@
 namespace rasterbook {
 
 /// What is left out of a copy of a lesson's render(). `own`: it is no copy, but the lesson's own.
-enum class Without { own, nothing, highlight, texture, toon, outline, normal_map, shadow };
+enum class Without {
+    own,
+    nothing,
+    light,
+    highlight,
+    texture,
+    specular_map,
+    vertex_colors,
+    normal_map,
+    shadow,
+    toon,
+    outline,
+    mask,
+    blend
+};
 
 /// Draws a picture, and counts where the counters are not null.
 using Draw = std::function<Image<vec3>(Counters*)>;

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Puts what costs.cpp measured into its page: report_costs.py MEASURED.json PAGE.md.
+
+What stands between the lines `<!-- measured: NAME -->` and `<!-- end -->` is replaced; the names
+are those of the functions below that begin with `block_`.
+"""
+
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+
+from report import BOTTOM, HEIGHT, LEFT, RIGHT, STYLE, TIME_TOLERANCE, TOP, WIDTH, Axis, machine, number, place_labels
+from report import time_ticks
+
+DIALS = ("samples a pixel", "textures", "depth maps", "texels a look-up")
+
+
+def thousandths(value):
+    """Of a change: with its sign, and 0 for what is none in so many digits."""
+    text = f"{1000 * value:.2f}"
+    return "0" if float(text) == 0 else text.replace("-", "−")
+
+
+def milliseconds(value):
+    text = f"{value:.1f}"
+    return "0" if float(text) == 0 else text.replace("-", "−")
+
+
+def front_of(frames):
+    """The Pareto front in order of time: no other frame has a smaller error and is as fast."""
+    return sorted(
+        (f for f in frames if not any(
+            g["both"] < f["both"] and g["ms"] <= f["ms"] * (1 + TIME_TOLERANCE) for g in frames)),
+        key=lambda f: f["ms"])
+
+
+def table(head, alignments, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "|".join(alignments) + "|"]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def dials(frame):
+    return [frame[dial] for dial in DIALS]
+
+
+def errors(frame):
+    return [number(frame["still"]), number(frame["moving"]), number(frame["both"])]
+
+
+def block_presets(measured, _):
+    frames = [f for f in measured["combinations"] if "preset" in f]
+    frames.sort(key=lambda f: ("fast", "balanced", "exact").index(f["preset"]))
+    return table(["`--quality`", *DIALS, "ms", "still", "moving", "error"],
+                 ["---"] + ["---:"] * 8,
+                 [[f"`{f['preset']}`", *dials(f), number(f["ms"]), *errors(f)] for f in frames])
+
+
+def block_steps(measured, _):
+    rows = []
+    for step in measured["steps"]:
+        cells = [f"{step['knob']}: {step['from']} → {step['to']}", step["lesson"]]
+        for start in ("cheapest", "most exact"):
+            change = step[start]
+            cells += [milliseconds(change["ms"]), thousandths(change["still"]), thousandths(change["moving"])]
+        rows.append(cells)
+    return table(["step", "lesson", "cheapest frame: ms", "still", "moving", "most exact one: ms", "still", "moving"],
+                 ["---", "---"] + ["---:"] * 6, rows)
+
+
+def block_front(measured, page):
+    frames = measured["combinations"]
+    front = front_of(frames)
+    picture = page.with_name(f"{page.stem}-front.svg")
+    plot(frames, front, picture)
+    rows = [[*dials(f), number(f["ms"]), f"{number(f['low'])}–{number(f['high'])}", *errors(f),
+             f"{100 * f['at edges']:.0f}", f"`{f['preset']}`" if "preset" in f else ""] for f in front]
+    return "\n".join([
+        f"![Error over milliseconds a frame: {len(frames)} frames, and the line of those of which none is better]"
+        f"({picture.name})", "",
+        table([*DIALS, "ms", "quartiles", "still", "moving", "error", "at edges, %", ""],
+              ["---:"] * 10 + ["---"], rows), "",
+        "Medians and quartiles of the processor's time, the frames by turns in random order, on one thread "
+        f"({machine(measured)}, {measured['context']['compiler']}). No other of the {len(frames)} frames has a "
+        f"smaller error and is as fast (by {TIME_TOLERANCE:.0%})."])
+
+
+def block_horizon(measured, _):
+    return table(["samples a pixel", "textures", "ms", "still", "moving", "error"], ["---:"] * 6,
+                 [[f["samples a pixel"], f["textures"], number(f["ms"]), *errors(f)] for f in measured["horizon"]])
+
+
+def block_edges(measured, _):
+    return f"{100 * measured['share of edges']:.1f}% of the pixels are edges."
+
+
+def plot(frames, front, file):
+    """All frames as dots, the front as a line, and rings around the presets."""
+    low_ms, high_ms = min(f["ms"] for f in frames), max(f["ms"] for f in frames)
+    low_error, high_error = min(f["both"] for f in frames), max(f["both"] for f in frames)
+    x = Axis(low_ms / 1.35, high_ms * 1.9, LEFT, WIDTH - RIGHT)
+    y = Axis(low_error / 1.7, high_error * 1.5, HEIGHT - BOTTOM, TOP)
+    ticks = [m * 10.0**e for e in range(-5, 0) for m in (1, 2, 5) if y.low <= m * 10.0**e <= y.high]
+    at = {id(f): (x.at(f["ms"]), y.at(f["both"])) for f in frames}
+    presets = [f for f in frames if "preset" in f]
+    dots = [("", *at[id(f)]) for f in frames]  # no label lies on one
+    places = place_labels([(f["preset"], *at[id(f)]) for f in presets] + dots, [at[id(f)] for f in front])
+    labels = [(f["preset"], place, "sans-serif:Bold,14") for f, place in zip(presets, places)]
+    for samples in ("1", "4", "16"):  # above all of them
+        xs, ys = zip(*(at[id(f)] for f in frames if f["samples a pixel"] == samples))
+        name = f"{samples} sample{'' if samples == '1' else 's'} a pixel"
+        labels.append((name, ((min(xs) + max(xs)) / 2, min(ys) - 16, "center"), "sans-serif,14"))
+    script = [
+        f"set terminal svg size {WIDTH},{HEIGHT} dynamic font 'sans-serif,14'",
+        f"set output '{file}'",
+        f"set lmargin at screen {LEFT / WIDTH}", f"set rmargin at screen {1 - RIGHT / WIDTH}",
+        f"set tmargin at screen {1 - TOP / HEIGHT}", f"set bmargin at screen {BOTTOM / HEIGHT}",
+        "set logscale xy", "unset key", "set tics scale 0", "set border 3 linecolor rgb '#94a3b8'",
+        f"set xrange [{x.low}:{x.high}]", f"set yrange [{y.low}:{y.high}]",
+        "set grid linetype 1 linewidth 0.5 linecolor rgb '#5594a3b8'",
+        "set xtics nomirror (" + ", ".join(f'"{t:,g}" {t}' for t in time_ticks(x.low, x.high)) + ")",
+        "set ytics nomirror (" + ", ".join(f'"{t:g}" {t:g}' for t in ticks) + ")",
+        "set xlabel 'ms a frame'",
+        f"set label 'error' at screen 0.025, screen {(1 - TOP / HEIGHT + BOTTOM / HEIGHT) / 2} rotate center",
+    ]
+    for name, (px, py, alignment), font in labels:
+        script.append(f"set label \"{name}\" at screen {px / WIDTH}, screen {1 - py / HEIGHT} {alignment} font '{font}'")
+    data = lambda fs: "\n".join(f"{f['ms']} {f['both']}" for f in fs) + "\ne"
+    script.append(
+        "plot '-' with points pointtype 7 pointsize 0.4 linecolor rgb '#7c8ca3', "
+        "'-' with lines linewidth 2 dashtype 2 linecolor rgb '#0d9488', "
+        "'-' with points pointtype 7 pointsize 0.7 linecolor rgb '#0d9488', "
+        "'-' with points pointtype 6 pointsize 1.4 linewidth 2 linecolor rgb '#0d9488'")
+    script += [data(frames), data(front), data(front), data(presets)]
+    subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True)
+    svg = file.read_text()
+    head_end = svg.index(">", svg.index("<svg")) + 1
+    file.write_text("\n".join(line.rstrip() for line in (svg[:head_end] + STYLE + svg[head_end:]).splitlines()) + "\n")
+
+
+def main():
+    measured = json.loads(pathlib.Path(sys.argv[1]).read_text())
+    page = pathlib.Path(sys.argv[2])
+
+    def section(match):
+        return f"{match[0].splitlines()[0]}\n\n{globals()['block_' + match[1]](measured, page)}\n\n<!-- end -->"
+
+    text, count = re.subn(r"<!-- measured: (\w+) -->\n.*?<!-- end -->", section, page.read_text(), flags=re.DOTALL)
+    if count == 0:
+        sys.exit(f"error: {page} has no line '<!-- measured: ... -->'")
+    page.write_text(text)
+    print(f"wrote {page}")
+
+
+if __name__ == "__main__":
+    main()
