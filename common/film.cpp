@@ -63,10 +63,9 @@ std::filesystem::path name_of_frame(const std::filesystem::path& pattern, int fr
     return name.substr(0, begin) + number + name.substr(end + 1);
 }
 
-int frames_at_once(int threads, const Frames& frames, ivec2 size, int samples_per_side) {
-    constexpr std::int64_t most_bytes = std::int64_t{1} << 30;
-    const std::int64_t pixels = std::int64_t{size.x} * size.y;
-    const std::int64_t bytes = pixels * (16 * samples_per_side * samples_per_side + 32);
+int frames_at_once(int threads, const Frames& frames, ivec2 size) {
+    constexpr std::int64_t most_bytes = std::int64_t{1} << 30, bytes_a_sample = 40;
+    const std::int64_t bytes = bytes_a_sample * size.x * size.y;
     const auto fitting = std::clamp<std::int64_t>(most_bytes / bytes, 1, most_frames);
     return std::min({threads, frames.count(), static_cast<int>(fitting)});
 }

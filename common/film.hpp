@@ -32,14 +32,13 @@ inline float degrees_at(int frame, const Frames& frames) {
     return 360.0f * static_cast<float>(frame) / static_cast<float>(frames.of_turn);
 }
 
-/// As many frames as `threads` can draw at once, but no more than there are, and than take 1 GiB
-/// together; at least one.
+/// As many frames as there are threads to draw them, but no more than there are to be drawn, or
+/// than take 1 GiB together; at least one.
 ///
-/// A frame is reckoned with 16 bytes a sample, its colour and depth, and 32 bytes a pixel, while it
-/// is averaged and written. Depth maps of lights, 4 bytes a texel, are not in it.
+/// A frame is reckoned with 40 bytes a sample: lesson 07 takes 39, the others less. Depth maps of
+/// lights, 4 bytes a texel, are not in it.
 ///
-/// @param size              In pixels.
-/// @param samples_per_side  Their square is the samples a pixel.
-int frames_at_once(int threads, const Frames& frames, ivec2 size, int samples_per_side);
+/// @param size  Of a frame, in samples.
+int frames_at_once(int threads, const Frames& frames, ivec2 size);
 
 }  // namespace rasterbook

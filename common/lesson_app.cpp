@@ -271,7 +271,8 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
                 "turn_%04d.png [1]")
             ->type_name("N|A-B/N");
         knobs.number("--jobs", options.jobs, 1, most_threads,
-                     "So many of them at once, each by its share of the threads, if memory allows");
+                     "Frames at once, each with its share of the threads; unasked, no more than "
+                     "take 1 GiB");
     }
     program.declare_knobs(knobs);
 
@@ -285,7 +286,7 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
                                        "in turn_%04d.png");
         if (is_film && line.count("--jobs") == 0)
             options.jobs = frames_at_once(program.threads ? *program.threads : options.jobs,
-                                          options.frames, options.size, options.samples_per_side);
+                                          options.frames, options.size * options.samples_per_side);
         make_pictures(program);
         if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
         return 0;
