@@ -32,18 +32,28 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-/// The names of a folder's files and their bytes.
-std::map<std::string, std::string> files_in(const fs::path& folder) {
-    std::map<std::string, std::string> files;
+using Files = std::map<std::string, std::string>;  // bytes by name
+
+Files files_in(const fs::path& folder) {
+    Files files;
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.is_regular_file())
             files[entry.path().filename().string()] = read_text(entry.path());
     return files;
 }
 
+/// The names of those that are in one folder only, or not the same in both.
+std::string differing(const Files& a, const Files& b) {
+    std::string names;
+    for (const auto& [name, bytes] : a)
+        if (!b.contains(name) || b.at(name) != bytes) names += name + ' ';
+    for (const auto& [name, bytes] : b)
+        if (!a.contains(name)) names += name + ' ';
+    return names;
+}
+
 /// Runs a lesson once for each list of options, all writing into one new folder.
-std::map<std::string, std::string> film_of(const std::string& lesson,
-                                           const std::vector<Words>& runs) {
+Files film_of(const std::string& lesson, const std::vector<Words>& runs) {
     const auto folder = fresh_folder("film");
     for (Words words : runs) {
         words.insert(words.end(),
@@ -191,10 +201,12 @@ TEST(Film, TwoHalvesAreTheWhole) {
                       .size(),
                   3u)
             << "the camera moves";
-        EXPECT_EQ(film_of(lesson, {{"--frames", "0-3/7"}, {"--frames", "4-6/7"}}), whole) << lesson;
-        EXPECT_EQ(
-            film_of(lesson, {{"--frames", "6-6/7"}, {"--frames", "0-4/7"}, {"--frames", "5-5/7"}}),
-            whole)
+        EXPECT_EQ(differing(film_of(lesson, {{"--frames", "0-3/7"}, {"--frames", "4-6/7"}}), whole),
+                  "")
+            << lesson;
+        const Files thirds =
+            film_of(lesson, {{"--frames", "6-6/7"}, {"--frames", "0-4/7"}, {"--frames", "5-5/7"}});
+        EXPECT_EQ(differing(thirds, whole), "")
             << lesson << ": a part of one frame is not a picture alone";
     }
 }
@@ -226,7 +238,8 @@ TEST(Film, AnyNumberAtOnceGivesTheSameFilesAndCounters) {
         for (const auto& [jobs, threads] :
              {std::pair("2", "2"), {"3", "8"}, {"8", "1"}, {"256", "16"}}) {
             const auto actual = run(jobs, threads);
-            EXPECT_EQ(actual.first, expected.first) << lesson << ", " << jobs << " at once";
+            EXPECT_EQ(differing(actual.first, expected.first), "")
+                << lesson << ", " << jobs << " at once";
             EXPECT_EQ(actual.second, expected.second) << lesson << ", " << jobs << " at once";
         }
     }
@@ -241,10 +254,11 @@ TEST(Film, ThreadsAreSharedOutAmongTheFrames) {
             return film_of(lesson, {options});
         };
         const auto alone = film({"--jobs", "1", "--threads", "1"});
-        EXPECT_EQ(film({"--jobs", "2", "--threads", "3"}), alone);
-        EXPECT_EQ(film({"--threads", "4"}), alone) << "as many frames at once as threads";
-        EXPECT_EQ(film({"--jobs", "4", "--threads", "2"}), alone);
-        EXPECT_EQ(film({"--threads", "1"}), alone);
+        EXPECT_EQ(differing(film({"--jobs", "2", "--threads", "3"}), alone), "");
+        EXPECT_EQ(differing(film({"--threads", "4"}), alone), "")
+            << "as many frames at once as threads";
+        EXPECT_EQ(differing(film({"--jobs", "4", "--threads", "2"}), alone), "");
+        EXPECT_EQ(differing(film({"--threads", "1"}), alone), "");
     }
 }
 
@@ -299,7 +313,7 @@ TEST(Film, HardCase_TheFirstErrorInOrderIsSaidAndNothingIsHalfWritten) {
             EXPECT_FALSE(written.contains("turn_0998.png")) << "it went on";
             for (const auto& [name, bytes] : written) {
                 EXPECT_TRUE(name.starts_with("turn_")) << name << " was left behind";
-                if (whole.contains(name)) { EXPECT_EQ(bytes, whole.at(name)) << name; }
+                if (whole.contains(name)) { EXPECT_TRUE(bytes == whole.at(name)) << name; }
             }
         }
     }
