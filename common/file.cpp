@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
 #include <string>
 #include <system_error>
 
@@ -44,13 +45,21 @@ class TemporaryFile {
     fs::path path_;
 };
 
+/// What the process takes away from the permissions of new files. It is read by setting it, so one
+/// thread at a time does so.
+mode_t current_umask() {
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    const mode_t mask = umask(0);
+    umask(mask);
+    return mask;
+}
+
 /// The permissions that the file has, or that a new one gets.
 fs::perms permissions_of(const fs::path& target) {
     std::error_code error;
     if (fs::exists(target, error)) return fs::status(target, error).permissions();
-    const mode_t mask = umask(0);
-    umask(mask);
-    return fs::perms{0666u & ~mask};
+    return fs::perms{0666u & ~current_umask()};
 }
 
 /// The file that a name stands for, once it is certain that a file may be put there.

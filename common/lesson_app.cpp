@@ -3,10 +3,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
+#include <mutex>
 #include <new>
 #include <sstream>
 #include <stdexcept>
@@ -43,6 +44,15 @@ ivec2 parse_size(const std::string& text) {
     return size;
 }
 
+/// Reads "90" or "0-29/90"; anything else is a usage error.
+Frames parse_frames(const std::string& text) {
+    try {
+        return frames_from(text);
+    } catch (const std::invalid_argument& error) {
+        throw CLI::ValidationError("--frames", error.what());
+    }
+}
+
 /// The model as named, or else the one of that name among the course's models.
 std::filesystem::path find_model(const std::filesystem::path& name) {
     const std::filesystem::path own = std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name;
@@ -59,72 +69,104 @@ double elapsed_ms(std::chrono::steady_clock::time_point start) {
         .count();
 }
 
-void print_stats(const LessonProgram& program, ivec2 size, const Counters& counters, double load_ms,
-                 double render_ms, double write_ms) {
+/// What was done for one picture, or for several.
+struct Tally {
+    int pictures = 0;
+    bool is_empty = true;  ///< Nothing of the model is to be seen in any.
+    Counters counters;
+    double render_ms = 0, write_ms = 0;  ///< Of each picture, added up.
+
+    void add(const Tally& others) {
+        pictures += others.pictures;
+        is_empty = is_empty && others.is_empty;
+        counters.add(others.counters);
+        render_ms += others.render_ms;
+        write_ms += others.write_ms;
+    }
+};
+
+void print_stats(const LessonProgram& program, ivec2 size, const Tally& tally, double load_ms,
+                 double total_ms) {
     std::ostringstream json;
     json << "{\"lesson\": \"" << program.name << "\", \"width\": " << size.x
          << ", \"height\": " << size.y;
     for (std::size_t i = 0; i < counter_names.size(); ++i)
-        json << ", \"" << counter_names[i] << "\": " << counters.values[i];
-    json << ", \"load_ms\": " << load_ms << ", \"render_ms\": " << render_ms
-         << ", \"write_ms\": " << write_ms << "}\n";
+        json << ", \"" << counter_names[i] << "\": " << tally.counters.values[i];
+    json << ", \"load_ms\": " << load_ms << ", \"render_ms\": " << tally.render_ms
+         << ", \"write_ms\": " << tally.write_ms << ", \"total_ms\": " << total_ms << "}\n";
     std::cout << json.str() << std::flush;
 }
 
-/// "turn_0007.png" for frame 7 of "turn_%04d.png"; other names stay as they are.
-std::filesystem::path name_of_frame(const std::filesystem::path& pattern, int frame) {
-    const std::string name = pattern.string();
-    const auto begin = name.find('%'), end = name.find_first_not_of("0123456789", begin + 1);
-    if (begin == name.npos || end == name.npos || name[end] != 'd') return pattern;
-    std::string number = std::to_string(frame);
-    const std::size_t digits = std::strtoul(name.c_str() + begin + 1, nullptr, 10);
-    if (number.size() < digits) number.insert(0, digits - number.size(), '0');
-    return name.substr(0, begin) + number + name.substr(end + 1);
+/// Renders a picture and writes it.
+Tally make_picture(const LessonProgram& program, const FrameOptions& frame,
+                   const std::filesystem::path& file) {
+    const LessonOptions& options = program.options;
+    Tally tally;
+    const auto render_start = std::chrono::steady_clock::now();
+    Image<vec3> rendered = program.render(frame, options.stats ? &tally.counters : nullptr);
+    tally.is_empty = is_backdrop(rendered);
+    const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
+    tally.render_ms = elapsed_ms(render_start);
+
+    const auto write_start = std::chrono::steady_clock::now();
+    write_image(file, srgb8_from_linear(picture));
+    tally.write_ms = elapsed_ms(write_start);
+    tally.pictures = 1;
+    return tally;
+}
+
+/// All pictures, several at once. Each depends on its number alone, not on what was drawn before.
+Tally make_film(const LessonProgram& program) {
+    const LessonOptions& options = program.options;
+    const Frames& frames = options.frames;
+    const int at_once = std::min(options.jobs, frames.count());
+    const int threads = program.threads ? std::max(1, *program.threads / at_once) : 1;
+    const float first_yaw_degrees = program.orbit ? program.orbit->yaw_degrees : 0;
+    const bool shows_progress = frames.count() > 1 && isatty(STDERR_FILENO);
+    Tally tally;
+    std::mutex mutex;
+    const auto make_frame = [&](int frame) {
+        const Tally done =
+            make_picture(program, {first_yaw_degrees + degrees_at(frame, frames), threads},
+                         frames.of_turn > 1 ? name_of_frame(options.out, frame) : options.out);
+        const std::lock_guard lock(mutex);
+        tally.add(done);
+        if (shows_progress)
+            std::cerr << "\rframe " << tally.pictures << " of " << frames.count()
+                      << (tally.pictures == frames.count() ? "\n" : "") << std::flush;
+    };
+    try {
+        for_each_at_once(at_once, frames.first, frames.last, make_frame);
+    } catch (...) {
+        if (shows_progress && tally.pictures > 0) std::cerr << '\n';
+        throw;
+    }
+    return tally;
 }
 
 void make_pictures(const LessonProgram& program) {
     LessonOptions& options = program.options;
-    const auto load_start = std::chrono::steady_clock::now();
+    const auto start = std::chrono::steady_clock::now();
     const Scene& scene = program.prepare(load_model(find_model(options.model)));
-    const double load_ms = elapsed_ms(load_start);
+    const double load_ms = elapsed_ms(start);
     for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
 
-    Counters counters;
-    double render_ms = 0, write_ms = 0;
-    bool is_empty = true;
     const ivec2 size = options.size;
     options.size *= options.samples_per_side;
-    const float first_yaw_degrees = program.orbit ? program.orbit->yaw_degrees : 0;
-    for (int frame = 0; frame < options.frames; ++frame) {
-        if (program.orbit)
-            program.orbit->yaw_degrees = first_yaw_degrees + 360.0f * static_cast<float>(frame) /
-                                                                 static_cast<float>(options.frames);
-        const auto render_start = std::chrono::steady_clock::now();
-        Image<vec3> rendered = program.render(options.stats ? &counters : nullptr);
-        is_empty = is_empty && is_backdrop(rendered);
-        const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
-        render_ms += elapsed_ms(render_start);
+    const Tally tally = make_film(program);
 
-        const std::filesystem::path file =
-            options.frames > 1 ? name_of_frame(options.out, frame) : options.out;
-        const auto write_start = std::chrono::steady_clock::now();
-        write_image(file, srgb8_from_linear(picture));
-        write_ms += elapsed_ms(write_start);
-        if (!options.stats && options.frames == 1) std::cout << "wrote " << file.string() << '\n';
-        if (options.frames > 1 && isatty(STDERR_FILENO))
-            std::cerr << "\rframe " << frame + 1 << " of " << options.frames << std::flush;
-    }
-    if (options.frames > 1 && isatty(STDERR_FILENO)) std::cerr << '\n';
-
-    if (is_empty)
+    if (tally.is_empty)
         std::cerr << "warning: " << options.model.string()
                   << ": nothing of it is to be seen; perhaps its faces are named clockwise or have "
                      "no area\n";
     if (options.stats)
-        print_stats(program, size, counters, load_ms, render_ms, write_ms);
-    else if (options.frames > 1)
-        std::cout << "wrote " << options.frames << " pictures, "
-                  << name_of_frame(options.out, 0).string() << " and so on\n";
+        print_stats(program, size, tally, load_ms, elapsed_ms(start));
+    else if (const std::string first = name_of_frame(options.out, options.frames.first).string();
+             tally.pictures > 1)
+        std::cout << "wrote " << tally.pictures << " pictures, " << first << " and so on\n";
+    else
+        std::cout << "wrote " << (options.frames.of_turn > 1 ? first : options.out.string())
+                  << '\n';
 }
 
 }  // namespace
@@ -223,19 +265,28 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
                      "Its distance from the scene's centre, in radii of the scene");
         knobs.number("--fov", orbit.fov_degrees, 1, 170,
                      "What it sees from the lower to the upper border, in degrees");
-        knobs.number("--frames", options.frames, 1, 9999,
-                     "Pictures of one turn around the scene; --out then takes turn_%04d.png");
+        line.add_option_function<std::string>(
+                "--frames", [&](const std::string& text) { options.frames = parse_frames(text); },
+                "Pictures of one turn around the scene, or of a part of it; --out then takes "
+                "turn_%04d.png [1]")
+            ->type_name("N|A-B/N");
+        knobs.number("--jobs", options.jobs, 1, most_threads,
+                     "Frames at once, each with its share of the threads; unasked, no more than "
+                     "take 1 GiB");
     }
     program.declare_knobs(knobs);
 
     try {
         line.parse(argc, argv);
-        if (options.frames > 1 && line.count("--out") == 0)
-            options.out = program.name + "_%04d.png";
-        if (options.frames > 1 && name_of_frame(options.out, 0) == options.out)
+        const bool is_film = options.frames.of_turn > 1;
+        if (is_film && line.count("--out") == 0) options.out = program.name + "_%04d.png";
+        if (is_film && name_of_frame(options.out, 0) == options.out)
             throw CLI::ValidationError("--out",
                                        "the name for several frames needs their number, as "
                                        "in turn_%04d.png");
+        if (is_film && line.count("--jobs") == 0)
+            options.jobs = frames_at_once(program.threads ? *program.threads : options.jobs,
+                                          options.frames, options.size * options.samples_per_side);
         make_pictures(program);
         if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
         return 0;

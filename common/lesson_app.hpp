@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "common/counters.hpp"
+#include "common/film.hpp"
 #include "common/image.hpp"
 #include "common/mesh.hpp"
+#include "common/threads.hpp"
 
 namespace CLI {
 class App;
@@ -29,7 +31,8 @@ struct LessonOptions {
     ivec2 size{1280, 720};      ///< Pixels to render, each side 1 to 16384 for one sample a pixel.
     int samples_per_side = 1;   ///< The picture is rendered this many times as wide and as high.
     bool stats = false;
-    int frames = 1;  ///< Along one turn of the orbit.
+    Frames frames;
+    int jobs = threads_of_the_machine();  ///< Frames that are drawn and written at once.
 };
 
 /// Where the camera stands and how wide it sees, from lesson 04 on: a lesson whose options have an
@@ -95,15 +98,24 @@ class Knobs {
     CLI::App& command_line_;
 };
 
+/// What one frame has of its own; the rest is the same for all.
+struct FrameOptions {
+    float yaw_degrees;
+    int threads;  ///< For those lessons that draw a picture with several.
+};
+
 /// A lesson, ready to run: run_lesson fills it in.
 struct LessonProgram {
     std::string name;   ///< NN_name
     std::string title;  ///< One sentence for --help.
     LessonOptions& options;
-    Orbit* orbit;  ///< Of the options, or null.
+    Orbit* orbit;        ///< Of the options, or null.
+    const int* threads;  ///< Of the options, or null: then one thread draws a picture.
     std::function<void(Knobs&)> declare_knobs;
-    std::function<const Scene&(Scene)> prepare;    ///< Called once, with the model as it was read.
-    std::function<Image<vec3>(Counters*)> render;  ///< Counts when not null.
+    std::function<const Scene&(Scene)> prepare;  ///< Called once, with the model as it was read.
+
+    /// Called by several threads at once; counts when not null.
+    std::function<Image<vec3>(const FrameOptions&, Counters*)> render;
 };
 
 /// @return  The exit status: 0, 1 for bad input, 2 for bad usage; errors are one line on stderr.
@@ -111,18 +123,22 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 
 /// Runs a lesson: reads the command line and the model, renders, writes the picture.
 ///
-/// @tparam Options      Derived from LessonOptions; may have `void declare(Knobs&)`.
+/// @tparam Options      Derived from LessonOptions; may have `void declare(Knobs&)`, an `Orbit
+///                      orbit`, and `threads.threads`, the number of threads that draw.
 /// @tparam LessonScene  Scene, or derived from it and made once as LessonScene(Scene, Options).
 /// @param render        Called for each picture as render(const Options&, const LessonScene&,
 ///                      counters), where counters is a Counters or a NoCounters; gives the picture
-///                      in linear colour.
+///                      in linear colour. Where there are several pictures, several threads call
+///                      it at once: what it keeps from one to the next must be thread_local.
 template <typename Options, typename LessonScene = Scene, typename Render>
 int run_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
     Options options;
     std::optional<LessonScene> scene;
     Orbit* orbit = nullptr;
+    const int* threads = nullptr;
     if constexpr (requires { options.orbit; }) orbit = &options.orbit;
-    return run_lesson_program({std::move(name), std::move(title), options, orbit,
+    if constexpr (requires { options.threads.threads; }) threads = &options.threads.threads;
+    return run_lesson_program({std::move(name), std::move(title), options, orbit, threads,
                                [&](Knobs& knobs) {
                                    if constexpr (requires { options.declare(knobs); })
                                        options.declare(knobs);
@@ -133,10 +149,15 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, Rende
                                    else
                                        return scene.emplace(std::move(model), options);
                                },
-                               [&](Counters* counters) {
+                               [&](const FrameOptions& frame, Counters* counters) {
+                                   Options own = options;
+                                   if constexpr (requires { own.orbit; })
+                                       own.orbit.yaw_degrees = frame.yaw_degrees;
+                                   if constexpr (requires { own.threads.threads; })
+                                       own.threads.threads = frame.threads;
                                    NoCounters none;
-                                   return counters ? render(options, *scene, *counters)
-                                                   : render(options, *scene, none);
+                                   return counters ? render(own, *scene, *counters)
+                                                   : render(own, *scene, none);
                                }},
                               argc, argv);
 }

@@ -13,7 +13,8 @@ namespace rasterbook {
 
 /// What is freed stays with the program: the pictures of a frame take the memory of the frame
 /// before. Else the C library gives large blocks back, and the system clears each page anew when it
-/// is asked for again. Does nothing where the C library is not glibc.
+/// is asked for again. In other threads than the first one that holds for blocks below 64 MB. Does
+/// nothing where the C library is not glibc.
 inline void keep_freed_memory() {
 #ifdef __GLIBC__
     constexpr int all = 1 << 30;

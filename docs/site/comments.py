@@ -15,7 +15,7 @@ def link_comment(line: str) -> str:
     line = line.replace("Eq. ", "Eq.\\ ")  # for Doxygen, no end of the first sentence
     line = re.sub(r"(?<= )--(?=\w)", r"\\--", line)  # an option, no dash
     line = re.sub(r"docs/derivations/(\d\d)_\w+\.md", r"@ref derivation_\1", line)
-    line = line.replace("docs/gltf.md", "@ref gltf")
+    line = re.sub(r"docs/(gltf|animation)\.md", r"@ref \1", line)
     return re.sub(r"Introduced in (lesson (\d\d))", r"Introduced in [\1](lesson_\2.html)", line)
 
 

@@ -123,10 +123,10 @@ Image<vec3> render(const Options& options, const ShadowedScene& scene, Pool& poo
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::optional<ThreadPool> pool;
     return run_lesson<Options, ShadowedScene>(
         argc, argv, "10_threading", "Draws the same picture with several threads.",
-        [&](const auto& options, const auto& scene, auto& counters) {
+        [](const auto& options, const auto& scene, auto& counters) {
+            thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
             return render(options, scene, *pool, counters);
         });

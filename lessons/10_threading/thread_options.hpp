@@ -8,22 +8,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <thread>
 
 #include <glm/trigonometric.hpp>
 
 #include "10_threading/split.hpp"
 #include "common/image.hpp"
 #include "common/lesson_app.hpp"
+#include "common/threads.hpp"
 
 namespace rasterbook {
 
-constexpr int most_threads = 256;
-
 struct ThreadOptions {
-    /// As many as the machine runs at once; 1 where it does not say.
-    int threads =
-        std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_threads);
+    int threads = threads_of_the_machine();
     Split split = Split::tiles;
     int tile = 32;  ///< Pixels along a tile's side.
     bool show = false;

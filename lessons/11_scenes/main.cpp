@@ -3,6 +3,7 @@
 /// Lesson 11: scenes of any file.
 #include <iostream>
 #include <optional>
+#include <syncstream>
 
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
@@ -101,10 +102,10 @@ Image<vec3> render(const Options& options, const FinishedScene& scene, Pool& poo
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::optional<ThreadPool> pool;
     return run_lesson<Options, FinishedScene>(
         argc, argv, "11_scenes", "Draws a scene of any file, and what it calls for.",
-        [&](const auto& options, const auto& scene, auto& counters) {
+        [](const auto& options, const auto& scene, auto& counters) {
+            thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
             NoClock no_clock;
             if (!options.scene.explain) return render(options, scene, *pool, counters, no_clock);
@@ -112,7 +113,8 @@ int main(int argc, char** argv) {
             Counters counted;
             Image<vec3> picture = render(options, scene, *pool, counted, clock);
             const auto [camera, name] = camera_of_picture(options, options.scene.camera, scene);
-            explain(std::cout, scene, name, counted, clock);
+            std::osyncstream out(std::cout);  // not between the words of another frame
+            explain(out, scene, name, counted, clock);
             if constexpr (requires { counters.add(counted); }) counters.add(counted);
             return picture;
         });

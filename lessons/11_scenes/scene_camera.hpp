@@ -98,7 +98,7 @@ struct NamedCamera {
 template <typename Options>
 NamedCamera camera_of_picture(const Options& options, const std::string& asked,
                               const Scene& scene) {
-    const bool is_orbit_asked_for = options.frames > 1 || options.orbit != Orbit();
+    const bool is_orbit_asked_for = options.frames.of_turn > 1 || options.orbit != Orbit();
     if (const auto chosen = chosen_camera(scene, asked, is_orbit_asked_for))
         return {camera_of(scene.cameras[*chosen]),
                 std::to_string(*chosen) + " \"" + scene.cameras[*chosen].name + "\" of the file"};
