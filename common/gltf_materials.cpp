@@ -220,7 +220,7 @@ void MaterialMaker::add_toon(Material& material, const tinygltf::Material& from,
                              std::size_t index) {
     ToonLook toon;
     if (const Value* mtoon = find_extension(from.extensions, "VRMC_materials_mtoon")) {
-        toon.shade = color_in(*mtoon, "shadeColorFactor", toon.shade);
+        toon.shade = color_in(*mtoon, "shadeColorFactor", vec3(0));
         toon.toony = finite(number_in(*mtoon, "shadingToonyFactor", toon.toony), "toony");
         toon.shift = finite(number_in(*mtoon, "shadingShiftFactor", toon.shift), "shift");
         toon.outline_color = color_in(*mtoon, "outlineColorFactor", toon.outline_color);
@@ -229,6 +229,10 @@ void MaterialMaker::add_toon(Material& material, const tinygltf::Material& from,
         const std::string word = mode.IsString() ? mode.Get<std::string>() : "none";
         if (word == "worldCoordinates") toon.outline = ToonLook::Outline::world;
         if (word == "screenCoordinates") toon.outline = ToonLook::Outline::screen;
+        for (const char* part :
+             {"shadeMultiplyTexture", "shadingShiftTexture", "matcapTexture", "rimMultiplyTexture",
+              "outlineWidthMultiplyTexture", "uvAnimationMaskTexture"})
+            if (mtoon->Has(part)) warn(std::string(part) + " is passed over");
     } else {
         const Value* vrm = find_extension(model_.extensions, "VRM");
         if (!vrm || !vrm->Has("materialProperties")) return;
@@ -243,7 +247,7 @@ void MaterialMaker::add_toon(Material& material, const tinygltf::Material& from,
             return vec3(linear_from_srgb(color.r), linear_from_srgb(color.g),
                         linear_from_srgb(color.b));
         };
-        toon.shade = linear(color_in(colors, "_ShadeColor", toon.shade));
+        toon.shade = linear(color_in(colors, "_ShadeColor", {0.97f, 0.81f, 0.86f}));
         toon.outline_color = linear(color_in(colors, "_OutlineColor", toon.outline_color));
         // Light begins at `from_cosine` and is full at `to_cosine`.
         const double from_cosine = number_in(numbers, "_ShadeShift", 0);
@@ -253,8 +257,10 @@ void MaterialMaker::add_toon(Material& material, const tinygltf::Material& from,
         const double mode = number_in(numbers, "_OutlineWidthMode", 0);
         if (mode == 1) toon.outline = ToonLook::Outline::world;
         if (mode == 2) toon.outline = ToonLook::Outline::screen;
-        const double centimetres = number_in(numbers, "_OutlineWidth", 0);
-        toon.outline_width = finite(0.01 * centimetres, "_OutlineWidth");
+        // In centimetres, or in hundredths of half of the picture's height.
+        const double share = toon.outline == ToonLook::Outline::screen ? 0.005 : 0.01;
+        toon.outline_width =
+            finite(share * number_in(numbers, "_OutlineWidth", 0), "_OutlineWidth");
     }
     toon.toony = std::clamp(toon.toony, 0.0f, 1.0f);
     toon.shift = std::clamp(toon.shift, -1.0f, 1.0f);

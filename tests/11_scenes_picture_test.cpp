@@ -365,6 +365,15 @@ TEST(SceneFiles, HardCase_BacksAreSeenOfWhatHasTwoSidesAlone) {
         }
 }
 
+TEST(SceneFiles, HardCase_OutlinesHaveOneSideWhateverIsForced) {
+    look_up("Eq. 11.6");
+    lesson::Options options = small_picture();
+    const Image<vec3> one_sided = drawn(loaded("toon.glb"), options).picture;
+    options.shading.two_sided = true;
+    EXPECT_TRUE(are_the_same_bits(drawn(loaded("toon.glb"), options).picture, one_sided))
+        << "its parts are closed, so their backs are not seen; outlines' backs would hide them";
+}
+
 TEST(SceneFiles, HardCase_EmptyScenesAreTheBackdrop) {
     look_up("Eq. 11.3");
     Scene empty;

@@ -104,6 +104,55 @@ TEST(Scenes, HardCase_MoreLightsThanAreDrawnWithAreNamed) {
     EXPECT_TRUE(own.casts[0] && !own.casts[1] && !own.are_of_file);
 }
 
+TEST(Scenes, Eq11_12_LightsOfAnyUnitsAreTakenDownTogether) {
+    Bounds bounds;
+    bounds.add(vec3(-1, 2, 3)), bounds.add(vec3(3, 2, 3));  // middle (1, 2, 3), radius 2
+    ASSERT_EQ(bounds.radius(), 2);
+    SceneLight sun = file_light(SceneLight::Kind::directional, vec3(1, 2049, 0));
+    EXPECT_NEAR(exposure_of({&sun, 1}, bounds), pi / 2049, 1e-9) << "Blender's sun, as worked";
+    sun.color = vec3(lux_of_white * 2);
+    EXPECT_EQ(exposure_of({&sun, 1}, bounds), 1) << "twice white is kept";
+    sun.color *= 1.0001f;
+    EXPECT_NEAR(exposure_of({&sun, 1}, bounds), 0.5, 1e-4);
+    EXPECT_EQ(exposure_of({}, bounds), 1);
+
+    for (const SceneLight::Kind kind : {SceneLight::Kind::point, SceneLight::Kind::spot})
+        for (const double distance : {0.0, 1.0, 2.0, 8.0}) {
+            std::array lights = {sun, file_light(kind, vec3(0, 9000, 4))};
+            lights[1].position_world = vec3(1, 2, 3 + distance);
+            const double far_away = std::max(distance, 2.0);  // one radius at least
+            EXPECT_NEAR(exposure_of(lights, bounds), pi * far_away * far_away / 9000, 1e-7)
+                << distance;
+        }
+
+    Scene scene;
+    scene.meshes.resize(1);
+    scene.meshes[0].positions = {{-1, 2, 3}, {3, 2, 3}};
+    for (const vec3 p : scene.meshes[0].positions) scene.meshes[0].bounds.add(p);
+    scene.lights = {file_light(SceneLight::Kind::directional, vec3(2049)),
+                    file_light(SceneLight::Kind::point, vec3(100))};
+    std::vector<std::string> warnings;
+    const SceneLights lights = lights_of(scene, LightKind::directional, warnings);
+    EXPECT_NEAR(lights.lights[0].color.r, 1, 1e-6);
+    const Light alone = light_of(scene.lights[1], 2);
+    EXPECT_NEAR(lights.lights[1].color.r, alone.color.r * pi / 2049, 1e-6 * alone.color.r)
+        << "all by the same number";
+}
+
+TEST(Scenes, HardCase_LightsOfAnyStrengthAreNeitherBlackNorInfinite) {
+    look_up("Eq. 11.12");
+    for (const float size : {0.0f, 1e-30f, 1.0f, 1e30f})
+        for (const float strength : {0.0f, 1e-38f, 1.0f, 3e38f})
+            for (const SceneLight::Kind kind :
+                 {SceneLight::Kind::directional, SceneLight::Kind::point}) {
+                Bounds bounds;
+                bounds.add(vec3(1, 2, 3) - size), bounds.add(vec3(1, 2, 3) + size);
+                const SceneLight light = file_light(kind, vec3(strength));
+                const float exposure = exposure_of({&light, 1}, bounds);
+                EXPECT_TRUE(exposure > 0 && exposure <= 1) << size << ' ' << strength;
+            }
+}
+
 TEST(Scenes, Eq11_3_EachSetOfEffectsHasAKernelWithAllOfThem) {
     std::set<std::size_t> used;
     for (unsigned bits = 0; bits < 1u << effect_count; ++bits) {
@@ -248,7 +297,10 @@ TEST(Scenes, Eq11_9_LayersAreDrawnFromBackToFrontInWhateverOrderTheyCome) {
         for (const Layer& layer : layers) gathered.add(layer);
         Image<vec3> actual(size, vec3(0.25f));
         gathered.draw_over(actual);
-        ASSERT_EQ(actual, expected) << "seed 12, case " << k;
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                ASSERT_EQ((actual[{x, y}]), (expected[{x, y}]))
+                    << "seed 12, case " << k << ", pixel " << x << ' ' << y;
         EXPECT_TRUE(gathered.empty());
     }
     // The worked example: glass of red at 0.3, of blue at 0.6, both of a half, over white.
@@ -304,6 +356,9 @@ TEST(Scenes, Eq11_6_OutlinesAreAsWideAsTheyAreAskedToBe) {
             EXPECT_GE(hull.bounds.max.y, hull.positions[i].y);
         }
     }
+    OutlineHull behind = hulls[1];
+    for (vec3& place : behind.places) place += 2.0f * camera.position_world;
+    EXPECT_EQ(pushed(behind, camera).positions, behind.places) << "not inwards, behind the eye";
 }
 
 TEST(Scenes, HardCase_OneMeshOfSeveralPaintsHasTheirOutlines) {

@@ -277,7 +277,7 @@ TEST(GltfMaterials, MToonIsALookOfItsOwn) {
     made.material()["extensions"]["VRMC_materials_mtoon"]["specVersion"] = "1.0";
     const Material plain = material_of(made);
     ASSERT_TRUE(plain.toon);
-    EXPECT_EQ(plain.toon->shade, vec3(1));
+    EXPECT_EQ(plain.toon->shade, vec3(0));
     EXPECT_EQ(plain.toon->toony, 0.9f);
     EXPECT_EQ(plain.toon->shift, 0);
     EXPECT_EQ(plain.toon->outline, ToonLook::Outline::none);
@@ -303,6 +303,10 @@ TEST(GltfMaterials, MToonIsALookOfItsOwn) {
     EXPECT_EQ(full.toon->outline_color, vec3(1, 0, 0.5f));
     made.material()["extensions"]["VRMC_materials_mtoon"]["outlineWidthMode"] = "screenCoordinates";
     EXPECT_EQ(material_of(made).toon->outline, ToonLook::Outline::screen);
+    made.material()["extensions"]["VRMC_materials_mtoon"]["matcapTexture"] = {{"index", 0}};
+    const Scene scene = load_model(made.write(fresh_folder("gltf_matcap") / "a.gltf"));
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("matcapTexture is passed over"), std::string::npos);
 }
 
 TEST(GltfMaterials, Vrm0SaysTheSameInAListBesideTheMaterials) {
@@ -332,4 +336,13 @@ TEST(GltfMaterials, Vrm0SaysTheSameInAListBesideTheMaterials) {
     EXPECT_EQ(toon->outline, ToonLook::Outline::world);
     EXPECT_FLOAT_EQ(toon->outline_width, 0.005f);  // centimetres there
     EXPECT_EQ(toon->outline_color, vec3(0, 1, 0));
+
+    json& own = made.document["extensions"]["VRM"]["materialProperties"][1];
+    own["floatProperties"]["_OutlineWidthMode"] = 2;
+    own["vectorProperties"].erase("_ShadeColor");
+    const Scene other = load_model(made.write(file, GltfForm::binary));
+    EXPECT_EQ(other.materials.at(2).toon->outline, ToonLook::Outline::screen);
+    EXPECT_FLOAT_EQ(other.materials.at(2).toon->outline_width, 0.0025f)
+        << "100 of them are half of the height";
+    EXPECT_FLOAT_EQ(other.materials.at(2).toon->shade.r, 0.9331069f) << "sRGB code 0.97";
 }

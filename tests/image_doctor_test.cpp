@@ -176,6 +176,29 @@ TEST(ImageDoctor, RightPicturesAreNotAccused) {
     }
 }
 
+TEST(ImageDoctor, TheModelIsWhereTheLessonDrawsIt) {
+    constexpr int most_different = 6;  // of 57600: at borders the two cameras may round otherwise
+    int lessons = 0;
+    for (const std::string& lesson : test::lessons()) {
+        if (lesson < "04" || lesson >= "11") continue;
+        ++lessons;
+        for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+                 {"--depth"}, {"--depth", "--model", "textured.gltf", "--yaw", "10"}}) {
+            const Image<u8vec4> picture = drawn({lesson, options});
+            Image<int> covered(size, 0);
+            for (const auto& [a, b, c] : test::picture_facts(lesson, options, size).patches)
+                if (const ScreenTriangle on_screen = snap_triangle(a, b, c);
+                    is_front_facing(on_screen))
+                    fill_triangle(on_screen, size, [&](ivec2 p, vec3) { covered[p] = 1; });
+            int different = 0;
+            for (std::size_t i = 0; i < covered.pixels().size(); ++i)
+                different += (picture.pixels()[i].r > 0) != (covered.pixels()[i] == 1);
+            EXPECT_LE(different, most_different) << lesson << ' ' << options.size();
+        }
+    }
+    EXPECT_EQ(lessons, 7);
+}
+
 TEST(ImageDoctor, NoiseOfALevelIsNotAccused) {
     std::mt19937 random(7);
     for (const Shot& shot : {filled, nearest_weights, depths}) {
@@ -421,7 +444,8 @@ TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAKnobShows) {
           Case{"08_normal_maps", {"--normal-map", "object"}, "Eq. 8.7"},
           Case{"09_shadow_maps", {"--bias", "none"}, "Eq. 9.9"},
           Case{"09_shadow_maps", {"--bias", "constant"}, "Eq. 9.10"},
-          Case{"09_shadow_maps", {"--pcf", "1"}, "Eq. 9.13"}}) {
+          Case{"09_shadow_maps", {"--pcf", "1"}, "Eq. 9.13"},
+          Case{"10_threading", {"--bias", "constant"}, "Eq. 9.10"}}) {
         std::vector<std::string> arguments = knob;
         arguments.insert(arguments.end(), {"--yaw", "10", "--size", "160x90", "--out", file});
         ASSERT_EQ(run_program(lesson, arguments).exit_status, 0);

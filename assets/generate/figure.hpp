@@ -3,6 +3,7 @@
 /// A little robot of rounded shapes, that stands on a round platform and leans on a crate.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
@@ -148,13 +149,23 @@ inline Part limb(const std::string& material, dvec3 from, dvec3 to, double from_
 }
 
 /// The robot, the crate, and the platform on y = 0 on which they stand.
-inline std::vector<Part> figure() {
+///
+/// @param least_columns  Around each rounded shape, as circle() takes it; many have more.
+inline std::vector<Part> figure(int least_columns = 8) {
+    const auto ellipsoid = [=](const char* material, dvec3 center, dvec3 radii, int columns) {
+        return assets::ellipsoid(material, center, radii, std::max(columns, least_columns));
+    };
+    const auto limb = [=](const char* material, dvec3 from, dvec3 to, double from_radius,
+                          double to_radius, int columns) {
+        return assets::limb(material, from, to, from_radius, to_radius,
+                            std::max(columns, least_columns));
+    };
     const auto ring = [](const char* material, dvec3 center, double radius, double thickness) {
         return revolved(material, ring_profile(radius, thickness, 8), 32, {dmat3(1), center});
     };
     std::vector<Part> parts = {
         limb("coat", {0, 1.2, 0}, {0, 1.72, 0}, 0.74, 0.54, 32),
-        ellipsoid("cream", {0, 1.24, 0.56}, {0.48, 0.52, 0.28}, 24),
+        ellipsoid("panel", {0, 1.24, 0.56}, {0.48, 0.52, 0.28}, 24),
         ellipsoid("lamp", {0, 1.3, 0.8}, {0.11, 0.11, 0.09}, 12),
         ring("trim", {0, 2.14, 0}, 0.4, 0.12),
         ellipsoid("cream", {0, 2.78, 0}, {0.92, 0.7, 0.78}, 32),

@@ -135,6 +135,13 @@ Ks 0.7 0.7 0.7
 Ns 40
 illum 2
 
+newmtl panel
+Ka 0.87 0.72 0.42
+Kd 0.87 0.72 0.42
+Ks 0.7 0.7 0.7
+Ns 40
+illum 2
+
 newmtl trim
 Ka 0.03 0.36 0.38
 Kd 0.03 0.36 0.38

@@ -181,7 +181,7 @@ inline GltfFile textured_scene(const std::vector<Part>& teapot) {
     file.add_node(std::move(stack));
     file.add_camera("front", {-4.3, 4.6, 12}, {1.0, 1.5, 0}, 0.62);
     file.add_camera("above", {7, 10, 6}, {0.3, 1, 0}, 0.6);
-    file.add_light("sun", {-6, 9, 7}, {0, 0, 0},
+    file.add_light("sun", {-5, 11, 8}, {0, 0, 0},
                    {{"type", "directional"}, {"color", {1, 0.92, 0.8}}, {"intensity", 3.2}});
     file.add_light("sky", {7, 6, -2}, {0, 0, 0},
                    {{"type", "directional"}, {"color", {0.6, 0.8, 1}}, {"intensity", 0.9}});
@@ -241,23 +241,25 @@ inline GltfFile toon_scene() {
     lamp["emissiveFactor"] = {0.15, 0.08, 0.01};
     json eyes = paint("eyes", {0.1, 0.1, 0.1}, {0.08, 0.08, 0.1}, 0);
     eyes["emissiveFactor"] = {0.55, 0.85, 0.8};
+    // Glass and panel are sunk so flat into what is around them that an outline would break off.
     NamedMaterials material(
         file, {{"coat", paint("coat", {0.8, 0.13, 0.06}, {0.34, 0.03, 0.06}, 0.025)},
                {"cream", paint("cream", {0.87, 0.72, 0.42}, {0.5, 0.3, 0.2}, 0.025)},
+               {"panel", paint("panel", {0.87, 0.72, 0.42}, {0.5, 0.3, 0.2}, 0)},
                {"trim", paint("trim", {0.03, 0.36, 0.38}, {0.01, 0.13, 0.2}, 0.025)},
-               {"glass", paint("glass", {0.05, 0.07, 0.14}, {0.02, 0.025, 0.06}, 0.025)},
+               {"glass", paint("glass", {0.05, 0.07, 0.14}, {0.02, 0.025, 0.06}, 0)},
                {"steel", paint("steel", {0.36, 0.4, 0.5}, {0.12, 0.13, 0.22}, 0.025)},
                {"lamp", lamp},
                {"eyes", eyes},
                {"box", paint("box", {0.75, 0.4, 0.12}, {0.34, 0.13, 0.06}, 0.025)},
                {"platform", paint("platform", {0.3, 0.5, 0.25}, {0.08, 0.2, 0.16}, 0.025)}});
     std::map<std::string, std::vector<Part>> groups;
-    for (Part& part : figure()) groups[part.group].push_back(std::move(part));
+    for (Part& part : figure(48)) groups[part.group].push_back(std::move(part));
     for (const auto& [name, parts] : groups)
         file.add_node(
             {{"name", name},
              {"mesh", file.add_mesh(name, primitives_of(parts, {.uvs = false}, material))}});
-    file.add_camera("front", {-3.4, 3.6, 8.2}, {-0.1, 1.9, 0}, 0.6);
+    file.add_camera("front", {-3.4, 3.6, 8.2}, {-0.1, 1.87, 0}, 0.58);
     file.add_light("sun", {-7, 6, 3}, {0, 0, 0},
                    {{"type", "directional"}, {"color", {1, 1, 1}}, {"intensity", 3}});
     return file;

@@ -257,7 +257,8 @@ Image<vec3> render_by_pixels(const Options& options, const Scene& scene, const C
                              });
         }
     }
-    return options.show_depth ? depth_picture(depth) : color;
+    if (options.show_depth) return depth_picture(depth);
+    return color;
 }
 
 }  // namespace rasterbook

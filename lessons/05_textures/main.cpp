@@ -73,7 +73,8 @@ Image<vec3> render(const Options& options, const TexturedScene& scene, CounterPo
             }
         }
     }
-    return options.show_depth ? depth_picture(depth) : color;
+    if (options.show_depth) return depth_picture(depth);
+    return color;
 }
 
 }  // namespace

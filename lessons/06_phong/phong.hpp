@@ -56,7 +56,8 @@ struct SurfacePoint {
 /// comes from behind: only lights with N.L > 0 count.
 ///
 /// @param power  Called as power(cosine) for each light that counts, with a cosine from 0 to 1; not
-///               called if !has_highlight. Of TriangleLight, 0 where none is seen.
+///               called if !has_highlight. The one of TriangleLight gives 0 for a highlight that
+///               nobody could see.
 template <typename Power>
 ReflectedLight reflected_light(std::span<const Light> lights, const SurfacePoint& point,
                                bool has_highlight, Highlight highlight, Power&& power) {

@@ -65,8 +65,8 @@ Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy
                 }
                 const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
                 const PerspectiveWeights perspective(on_screen, clipped);
-                const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
-                                          triangle, is_back, surface);
+                const TriangleLight light(ShadingVariant{options.shading}, lights,
+                                          camera.position_world, mesh, triangle, is_back, surface);
                 const auto shade = [&](const ManyFragments& fragments) {
                     const ManyWeights weights = weights_of(fragments, perspective);
                     const auto own = surface.colors(weights, options.texture.filter, counters);
@@ -96,7 +96,8 @@ Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy
         }
     }
     outlines.draw(scene, options.samples_per_side, depth, color, counters);
-    return options.show_depth ? depth_picture(depth) : color;
+    if (options.show_depth) return depth_picture(depth);
+    return color;
 }
 
 }  // namespace

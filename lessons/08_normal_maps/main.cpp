@@ -69,8 +69,8 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
                 const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
                 const PerspectiveWeights perspective(on_screen, clipped);
                 const TriangleRelief relief(options.normal_map, scene, mesh, triangle, is_back);
-                const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
-                                          triangle, is_back, surface);
+                const TriangleLight light(ShadingVariant{options.shading}, lights,
+                                          camera.position_world, mesh, triangle, is_back, surface);
                 const auto shade = [&](const ManyFragments& fragments) {
                     const ManyWeights weights = weights_of(fragments, perspective);
                     const auto own = surface.colors(weights, options.texture.filter, counters);
@@ -97,7 +97,8 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
             }
         }
     }
-    return options.show_depth ? depth_picture(depth) : color;
+    if (options.show_depth) return depth_picture(depth);
+    return color;
 }
 
 }  // namespace

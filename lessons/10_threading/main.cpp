@@ -85,8 +85,8 @@ Image<vec3> render(const Options& options, const ShadowedScene& scene, Pool& poo
                 const TriangleDepth triangle_depth(depths);
                 const PerspectiveWeights perspective(on_screen, clipped);
                 const TriangleRelief relief(options.normal_map, scene, mesh, triangle, is_back);
-                const TriangleLight light({options.shading}, lights, camera.position_world, mesh,
-                                          triangle, is_back, surface);
+                const TriangleLight light(ShadingVariant{options.shading}, lights,
+                                          camera.position_world, mesh, triangle, is_back, surface);
                 TriangleShadows shadow(shadows, mesh, triangle);
                 const auto shade = [&](const ManyFragments& fragments) {
                     const ManyWeights weights = weights_of(fragments, perspective);

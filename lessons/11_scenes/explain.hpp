@@ -74,6 +74,9 @@ inline void explain(std::ostream& out, const FinishedScene& scene, const std::st
             << kinds[static_cast<std::size_t>(scene.lit_by.lights[l].kind)]
             << (scene.lit_by.casts[l] ? "" : ", throws no shadows") << '\n';
     }
+    if (is_lit && scene.lit_by.exposure < 1)
+        out << "light: taken down by " << 1 / scene.lit_by.exposure
+            << ", so that the brightest is white\n";
     out << "\neffects\n";
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const MaterialPlan& plan = scene.plan.materials[i];

@@ -86,8 +86,9 @@ class ScenePlan {
             const Material& material = scene.materials[i];
             const bool is_unlit = material.illumination == 0, is_toon = material.toon.has_value();
             const bool is_lit = !is_unlit && !is_toon;
+            const bool is_outline = i >= first_outline_material(scene.materials);
             const char* const unlit = is_toon ? "a comic's paint" : "unlit";
-            plan.two_sided = material.two_sided || options.two_sided;
+            plan.two_sided = !is_outline && (material.two_sided || options.two_sided);
             plan.set(Effect::light, is_lit && has_lights, is_lit ? "no lights" : unlit);
             plan.set(Effect::highlight, is_lit && scene.effects[i].highlight,
                      !is_lit                      ? unlit

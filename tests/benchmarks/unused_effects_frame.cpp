@@ -205,7 +205,8 @@ Image<vec3> copy_of_render(const AnyOptions& options, const AnyScene& scene,
     }
     if constexpr (has_outlines)
         outlines.draw(scene, options.samples_per_side, depth, color, counters);
-    return options.show_depth ? depth_picture(depth) : color;
+    if (options.show_depth) return depth_picture(depth);
+    return color;
 }
 
 /// Both, as in the lesson's program.

@@ -10,7 +10,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "common/obj.hpp"
+#include "common/model_file.hpp"
 #include "common/parallel_view.hpp"
 #include "support/image_mistakes.hpp"
 #include "support/picture_difference.hpp"
@@ -116,16 +116,21 @@ PictureFacts picture_facts(const std::string& lesson, const std::vector<std::str
     facts.has_depth_buffer = lesson >= "03";
     facts.shows_weights = option_value(arguments, "--paint") == "weights";
     facts.shows_depth = std::find(arguments.begin(), arguments.end(), "--depth") != arguments.end();
-    if (lesson < "02") return facts;
+    if (lesson < "02" || lesson >= "11") return facts;  // from 11 on a file has its own camera
+    Orbit orbit;
     std::filesystem::path model = option_value(arguments, "--model");
-    if (model.empty()) model = lesson < "04" ? "teapot.obj" : "scene.obj";
+    if (model.empty())
+        model = lesson < "04" ? "teapot.obj" : lesson < "08" ? "scene.obj" : "scene_bumpy.obj";
+    if (lesson.starts_with("07")) {
+        orbit.distance = 2.75f, orbit.pitch_degrees = 13;
+        if (option_value(arguments, "--model").empty()) model = "figure.obj";
+    }
     if (!std::filesystem::exists(model))
         model = std::filesystem::path(RASTERBOOK_ASSETS) / "models" / model;
     if (lesson < "04") {
-        facts.patches = parallel_patches(load_obj(model), size);
+        facts.patches = parallel_patches(load_model(model), size);
         return facts;
     }
-    Orbit orbit;
     const auto take = [&](const char* option, float& value) {
         const std::string word = option_value(arguments, option);
         if (!word.empty()) value = std::strtof(word.c_str(), nullptr);
@@ -134,7 +139,7 @@ PictureFacts picture_facts(const std::string& lesson, const std::vector<std::str
     take("--pitch", orbit.pitch_degrees);
     take("--distance", orbit.distance);
     take("--fov", orbit.fov_degrees);
-    facts.patches = perspective_patches(load_obj(model), orbit, size);
+    facts.patches = perspective_patches(load_model(model), orbit, size);
     return facts;
 }
 

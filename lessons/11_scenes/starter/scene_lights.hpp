@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "06_phong/light.hpp"
+#include "07_toon/toon.hpp"
 #include "09_shadow_maps/shadowed_scene.hpp"
 #include "common/mesh.hpp"
 
@@ -28,7 +29,8 @@ constexpr float lamp_size = 1.0f / 128;
 
 /// A file's light in units of the lessons' (Eq. 11.1 and 11.2).
 ///
-/// @param scene_radius  World space, > 0. Farther from a lamp than 10 times lamp_size of it, less
+/// @param scene_radius  World space, > 0; any float. Farther from a lamp than 10 times lamp_size of
+/// it, less
 ///                      than 1% of its light is missing.
 /// @return  Its range is not minded: glTF calls it a hint.
 inline Light light_of(const SceneLight& from, float scene_radius) {
@@ -38,12 +40,25 @@ inline Light light_of(const SceneLight& from, float scene_radius) {
     return light;
 }
 
+/// What a file's lights are multiplied by before they are drawn with (Eq. 11.12): 1, if none of
+/// them is more than twice as bright as white at the scene's middle; else so much that the
+/// brightest is white there. A lamp is looked at from one radius of the scene away, if it is nearer
+/// than that.
+///
+/// @param bounds  Of the scene, world space.
+/// @return  > 0, at most 1.
+inline float exposure_of(std::span<const SceneLight> lights, const Bounds& bounds) {
+    // TODO
+    return 1;
+}
+
 /// All lights that a scene is drawn in.
 struct SceneLights {
     std::vector<Light> lights;  ///< At most most_lights.
     std::vector<std::string> names;
     std::array<bool, most_lights> casts{};  ///< Whether each throws shadows.
     bool are_of_file = false;               ///< Else those of lesson 09.
+    float exposure = 1;                     ///< By which the file's have been multiplied.
 };
 
 /// The file's lights; where it has none, the raking lights of lesson 09.
@@ -62,13 +77,15 @@ inline SceneLights lights_of(const Scene& scene, LightKind key,
         return all;
     }
     all.are_of_file = true;
-    for (const SceneLight& light : scene.lights) {
+    all.exposure = exposure_of(scene.lights, bounds);
+    for (SceneLight light : scene.lights) {
         if (all.lights.size() == most_lights) {
             warnings.push_back("light \"" + light.name + "\" is left out: no more than " +
                                std::to_string(most_lights) + " lights are drawn with");
             continue;
         }
         all.casts[all.lights.size()] = true;
+        light.color *= all.exposure;
         all.lights.push_back(light_of(light, bounds.radius()));
         all.names.push_back(light.name);
     }

@@ -34,7 +34,8 @@ inline float toon_step(float cosine, const ToonLook& look) {
 /// How bright the lights are does not count, only how bright they are beside the brightest one
 /// there: so a picture in one light has two colours for each paint, and no more.
 ///
-/// @param normal_world  Of any length.
+/// @param normal_world  Of any length. Without a direction, all lights graze it: the cosine is 0.
+/// @return  0 to 1; 0 where no light arrives.
 /// @param share         Called as share(l): how much of light l reaches the point. Half of it is
 ///                      all: a comic's shadows have edges.
 template <typename Share>
@@ -44,7 +45,7 @@ float toon_level(std::span<const Light> lights, vec3 position_world, vec3 normal
     return 1;
 }
 
-/// From the colour in the shade to the lit one: exactly the same where both are.
+/// From the colour in the shade to the lit one. Where both are equal, it is exactly that colour.
 inline vec3 toon_paint(vec3 shade, vec3 lit, float level) {
     // TODO: Eq. 11.5.
     return lit;
@@ -55,7 +56,7 @@ struct OutlineHull {
     Mesh mesh;
     std::vector<vec3> places, normals;  ///< Of each position: before it is pushed; whereto.
     std::vector<float> widths;          ///< World space, or in heights of the picture.
-    std::vector<bool> on_screen;        ///< The second.
+    std::vector<bool> on_screen;        ///< Whether its width is in heights of the picture.
 };
 
 /// The material of a toon material's outline: unlit, of its colour.
@@ -82,13 +83,17 @@ inline Scene with_outline_materials(Scene scene) {
     return scene;
 }
 
+/// The first of these materials: those before it are the scene's own.
+inline std::size_t first_outline_material(std::span<const Material> materials) {
+    return materials.size() -
+           static_cast<std::size_t>(std::ranges::count_if(materials, has_outline));
+}
+
 /// The hulls of all meshes of a scene that has been given outlines' materials.
 inline std::vector<OutlineHull> outline_hulls(const Scene& scene) {
     std::map<std::size_t, std::uint32_t> outline_of;
-    std::size_t outlines = 0;
-    for (const Material& material : scene.materials) outlines += has_outline(material);
-    for (std::size_t i = 0, next = scene.materials.size() - outlines; i < scene.materials.size();
-         ++i)
+    for (std::size_t i = 0, next = first_outline_material(scene.materials);
+         i < scene.materials.size(); ++i)
         if (has_outline(scene.materials[i])) outline_of[i] = static_cast<std::uint32_t>(next++);
     std::vector<OutlineHull> hulls;
     for (const Mesh& mesh : scene.meshes) {
@@ -120,7 +125,7 @@ inline std::vector<OutlineHull> outline_hulls(const Scene& scene) {
 /// in the world, or by the length that looks so wide where the point is (Eq. 11.6).
 inline Mesh pushed(const OutlineHull& hull, const Camera& camera) {
     Mesh mesh = hull.mesh;
-    // TODO: Eq. 11.6, and the bounds of what is pushed.
+    // TODO: Eq. 11.6, before the bounds are found.
     mesh.bounds = {};
     for (const vec3 position : mesh.positions) mesh.bounds.add(position);
     return mesh;
