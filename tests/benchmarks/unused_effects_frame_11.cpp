@@ -23,10 +23,12 @@
 
 namespace {
 
-constexpr bool has(Without effect) { return effect != Without::WITHOUT; }
+constexpr Without way = Without::WITHOUT;
+
+constexpr bool has(Without effect) { return effect != way; }
 
 /// What is left of a kernel; none where nobody calls it.
-constexpr std::optional<KernelEffects> left_of(KernelEffects effects) {
+[[maybe_unused]] constexpr std::optional<KernelEffects> left_of(KernelEffects effects) {
     if (effects.look == Look::phong && !has(Without::light)) return {};
     if (effects.look == Look::toon && !has(Without::toon)) return {};
     effects.normal_map = effects.normal_map && has(Without::normal_map);
@@ -335,7 +337,7 @@ Image<vec3> copy_of_render(const Options& options, const FinishedScene& scene, T
 /// Both, as in the lesson's program.
 Image<vec3> draw(const Options& options, const FinishedScene& scene, ThreadPool& pool,
                  auto& counters) {
-    if constexpr (Without::WITHOUT == Without::own) {
+    if constexpr (way == Without::own) {
         NoClock no_clock;
         return render(options, scene, pool, counters, no_clock);
     } else {
