@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <syncstream>
 #include <utility>
 #include <vector>
 

@@ -67,7 +67,7 @@ struct TriangleSurface {
     const Material& material;
     Effects effects;
     const Texture *texture, *specular_texture;  ///< Null where the material names none.
-    std::array<vec2, 3> uvs, specular_uvs;
+    std::array<vec2, 3> uvs, specular_uvs;      ///< Only of what is read.
     SurfaceColor own_color;
 
     TriangleSurface(const LitScene& scene, const Mesh& mesh, const Triangle& triangle)
@@ -75,8 +75,10 @@ struct TriangleSurface {
           effects(scene.effects[triangle.material]),
           texture(scene.diffuse_textures[triangle.material].get()),
           specular_texture(scene.specular_textures[triangle.material].get()),
-          uvs(uvs_of(mesh, triangle, material.diffuse_map)),
-          specular_uvs(uvs_of(mesh, triangle, material.specular_map)),
+          uvs(effects.diffuse_map ? uvs_of(mesh, triangle, material.diffuse_map)
+                                  : std::array<vec2, 3>{}),
+          specular_uvs(effects.specular_map ? uvs_of(mesh, triangle, material.specular_map)
+                                            : std::array<vec2, 3>{}),
           own_color(surface_color(material)) {}
 
     /// The colours of fragments, of which textures are read as the effects say.

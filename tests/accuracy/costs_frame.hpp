@@ -10,6 +10,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <syncstream>
 #include <tuple>
 #include <utility>
 #include <vector>

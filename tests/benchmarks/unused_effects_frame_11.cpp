@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <syncstream>
 #include <type_traits>
 #include <utility>
 #include <vector>
