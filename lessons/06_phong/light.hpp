@@ -56,8 +56,8 @@ inline float spot_share(float cosine, float cos_full, float cos_none) {
     return t * t * (3 - 2 * t);
 }
 
-/// What arrives of a light at a point: all of a sun's, a share of a lamp's (Eq. 6.6) and of a spot's
-/// (Eq. 6.6 times Eq. 6.7).
+/// What arrives of a light at a point: all of a sun's, a share of a lamp's (Eq. 6.6) and of a
+/// spot's (Eq. 6.6 times Eq. 6.7).
 ///
 /// @param light           Finite numbers.
 /// @param position_world  Not NaN. Where a lamp or spot stands at this very point, or infinitely
