@@ -115,6 +115,11 @@ Tally make_picture(const LessonProgram& program, const FrameOptions& frame,
     return tally;
 }
 
+/// The file of one of the pictures.
+std::filesystem::path file_of(const LessonOptions& options, int frame) {
+    return options.frames.of_turn > 1 ? name_of_frame(options.out, frame) : options.out;
+}
+
 /// All pictures, several at once. Each depends on its number alone, not on what was drawn before.
 Tally make_film(const LessonProgram& program) {
     const LessonOptions& options = program.options;
@@ -128,7 +133,7 @@ Tally make_film(const LessonProgram& program) {
     const auto make_frame = [&](int frame) {
         const Tally done =
             make_picture(program, {first_yaw_degrees + degrees_at(frame, frames), threads},
-                         frames.of_turn > 1 ? name_of_frame(options.out, frame) : options.out);
+                         file_of(options, frame));
         const std::lock_guard lock(mutex);
         tally.add(done);
         if (shows_progress)
@@ -161,12 +166,11 @@ void make_pictures(const LessonProgram& program) {
                      "no area\n";
     if (options.stats)
         print_stats(program, size, tally, load_ms, elapsed_ms(start));
-    else if (const std::string first = name_of_frame(options.out, options.frames.first).string();
+    else if (const std::string first = file_of(options, options.frames.first).string();
              tally.pictures > 1)
         std::cout << "wrote " << tally.pictures << " pictures, " << first << " and so on\n";
     else
-        std::cout << "wrote " << (options.frames.of_turn > 1 ? first : options.out.string())
-                  << '\n';
+        std::cout << "wrote " << first << '\n';
 }
 
 }  // namespace

@@ -141,15 +141,11 @@ class Shadows {
                 draw(map, of_light_[l].is_drawn);
             }
         }
+        has_maps_ = maps > 0;
     }
-
-    /// How many maps a light has.
-    std::size_t maps_of(std::size_t light) const { return of_light_[light].maps.size(); }
 
     /// Whether any point can have to ask.
-    bool has_maps() const {
-        return std::ranges::any_of(of_light_, [](const auto& of) { return !of.maps.empty(); });
-    }
+    bool has_maps() const { return has_maps_; }
 
   private:
     friend class TriangleShadows;
@@ -187,6 +183,7 @@ class Shadows {
 
     int radius_;
     Bias bias_;
+    bool has_maps_ = false;
     std::vector<LightDepths> of_light_;
 };
 

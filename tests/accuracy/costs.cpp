@@ -155,11 +155,10 @@ void measure(const std::vector<Shot*>& frames, const Reference& reference) {
     std::cerr << '\n';
 }
 
-/// What a share of the numbers does not exceed: 0.5 is the median.
-double quantile(std::vector<double> numbers, double share) {
-    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(numbers.size() - 1));
-    std::nth_element(numbers.begin(), numbers.begin() + at, numbers.end());
-    return numbers[static_cast<std::size_t>(at)];
+double median(std::vector<double> numbers) {
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>((numbers.size() - 1) / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
 }
 
 /// By how much a frame takes longer than another one in the same round.
@@ -202,19 +201,16 @@ Choices choices_of(const Quality& quality, Choices choices) {
 /// As members of a JSON object.
 void print_shot(const Shot& shot) {
     std::printf(
-        "\"ms\": %.4f, \"low\": %.4f, \"high\": %.4f, \"still\": %.8f, \"moving\": %.8f, "
-        "\"both\": %.8f, \"at edges\": %.4f",
-        quantile(shot.ms, 0.5), quantile(shot.ms, 0.25), quantile(shot.ms, 0.75), shot.errors.still,
-        shot.errors.moving, shot.errors.both(), shot.errors.at_edges);
+        "\"ms\": %.4f, \"still\": %.8f, \"moving\": %.8f, \"both\": %.8f, \"at edges\": %.4f",
+        median(shot.ms), shot.errors.still, shot.errors.moving, shot.errors.both(),
+        shot.errors.at_edges);
 }
 
 void print_step(const char* from, const Shot& before, const Shot& after) {
     const std::vector<double> more = ms_more(after, before);
-    std::printf(
-        "\"%s\": {\"ms\": %.4f, \"low\": %.4f, \"high\": %.4f, \"still\": %.8f, "
-        "\"moving\": %.8f}",
-        from, quantile(more, 0.5), quantile(more, 0.25), quantile(more, 0.75),
-        before.errors.still - after.errors.still, before.errors.moving - after.errors.moving);
+    std::printf("\"%s\": {\"ms\": %.4f, \"still\": %.8f, \"moving\": %.8f}", from, median(more),
+                before.errors.still - after.errors.still,
+                before.errors.moving - after.errors.moving);
 }
 
 void print_choices(const Choices& choices) {

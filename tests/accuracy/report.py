@@ -128,6 +128,37 @@ def place_labels(points, line):
     return places
 
 
+def axes(x, y, y_ticks, unit, error, file):
+    """The first lines of a gnuplot script: the picture, and time and error on logarithmic axes."""
+    return [
+        f"set terminal svg size {WIDTH},{HEIGHT} dynamic font 'sans-serif,14'",
+        f"set output '{file}'",
+        f"set lmargin at screen {LEFT / WIDTH}", f"set rmargin at screen {1 - RIGHT / WIDTH}",
+        f"set tmargin at screen {1 - TOP / HEIGHT}", f"set bmargin at screen {BOTTOM / HEIGHT}",
+        "set logscale xy", "unset key", "set tics scale 0", "set border 3 linecolor rgb '#94a3b8'",
+        f"set xrange [{x.low}:{x.high}]", f"set yrange [{y.low}:{y.high}]",
+        "set grid linetype 1 linewidth 0.5 linecolor rgb '#5594a3b8'",
+        "set xtics nomirror (" + ", ".join(f'"{t:,g}" {t}' for t in time_ticks(x.low, x.high)) + ")",
+        "set ytics nomirror (" + ", ".join(y_ticks) + ")",
+        f"set xlabel '{unit}'",
+        f"set label '{error}' at screen 0.025, screen {(1 - TOP / HEIGHT + BOTTOM / HEIGHT) / 2} rotate center",
+    ]
+
+
+def label(name, place, font="sans-serif,14"):
+    px, py, alignment = place
+    return f"set label \"{name}\" at screen {px / WIDTH}, screen {1 - py / HEIGHT} {alignment} font '{font}'"
+
+
+def draw(script, file):
+    """Runs a script that writes an SVG file, and gives this its style."""
+    subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True)
+    svg = file.read_text()
+    head_end = svg.index(">", svg.index("<svg")) + 1
+    svg = svg[:head_end] + STYLE + svg[head_end:]
+    file.write_text("\n".join(line.rstrip() for line in svg.splitlines()) + "\n")
+
+
 def plot(variants, unit, error, file):
     """Error over time as SVG; an error of zero lies on the lowest line, which is marked 0."""
     times = [v["time"] for v in variants]
@@ -151,22 +182,8 @@ def plot(variants, unit, error, file):
     front = sorted((v for v in variants if v["front"]), key=lambda v: v["time"])
     places = place_labels([(v["name"], *v["px"]) for v in variants], [v["px"] for v in front])
 
-    script = [
-        f"set terminal svg size {WIDTH},{HEIGHT} dynamic font 'sans-serif,14'",
-        f"set output '{file}'",
-        f"set lmargin at screen {LEFT / WIDTH}", f"set rmargin at screen {1 - RIGHT / WIDTH}",
-        f"set tmargin at screen {1 - TOP / HEIGHT}", f"set bmargin at screen {BOTTOM / HEIGHT}",
-        "set logscale xy", "unset key", "set tics scale 0", "set border 3 linecolor rgb '#94a3b8'",
-        f"set xrange [{x.low}:{x.high}]", f"set yrange [{y.low}:{y.high}]",
-        "set grid linetype 1 linewidth 0.5 linecolor rgb '#5594a3b8'",
-        "set xtics nomirror (" + ", ".join(f'"{t:,g}" {t}' for t in time_ticks(x.low, x.high)) + ")",
-        "set ytics nomirror (" + ", ".join(y_ticks) + ")",
-        f"set xlabel '{unit}'",
-        f"set label '{error}' at screen 0.025, screen {(1 - TOP / HEIGHT + BOTTOM / HEIGHT) / 2} rotate center",
-    ]
-    for v, (px, py, alignment) in zip(variants, places):
-        script.append(f"set label \"{v['name']}\" at screen {px / WIDTH}, screen {1 - py / HEIGHT} {alignment}"
-                      " font 'sans-serif,14'")
+    script = axes(x, y, y_ticks, unit, error, file)
+    script += [label(v["name"], place) for v, place in zip(variants, places)]
     data = lambda vs: "\n".join(f"{v['time']} {v['shown']}" for v in vs) + "\ne"
     others = [v for v in variants if not v["front"]]
     script.append(
@@ -174,12 +191,7 @@ def plot(variants, unit, error, file):
         "'-' with points pointtype 7 pointsize 0.9 linecolor rgb '#0d9488'"
         + (", '-' with points pointtype 6 pointsize 0.9 linewidth 2 linecolor rgb '#7c8ca3'" if others else ""))
     script += [data(front), data(front)] + ([data(others)] if others else [])
-    subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True)
-
-    svg = file.read_text()
-    head_end = svg.index(">", svg.index("<svg")) + 1
-    svg = svg[:head_end] + STYLE + svg[head_end:]
-    file.write_text("\n".join(line.rstrip() for line in svg.splitlines()) + "\n")
+    draw(script, file)
 
 
 def machine(measured):

@@ -10,11 +10,10 @@ import json
 import math
 import pathlib
 import re
-import subprocess
 import sys
 
-from report import BOTTOM, HEIGHT, LEFT, RIGHT, STYLE, TIME_TOLERANCE, TOP, WIDTH, Axis, machine, number, place_labels
-from report import time_ticks
+from report import BOTTOM, HEIGHT, LEFT, RIGHT, TIME_TOLERANCE, TOP, WIDTH, Axis, axes, draw, label, machine, number
+from report import place_labels
 
 DIALS = ("samples a pixel", "textures", "depth maps", "texels a look-up")
 
@@ -109,26 +108,13 @@ def plot(frames, front, file):
     presets = [f for f in frames if "preset" in f]
     dots = [("", *at[id(f)]) for f in frames]  # no label lies on one
     places = place_labels([(f["preset"], *at[id(f)]) for f in presets] + dots, [at[id(f)] for f in front])
-    labels = [(f["preset"], place, "sans-serif:Bold,14") for f, place in zip(presets, places)]
+    y_ticks = [f'"{t:g}" {t:g}' for t in ticks]
+    script = axes(x, y, y_ticks, "ms a frame", "error", file)
+    script += [label(f["preset"], place, "sans-serif:Bold,14") for f, place in zip(presets, places)]
     for samples in ("1", "4", "16"):  # above all of them
         xs, ys = zip(*(at[id(f)] for f in frames if f["samples a pixel"] == samples))
         name = f"{samples} sample{'' if samples == '1' else 's'} a pixel"
-        labels.append((name, ((min(xs) + max(xs)) / 2, min(ys) - 16, "center"), "sans-serif,14"))
-    script = [
-        f"set terminal svg size {WIDTH},{HEIGHT} dynamic font 'sans-serif,14'",
-        f"set output '{file}'",
-        f"set lmargin at screen {LEFT / WIDTH}", f"set rmargin at screen {1 - RIGHT / WIDTH}",
-        f"set tmargin at screen {1 - TOP / HEIGHT}", f"set bmargin at screen {BOTTOM / HEIGHT}",
-        "set logscale xy", "unset key", "set tics scale 0", "set border 3 linecolor rgb '#94a3b8'",
-        f"set xrange [{x.low}:{x.high}]", f"set yrange [{y.low}:{y.high}]",
-        "set grid linetype 1 linewidth 0.5 linecolor rgb '#5594a3b8'",
-        "set xtics nomirror (" + ", ".join(f'"{t:,g}" {t}' for t in time_ticks(x.low, x.high)) + ")",
-        "set ytics nomirror (" + ", ".join(f'"{t:g}" {t:g}' for t in ticks) + ")",
-        "set xlabel 'ms a frame'",
-        f"set label 'error' at screen 0.025, screen {(1 - TOP / HEIGHT + BOTTOM / HEIGHT) / 2} rotate center",
-    ]
-    for name, (px, py, alignment), font in labels:
-        script.append(f"set label \"{name}\" at screen {px / WIDTH}, screen {1 - py / HEIGHT} {alignment} font '{font}'")
+        script.append(label(name, ((min(xs) + max(xs)) / 2, min(ys) - 16, "center")))
     data = lambda fs: "\n".join(f"{f['ms']} {f['both']}" for f in fs) + "\ne"
     script.append(
         "plot '-' with points pointtype 7 pointsize 0.4 linecolor rgb '#7c8ca3', "
@@ -136,10 +122,7 @@ def plot(frames, front, file):
         "'-' with points pointtype 7 pointsize 0.7 linecolor rgb '#0d9488', "
         "'-' with points pointtype 6 pointsize 1.4 linewidth 2 linecolor rgb '#0d9488'")
     script += [data(frames), data(front), data(front), data(presets)]
-    subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True)
-    svg = file.read_text()
-    head_end = svg.index(">", svg.index("<svg")) + 1
-    file.write_text("\n".join(line.rstrip() for line in (svg[:head_end] + STYLE + svg[head_end:]).splitlines()) + "\n")
+    draw(script, file)
 
 
 def main():
