@@ -148,9 +148,11 @@ void check_json(ByteView text, const fs::path& file) {
     check_image_views(document, file);
 }
 
-/// What tinygltf is given in place of its own way to files.
-tinygltf::FsCallbacks file_callbacks(std::string& error) {
-    tinygltf::FsCallbacks callbacks{};
+/// Our own file access, which tinygltf is given in place of its own. From 2.9 on it takes all of the
+/// functions or none; before 2.8.17 it has no member for the last of them.
+template <typename Callbacks = tinygltf::FsCallbacks>
+Callbacks file_callbacks(std::string& error) {
+    Callbacks callbacks{};
     // The first place that is looked in, beside the scene's file, is the only one.
     callbacks.FileExists = [](const std::string&, void*) { return true; };
     callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
@@ -164,6 +166,14 @@ tinygltf::FsCallbacks file_callbacks(std::string& error) {
             return false;
         }
     };
+    callbacks.WriteWholeFile = [](std::string*, const std::string&,
+                                  const std::vector<unsigned char>&, void*) { return false; };
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })  // read_whole_file() limits the size
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&,
+                                          void*) {
+            *size = 0;
+            return true;
+        };
     callbacks.user_data = &error;
     return callbacks;
 }
