@@ -21,7 +21,7 @@ std::string read_text(const std::filesystem::path& file) {
 ProcessResult run_program(const std::string& name, const std::vector<std::string>& arguments) {
     const std::filesystem::path folder = fresh_folder("process"), out = folder / "out",
                                 err = folder / "err";
-    std::vector<std::string> words{std::string(RASTERBOOK_LESSONS) + "/" + name};
+    std::vector<std::string> words{std::filesystem::path(RASTERBOOK_LESSONS) / name};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());

@@ -14,7 +14,7 @@ struct ProcessResult {
     std::string out, err;
 };
 
-/// Runs a program of the build, such as "03_z_buffer", and waits for it.
+/// Runs a program of the build, such as "03_z_buffer", or any by its whole path, and waits for it.
 ProcessResult run_program(const std::string& name, const std::vector<std::string>& arguments);
 
 /// All of a file's bytes; empty when there is no such file.
