@@ -129,7 +129,6 @@ Bytes encode_tga(const Image<u8vec3>& pixels, const std::filesystem::path& file)
                          "the picture is too large for TGA: 65535 pixels a side is the limit");
 
     Bytes bytes;
-    bytes.reserve(header_bytes + 3 * pixels.pixels().size());
     bytes.push_back(0);           // length of a free text
     bytes.push_back(0);           // no palette
     bytes.push_back(true_color);  // not in runs
@@ -142,6 +141,7 @@ Bytes encode_tga(const Image<u8vec3>& pixels, const std::filesystem::path& file)
     append_u16(bytes, static_cast<std::uint16_t>(size.y));
     bytes.push_back(24);  // bits a pixel
     bytes.push_back(top_row_first);
+    bytes.reserve(header_bytes + 3 * pixels.pixels().size());
     for (const u8vec3 color : pixels.pixels()) append_bgr(bytes, color);
     return bytes;
 }
