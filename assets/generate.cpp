@@ -23,9 +23,9 @@
 #include "assets/generate/texture.hpp"
 #include "assets/generate/tiles.hpp"
 #include "assets/generate/wood.hpp"
-#include "common/file.hpp"
-#include "common/image_io.hpp"
-#include "common/input_error.hpp"
+#include "common/image/file.hpp"
+#include "common/image/image_io.hpp"
+#include "common/image/input_error.hpp"
 
 namespace rasterbook::assets {
 namespace {

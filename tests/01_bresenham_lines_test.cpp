@@ -7,8 +7,8 @@
 #include <sstream>
 #include <vector>
 
-#include "common/bmp.hpp"
-#include "common/image.hpp"
+#include "common/image/bmp.hpp"
+#include "common/image/image.hpp"
 #include "support/ascii_picture.hpp"
 #include "support/golden.hpp"
 #include "support/look_up.hpp"
@@ -280,13 +280,13 @@ TEST(Lines, HardCase_ExcludedEndOutsideThePictureTakesNoPixelAway) {
 TEST(Lines, HardCase_PolylineDrawnAdditivelyCountsEachJointOnce) {
     look_up("Chains of lines");
     // A closed zigzag without crossings: every pixel of it is counted exactly once.
-    const std::vector<ivec2> corners = {{2, 2},   {20, 5},  {38, 2}, {35, 20},
-                                        {38, 38}, {20, 35}, {2, 38}, {5, 20}};
+    const std::vector<ivec2> vertices = {{2, 2},   {20, 5},  {38, 2}, {35, 20},
+                                         {38, 38}, {20, 35}, {2, 38}, {5, 20}};
     Image<int> hits({41, 41});
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        draw_line(corners[i], corners[(i + 1) % corners.size()], hits.size(), LineEnd::excluded,
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        draw_line(vertices[i], vertices[(i + 1) % vertices.size()], hits.size(), LineEnd::excluded,
                   [&](ivec2 p) { ++hits[p]; });
-    for (const ivec2 corner : corners) EXPECT_EQ(hits[corner], 1);
+    for (const ivec2 vertex : vertices) EXPECT_EQ(hits[vertex], 1);
     for (const int count : hits.pixels()) EXPECT_LE(count, 1);
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 #include "common/math/numerics.hpp"
 #include "support/ascii_picture.hpp"
 #include "support/exact.hpp"
@@ -44,8 +44,8 @@ int exact_side(ivec2 a, ivec2 b, ivec2 p) {
 }
 
 /// The oracle: a centre on a side counts as where it gets when nudged right, or else nudged down.
-bool exactly_covered(std::array<ivec2, 3> corners, ivec2 pixel) {
-    auto [a, b, c] = corners;
+bool exactly_covered(std::array<ivec2, 3> vertices, ivec2 pixel) {
+    auto [a, b, c] = vertices;
     if (exact_side(a, b, c) == 0) return false;
     if (exact_side(a, b, c) < 0) std::swap(b, c);
     const ivec2 center = exact_center(pixel);
@@ -57,11 +57,11 @@ bool exactly_covered(std::array<ivec2, 3> corners, ivec2 pixel) {
     return inside(a, b) && inside(b, c) && inside(c, a);
 }
 
-Pixels exactly_covered_pixels(std::array<ivec2, 3> corners, ivec2 size) {
+Pixels exactly_covered_pixels(std::array<ivec2, 3> vertices, ivec2 size) {
     Pixels pixels;
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
-            if (exactly_covered(corners, {x, y})) pixels.insert({x, y});
+            if (exactly_covered(vertices, {x, y})) pixels.insert({x, y});
     return pixels;
 }
 
@@ -122,11 +122,11 @@ TEST(TriangleFill, Eq2_10_FanHasThePolygonsArea) {
     EXPECT_EQ(by_fan, by_sides);
 }
 
-TEST(TriangleFill, Eq2_8_CornersSnapToTheNearest256thOfAPixel) {
+TEST(TriangleFill, Eq2_8_VerticesSnapToTheNearest256thOfAPixel) {
     const ScreenTriangle t = snap_triangle({1.0f, 2.001f}, {-3.003f, 0.5f}, {1000.1f, 7.0f});
-    EXPECT_EQ(t.corners, (std::array<ivec2, 3>{{{256, 512}, {-769, 128}, {256026, 1792}}}));
+    EXPECT_EQ(t.vertices, (std::array<ivec2, 3>{{{256, 512}, {-769, 128}, {256026, 1792}}}));
     constexpr float half = 0.5f / 256;
-    EXPECT_EQ(snap_triangle({half, 3 * half}, {-half, 5 * half}, {-3 * half, 1}).corners,
+    EXPECT_EQ(snap_triangle({half, 3 * half}, {-half, 5 * half}, {-3 * half, 1}).vertices,
               (std::array<ivec2, 3>{{{0, 2}, {0, 2}, {-2, 256}}}))
         << "a half goes to the even neighbour";
 }
@@ -200,13 +200,14 @@ TEST(TriangleFill, Eq2_7_LeastValueOfEachKindOfSide) {
     EXPECT_EQ(least({256, 1280}, {1280, 1280}), 1) << "level, towards the right: at the bottom";
 }
 
-TEST(TriangleFill, Eq2_4_WeightsOfTheWorkedExample) {
-    Image<vec3> weights({8, 8});
-    fill_triangle(snap_triangle(a, b, c), weights.size(), [&](ivec2 p, vec3 w) { weights[p] = w; });
-    EXPECT_EQ(weights[ivec2(2, 2)], vec3(0.25f, 0.375f, 0.375f));
+TEST(TriangleFill, Eq2_4_BarycentricsOfTheWorkedExample) {
+    Image<vec3> barycentrics({8, 8});
+    fill_triangle(snap_triangle(a, b, c), barycentrics.size(),
+                  [&](ivec2 p, vec3 w) { barycentrics[p] = w; });
+    EXPECT_EQ(barycentrics[ivec2(2, 2)], vec3(0.25f, 0.375f, 0.375f));
 }
 
-TEST(TriangleFill, Eq2_4_WeightsAreWithinTwoUlpOfTheExactOnes) {
+TEST(TriangleFill, Eq2_4_BarycentricsAreWithinTwoUlpOfTheExactOnes) {
     constexpr long double two_ulp =
         2.0L * FLT_EPSILON;  // three roundings of half an ulp each, one of 1/area
     std::mt19937 random(2);
@@ -220,7 +221,7 @@ TEST(TriangleFill, Eq2_4_WeightsAreWithinTwoUlpOfTheExactOnes) {
                     r = exactly_snapped(third);
         const auto area = static_cast<long double>(exact_twice_area(p, q, r));
         fill_triangle(
-            snap_triangle(first, second, third), {64, 48}, [&](ivec2 pixel, vec3 weights) {
+            snap_triangle(first, second, third), {64, 48}, [&](ivec2 pixel, vec3 barycentrics) {
                 ++visited;
                 const ivec2 at = exact_center(pixel);
                 const auto share = [&](ivec2 from, ivec2 to) {
@@ -230,15 +231,15 @@ TEST(TriangleFill, Eq2_4_WeightsAreWithinTwoUlpOfTheExactOnes) {
                 for (int k = 0; k < 3; ++k)
                     if (exact[k] < 0 && first_wrong.empty())
                         first_wrong = "a pixel is visited that is not covered";
-                    else if (!(weights[k] >= 0 &&
-                               std::abs(weights[k] - exact[k]) <= two_ulp * exact[k]) &&
+                    else if (!(barycentrics[k] >= 0 &&
+                               std::abs(barycentrics[k] - exact[k]) <= two_ulp * exact[k]) &&
                              first_wrong.empty()) {
                         std::ostringstream text;
-                        text << "corners (" << first.x << ", " << first.y << "), (" << second.x
+                        text << "vertices (" << first.x << ", " << first.y << "), (" << second.x
                              << ", " << second.y << "), (" << third.x << ", " << third.y
                              << "), pixel (" << pixel.x << ", " << pixel.y
-                             << "): the weight of corner " << "abc"[k] << " is " << weights[k]
-                             << ", exactly " << exact[k];
+                             << "): the coordinate of vertex " << "abc"[k] << " is "
+                             << barycentrics[k] << ", exactly " << exact[k];
                         first_wrong = text.str();
                     }
             });
@@ -247,13 +248,13 @@ TEST(TriangleFill, Eq2_4_WeightsAreWithinTwoUlpOfTheExactOnes) {
     EXPECT_GT(visited, 100'000);
 }
 
-TEST(TriangleFill, Eq2_4_WeightsDoNotDependOnThePicturesSize) {
+TEST(TriangleFill, Eq2_4_BarycentricsDoNotDependOnThePicturesSize) {
     const ScreenTriangle t = snap_triangle({-700.3f, -20.7f}, {50.1f, 911.9f}, {803.7f, -77.2f});
-    Image<vec3> weights({64, 48});
-    fill_triangle(t, {64, 48}, [&](ivec2 p, vec3 w) { weights[p] = w; });
+    Image<vec3> barycentrics({64, 48});
+    fill_triangle(t, {64, 48}, [&](ivec2 p, vec3 w) { barycentrics[p] = w; });
     int visited = 0;
     fill_triangle(t, {31, 17}, [&](ivec2 p, vec3 w) {
-        EXPECT_EQ(w, weights[p]);
+        EXPECT_EQ(w, barycentrics[p]);
         ++visited;
     });
     EXPECT_EQ(visited, 31 * 17);
@@ -264,13 +265,13 @@ TEST(TriangleFill, Eq2_4_PartsOfAPictureTogetherShowAllOfIt) {
     const ScreenTriangle t = snap_triangle({-9.3f, 3.1f}, {30.1f, 51.9f}, {60.7f, -7.2f});
     const vec3 unseen(-1);
     Image<vec3> whole(size, unseen), parts(size, unseen);
-    fill_triangle(t, size, [&](ivec2 p, vec3 weights) { whole[p] = weights; });
+    fill_triangle(t, size, [&](ivec2 p, vec3 barycentrics) { whole[p] = barycentrics; });
     for (const ivec2 first : {ivec2(0, 0), ivec2(40, 0), ivec2(0, 7), ivec2(40, 7)}) {
         const ivec2 last(first.x == 0 ? 39 : 63, first.y == 0 ? 6 : 47);
-        fill_triangle(t, first, last, [&](ivec2 p, vec3 weights) {
+        fill_triangle(t, first, last, [&](ivec2 p, vec3 barycentrics) {
             EXPECT_EQ(glm::clamp(p, first, last), p);
             EXPECT_EQ(parts[p], unseen) << "visited twice";
-            parts[p] = weights;
+            parts[p] = barycentrics;
         });
     }
     EXPECT_EQ(parts, whole);
@@ -304,18 +305,19 @@ TEST(TriangleFill, ExhaustiveAllTrianglesOfAQuarterPixelLatticeAreExact) {
     for (int i = 0; i < points; ++i)
         for (int j = 0; j < points; ++j)
             for (int k = 0; k < points; ++k, ++triangles) {
-                const std::array corners = {exactly_snapped(point(i)), exactly_snapped(point(j)),
-                                            exactly_snapped(point(k))};
+                const std::array vertices = {exactly_snapped(point(i)), exactly_snapped(point(j)),
+                                             exactly_snapped(point(k))};
                 unsigned actual = 0, expected = 0;
                 fill_triangle(snap_triangle(point(i), point(j), point(k)), {3, 3},
                               [&](ivec2 p, vec3) { actual |= 1u << (3 * p.y + p.x); });
                 for (int bit = 0; bit < 9; ++bit)
-                    expected |= static_cast<unsigned>(exactly_covered(corners, {bit % 3, bit / 3}))
+                    expected |= static_cast<unsigned>(exactly_covered(vertices, {bit % 3, bit / 3}))
                                 << bit;
                 if (actual != expected)
-                    FAIL() << "corners in 1/256 pixel: " << testing::PrintToString(corners) << "; "
+                    FAIL() << "vertices in 1/256 pixel: " << testing::PrintToString(vertices)
+                           << "; "
                            << test::ascii_difference(covered(point(i), point(j), point(k), {3, 3}),
-                                                     exactly_covered_pixels(corners, {3, 3}));
+                                                     exactly_covered_pixels(vertices, {3, 3}));
             }
     EXPECT_EQ(triangles, 531'441);
 }
@@ -331,9 +333,9 @@ TEST(TriangleFill, RandomTrianglesOfAllSizesAreExact) {
                                      0.9f;
         };
         const vec2 p = point(), q = point(), r = point();
-        const std::array corners = {exactly_snapped(p), exactly_snapped(q), exactly_snapped(r)};
+        const std::array vertices = {exactly_snapped(p), exactly_snapped(q), exactly_snapped(r)};
         ASSERT_TRUE(
-            same_pixels(covered(p, q, r, {20, 16}), exactly_covered_pixels(corners, {20, 16})))
+            same_pixels(covered(p, q, r, {20, 16}), exactly_covered_pixels(vertices, {20, 16})))
             << "seed 4, case " << i;
     }
 }
@@ -353,7 +355,7 @@ TEST(TriangleFill, HardCase_FansAroundPixelCentresCoverEachPixelOnce) {
     std::mt19937 random(5);
     std::uniform_int_distribution<int> x(0, size.x - 1), y(0, size.y - 1), spread(-600, 600);
     for (int i = 0; i < 100; ++i) {
-        // Rim corners on pixel centres too: through many centres in between run sides.
+        // Rim vertices on pixel centres too: through many centres in between run sides.
         std::vector<vec2> rim;
         for (const vec2 step : {vec2(0, 1), vec2(1, 0), vec2(0, -1), vec2(-1, 0)})
             for (int k = -600; k < 600; k += 75)
@@ -367,13 +369,13 @@ TEST(TriangleFill, HardCase_FansAroundPixelCentresCoverEachPixelOnce) {
 /// The same hits with edge functions in float and the top-left rule, to see that a case is hard.
 Image<int> hits_in_float(const std::vector<std::array<vec2, 3>>& triangles, ivec2 size) {
     Image<int> hits(size);
-    for (const auto& corners : triangles)
+    for (const auto& vertices : triangles)
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 const vec2 at = vec2(x, y) + 0.5f;
                 bool inside = true;
                 for (std::size_t i = 0; i < 3; ++i) {
-                    const vec2 from = corners[i], e = corners[(i + 1) % 3] - from;
+                    const vec2 from = vertices[i], e = vertices[(i + 1) % 3] - from;
                     const float value = e.y * (at.x - from.x) - e.x * (at.y - from.y);
                     inside &= value > 0 || (value == 0 && (e.y > 0 || (e.y == 0 && e.x < 0)));
                 }
@@ -382,16 +384,16 @@ Image<int> hits_in_float(const std::vector<std::array<vec2, 3>>& triangles, ivec
     return hits;
 }
 
-std::vector<vec2> round_rim(float radius, int corners) {
+std::vector<vec2> round_rim(float radius, int vertices) {
     std::vector<vec2> rim;
-    for (int k = 0; k < corners; ++k) {
-        const double angle = -2 * std::numbers::pi * (k + 0.3) / corners;
+    for (int k = 0; k < vertices; ++k) {
+        const double angle = -2 * std::numbers::pi * (k + 0.3) / vertices;
         rim.push_back(radius * vec2(std::cos(angle), std::sin(angle)));
     }
     return rim;
 }
 
-TEST(TriangleFill, HardCase_FansWithFarCornersCoverEachPixelOnce) {
+TEST(TriangleFill, HardCase_FansWithFarVerticesCoverEachPixelOnce) {
     look_up("Eq. 2.8 and 2.9: whole numbers do not round");
     constexpr ivec2 size(1280, 960);
     for (const float radius : {4e3f, 4e4f, 4e5f, 4e6f}) {
@@ -400,7 +402,7 @@ TEST(TriangleFill, HardCase_FansWithFarCornersCoverEachPixelOnce) {
     }
 }
 
-TEST(TriangleFill, FansWithFarCornersAreHardForFloat) {
+TEST(TriangleFill, FansWithFarVerticesAreHardForFloat) {
     look_up("Eq. 2.8");
     constexpr ivec2 size(1280, 960);
     for (const float radius : {4e3f, 4e6f}) {
@@ -465,40 +467,40 @@ TEST(TriangleFill, HardCase_SliversThinnerThanASubpixelAreExact) {
     EXPECT_GT(covering, 100) << "too few of them cover anything: the test would see nothing";
 }
 
-TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameWeights) {
-    look_up("Front and back, and Eq. 2.4 for the weights");
+TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameBarycentrics) {
+    look_up("Front and back, and Eq. 2.4 for the barycentrics");
     const std::array<vec2, 3> p = {{{3.3f, 1.7f}, {1.2f, 13.9f}, {14.6f, 9.1f}}};
     const Pixels expected = covered(p[0], p[1], p[2], {16, 16});
     EXPECT_GT(expected.size(), 40u);
-    Image<vec3> weights({16, 16});
+    Image<vec3> barycentrics({16, 16});
     fill_triangle(snap_triangle(p[0], p[1], p[2]), {16, 16},
-                  [&](ivec2 pixel, vec3 w) { weights[pixel] = w; });
+                  [&](ivec2 pixel, vec3 w) { barycentrics[pixel] = w; });
     for (const auto& order : std::vector<std::array<std::size_t, 3>>{
              {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}) {
         const vec2 first = p[order[0]], second = p[order[1]], third = p[order[2]];
         EXPECT_TRUE(same_pixels(covered(first, second, third, {16, 16}), expected));
-        Image<vec3> weights_now({16, 16}), expected_now({16, 16});
+        Image<vec3> barycentrics_now({16, 16}), expected_now({16, 16});
         fill_triangle(snap_triangle(first, second, third), {16, 16}, [&](ivec2 pixel, vec3 w) {
-            weights_now[pixel] = w;
+            barycentrics_now[pixel] = w;
             for (int n = 0; n < 3; ++n)
                 expected_now[pixel][n] =
-                    weights[pixel][static_cast<int>(order[static_cast<std::size_t>(n)])];
+                    barycentrics[pixel][static_cast<int>(order[static_cast<std::size_t>(n)])];
         });
-        EXPECT_TRUE(weights_now == expected_now)
-            << "corners in the order " << testing::PrintToString(order);
+        EXPECT_TRUE(barycentrics_now == expected_now)
+            << "vertices in the order " << testing::PrintToString(order);
     }
 }
 
-TEST(TriangleFill, HardCase_NotANumberInfiniteAndHugeCornersCoverNothing) {
+TEST(TriangleFill, HardCase_NotANumberInfiniteAndHugeVerticesCoverNothing) {
     look_up("Eq. 2.9: what is refused");
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(),
                     infinity = std::numeric_limits<float>::infinity();
     for (const float bad :
          {nan, infinity, -infinity, FLT_MAX / 16, -FLT_MAX / 16, FLT_MAX, 4194304.0f, -4194304.0f})
         for (const int axis : {0, 1})
-            for (int corner = 0; corner < 3; ++corner) {
+            for (int vertex = 0; vertex < 3; ++vertex) {
                 std::array<vec2, 3> p = {{{1, 1}, {1, 7}, {7, 1}}};
-                p[static_cast<std::size_t>(corner)][axis] = bad;
+                p[static_cast<std::size_t>(vertex)][axis] = bad;
                 const ScreenTriangle t = snap_triangle(p[0], p[1], p[2]);
                 EXPECT_EQ(t.twice_area, 0) << bad;
                 EXPECT_FALSE(is_front_facing(t));
@@ -531,7 +533,7 @@ TEST(TriangleFill, PictureOfTheLesson) {
     EXPECT_TRUE(test::equals_golden("02_triangle_fill", "02_triangle_fill"));
 }
 
-TEST(TriangleFill, PictureOfTheWeights) {
-    EXPECT_TRUE(test::equals_golden("02_triangle_fill", "02_triangle_fill_weights",
-                                    {"--model", "triangle.obj", "--paint", "weights"}));
+TEST(TriangleFill, PictureOfTheBarycentrics) {
+    EXPECT_TRUE(test::equals_golden("02_triangle_fill", "02_triangle_fill_barycentric",
+                                    {"--model", "triangle.obj", "--paint", "barycentric"}));
 }

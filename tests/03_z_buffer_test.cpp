@@ -27,7 +27,7 @@ namespace {
 constexpr float uncovered = -1.0f;  ///< Where a triangle has no depth.
 
 struct Patch {
-    std::array<vec3, 3> corners;  ///< x, y in pixels, depth
+    std::array<vec3, 3> vertices;  ///< x, y in pixels, depth
     int id;
 };
 
@@ -37,10 +37,10 @@ Image<int> visible(const std::vector<Patch>& patches, ivec2 size) {
     Image<int> ids(size, -1);
     DepthBuffer depth(size);
     for (const Patch& patch : patches) {
-        const auto& [a, b, c] = patch.corners;
+        const auto& [a, b, c] = patch.vertices;
         const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-        fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 pixel, vec3 weights) {
-            if (depth.test_and_write(pixel, triangle_depth.at(weights))) ids[pixel] = patch.id;
+        fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 pixel, vec3 barycentrics) {
+            if (depth.test_and_write(pixel, triangle_depth.at(barycentrics))) ids[pixel] = patch.id;
         });
     }
     return ids;
@@ -49,13 +49,14 @@ Image<int> visible(const std::vector<Patch>& patches, ivec2 size) {
 Image<float> depths_of(const std::array<vec3, 3>& p, ivec2 offset, ivec2 size) {
     Image<float> depths(size, uncovered);
     const TriangleDepth triangle_depth(vec3(p[0].z, p[1].z, p[2].z));
-    fill_triangle(snap_triangle(p[0], p[1], p[2]), offset + size, [&](ivec2 pixel, vec3 weights) {
-        depths[pixel - offset] = triangle_depth.at(weights);
-    });
+    fill_triangle(snap_triangle(p[0], p[1], p[2]), offset + size,
+                  [&](ivec2 pixel, vec3 barycentrics) {
+                      depths[pixel - offset] = triangle_depth.at(barycentrics);
+                  });
     return depths;
 }
 
-/// The plane through the snapped corners at a pixel's centre, in long double.
+/// The plane through the snapped vertices at a pixel's centre, in long double.
 long double exact_depth(const std::array<vec3, 3>& p, ivec2 pixel) {
     const ivec2 a = exactly_snapped(p[0]), b = exactly_snapped(p[1]), c = exactly_snapped(p[2]);
     const auto area = [](ivec2 from, ivec2 to, ivec2 at) {
@@ -80,8 +81,8 @@ std::vector<Patch> random_patches(unsigned seed, int count, ivec2 size) {
         y(-20, static_cast<float>(size.y) + 20), z(0, 1);
     std::vector<Patch> patches;
     for (int i = 0; i < count; ++i) {
-        const auto corner = [&] { return vec3(x(random), y(random), z(random)); };
-        patches.push_back({{corner(), corner(), corner()}, i});
+        const auto vertex = [&] { return vec3(x(random), y(random), z(random)); };
+        patches.push_back({{vertex(), vertex(), vertex()}, i});
     }
     return patches;
 }
@@ -109,7 +110,7 @@ TEST(ZBuffer, Eq3_2_DepthOfTheWorkedExample) {
     EXPECT_EQ(depths[ivec2(2, 2)], 0.53125f);
 }
 
-TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestCornerIsTheSameDepth) {
+TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestVertexIsTheSameDepth) {
     EXPECT_EQ(TriangleDepth(vec3(0.25f, 0.5f, 0.75f)).at(vec3(0.25f, 0.375f, 0.375f)), 0.53125f);
     EXPECT_EQ(TriangleDepth(vec3(0.75f, 0.25f, 0.5f)).at(vec3(0.375f, 0.25f, 0.375f)), 0.53125f);
 }
@@ -212,7 +213,7 @@ TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
     }
 }
 
-TEST(ZBuffer, HardCase_RotatedCornersGiveTheSameBits) {
+TEST(ZBuffer, HardCase_RotatedVerticesGiveTheSameBits) {
     look_up("Eq. 3.3, and mind the bracket");
     std::set<float> different;
     for (const auto& [p, id] : random_patches(6, 3'000, {40, 30})) {
@@ -232,8 +233,8 @@ TEST(ZBuffer, HardCase_RotatedCornersGiveTheSameBits) {
 long double error_of_plane_from_origin(const std::array<vec3, 3>& p, const Image<float>& depths,
                                        ivec2 offset) {
     const ScreenTriangle t = snap_triangle(p[0], p[1], p[2]);
-    const dvec2 a = dvec2(t.corners[0]) / 256.0, b = dvec2(t.corners[1]) / 256.0,
-                c = dvec2(t.corners[2]) / 256.0;
+    const dvec2 a = dvec2(t.vertices[0]) / 256.0, b = dvec2(t.vertices[1]) / 256.0,
+                c = dvec2(t.vertices[2]) / 256.0;
     const dvec3 u(b - a, double{p[1].z} - p[0].z), v(c - a, double{p[2].z} - p[0].z),
         normal = glm::cross(u, v);
     const auto slope_x = static_cast<float>(-normal.x / normal.z),

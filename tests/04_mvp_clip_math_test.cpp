@@ -18,7 +18,7 @@ using namespace rasterbook::test;
 
 namespace {
 
-using Corners = std::array<vec4, 3>;
+using Vertices = std::array<vec4, 3>;
 
 constexpr float decades = 8;
 constexpr int cases = 100'000;
@@ -32,67 +32,71 @@ Sum distance_inside(int plane, lvec4 point) {
     return sum;
 }
 
-/// The weighted sum of a coordinate of the corners.
-Sum weighted(const Corners& corners, lvec3 weights, int axis) {
+/// The weighted sum of a coordinate of the vertices.
+Sum weighted(const Vertices& vertices, lvec3 barycentrics, int axis) {
     Sum sum;
-    for (int i = 0; i < 3; ++i) sum.add(weights[i] * corners[static_cast<std::size_t>(i)][axis]);
+    for (int i = 0; i < 3; ++i)
+        sum.add(barycentrics[i] * vertices[static_cast<std::size_t>(i)][axis]);
     return sum;
 }
 
-/// How far inside of a plane the point of a triangle with these weights is.
-Sum distance_inside(int plane, const Corners& corners, lvec3 weights) {
+/// How far inside of a plane the point of a triangle with these barycentrics is.
+Sum distance_inside(int plane, const Vertices& vertices, lvec3 barycentrics) {
     Sum sum;
     for (int i = 0; i < 3; ++i) {
-        const Sum corner = distance_inside(plane, lvec4(corners[static_cast<std::size_t>(i)]));
-        sum.value += weights[i] * corner.value, sum.of_sizes += weights[i] * corner.of_sizes;
+        const Sum vertex = distance_inside(plane, lvec4(vertices[static_cast<std::size_t>(i)]));
+        sum.value += barycentrics[i] * vertex.value,
+            sum.of_sizes += barycentrics[i] * vertex.of_sizes;
     }
     return sum;
 }
 
 /// A crossing of a crossing and so on, up to six. Each rounds its shares by 1 eps, which are the
-/// same for positions and for weights, and products and sums by half an eps.
+/// same for positions and for barycentrics, and products and sums by half an eps.
 constexpr real crossings = 6, of_shares = crossings * eps, of_sums = crossings * eps;
 
 /// What a product below the range of float loses, times the greatest number.
 constexpr real below_range = 0x1p-149L * 1e8L * 16;
 
 /// How far a plane's cut may lie from where it should. The distances from which a crossing's
-/// shares come round by half an eps of each, the shares by an eps; then position and weights by
-/// an eps each, now and in the crossings that come after.
+/// shares come round by half an eps of each, the shares by an eps; then position and barycentrics
+/// by an eps each, now and in the crossings that come after.
 constexpr real of_cut = 1.5L * eps + 2 * of_sums;
 
-/// For EXPECT_TRUE: the corners lie where their weights say, and inside.
-testing::AssertionResult is_part_of(const ClippedTriangle& part, const Corners& corners) {
-    for (const ClippedCorner& corner : part) {
+/// For EXPECT_TRUE: the vertices lie where their barycentrics say, and inside.
+testing::AssertionResult is_part_of(const ClippedTriangle& part, const Vertices& vertices) {
+    for (const ClippedVertex& vertex : part) {
         real sum = 0;
         for (int i = 0; i < 3; ++i) {
-            if (!(corner.weights[i] >= 0))
-                return testing::AssertionFailure() << "a weight of " << corner.weights[i];
-            sum += corner.weights[i];
+            if (!(vertex.barycentrics[i] >= 0))
+                return testing::AssertionFailure()
+                       << "a barycentric coordinate of " << vertex.barycentrics[i];
+            sum += vertex.barycentrics[i];
         }
         if (const auto is_one = is_near(1, sum, of_shares + of_sums); !is_one) return is_one;
         for (int axis = 0; axis < 4; ++axis) {
             // Coming back into the frustum moves it by what the cut was off.
-            const Sum exact = weighted(corners, lvec3(corner.weights), axis);
-            const Sum w = weighted(corners, lvec3(corner.weights), 3);
-            const auto is_there = is_near(corner.position_clip[axis], exact.value,
-                                          2 * of_sums * exact.of_sizes +
-                                              of_cut * (exact.of_sizes + w.of_sizes) + below_range);
-            if (!is_there) return is_there;
+            const Sum exact = weighted(vertices, lvec3(vertex.barycentrics), axis);
+            const Sum w = weighted(vertices, lvec3(vertex.barycentrics), 3);
+            const auto passes_alpha_test =
+                is_near(vertex.position_clip[axis], exact.value,
+                        2 * of_sums * exact.of_sizes + of_cut * (exact.of_sizes + w.of_sizes) +
+                            below_range);
+            if (!passes_alpha_test) return passes_alpha_test;
         }
         for (int plane = 0; plane < frustum_planes; ++plane)
-            if (distance_inside(plane, lvec4(corner.position_clip)).value < 0)
+            if (distance_inside(plane, lvec4(vertex.position_clip)).value < 0)
                 return testing::AssertionFailure() << "outside of plane " << plane;
     }
     return testing::AssertionSuccess();
 }
 
-/// Whether the point of a triangle with these weights lies in the frustum; nothing where that is
-/// within rounding.
-std::optional<bool> is_inside(const Corners& corners, lvec3 weights) {
+/// Whether the point of a triangle with these barycentrics lies in the frustum; nothing where that
+/// is within rounding.
+std::optional<bool> is_inside(const Vertices& vertices, lvec3 barycentrics) {
     bool is_deep = true;
     for (int plane = 0; plane < frustum_planes; ++plane) {
-        const Sum distance = distance_inside(plane, corners, weights);
+        const Sum distance = distance_inside(plane, vertices, barycentrics);
         const real tolerance = of_cut * distance.of_sizes + below_range;
         if (distance.value < -tolerance) return false;
         is_deep &= distance.value > tolerance;
@@ -101,13 +105,13 @@ std::optional<bool> is_inside(const Corners& corners, lvec3 weights) {
 }
 
 /// In how many of the parts the point is, less those that are turned over; nothing on a border.
-std::optional<int> times_covered(const ClippedTriangles& parts, lvec3 weights) {
+std::optional<int> times_covered(const ClippedTriangles& parts, lvec3 barycentrics) {
     int times = 0;
     for (const ClippedTriangle& part : parts) {
-        const lvec3 a(part[0].weights), b(part[1].weights), c(part[2].weights);
-        const real sides[] = {glm::dot(weights, glm::cross(b, c)),
-                              glm::dot(weights, glm::cross(c, a)),
-                              glm::dot(weights, glm::cross(a, b))};
+        const lvec3 a(part[0].barycentrics), b(part[1].barycentrics), c(part[2].barycentrics);
+        const real sides[] = {glm::dot(barycentrics, glm::cross(b, c)),
+                              glm::dot(barycentrics, glm::cross(c, a)),
+                              glm::dot(barycentrics, glm::cross(a, b))};
         int positive = 0, negative = 0;
         for (const real side : sides) positive += side > 0, negative += side < 0;
         if (positive + negative < 3 && (positive == 0 || negative == 0)) return std::nullopt;
@@ -118,13 +122,13 @@ std::optional<int> times_covered(const ClippedTriangles& parts, lvec3 weights) {
 
 }  // namespace
 
-TEST(Mvp, Eq4_10_InsideByOfAllSizes) {
+TEST(Mvp, Eq4_10_PlaneDistancesOfAllSizes) {
     AnySize any(1, decades);
     for (int i = 0; i < cases; ++i) {
         const vec4 point = any.homogeneous();
         for (int plane = 0; plane < frustum_planes; ++plane) {
             const Sum exact = distance_inside(plane, lvec4(point));
-            ASSERT_TRUE(is_near(inside_by(plane, point), exact.value,
+            ASSERT_TRUE(is_near(plane_distance(plane, point), exact.value,
                                 eps / 2 * std::abs(exact.value)))  // one sum
                 << "seed 1, case " << i << ", plane " << plane;
         }
@@ -134,16 +138,16 @@ TEST(Mvp, Eq4_10_InsideByOfAllSizes) {
 TEST(Mvp, Eq4_12_CrossingsOfAllSizes) {
     AnySize any(2, decades);
     for (int i = 0; i < cases; ++i) {
-        const ClippedCorner a = {any.homogeneous(), any.vector()},
+        const ClippedVertex a = {any.homogeneous(), any.vector()},
                             b = {any.homogeneous(), any.vector()};
         const float a_by = i % 16 ? any.positive() : 0, b_by = -any.positive();
         const bool is_a_first = i % 2;
-        const ClippedCorner there =
+        const ClippedVertex there =
             is_a_first ? crossing(a, a_by, b, b_by) : crossing(b, b_by, a, a_by);
         const real whole = real{a_by} - b_by;
         for (int k = 0; k < 7; ++k) {
-            const auto number = [k](const ClippedCorner& corner) {
-                return k < 4 ? corner.position_clip[k] : corner.weights[k - 4];
+            const auto number = [k](const ClippedVertex& vertex) {
+                return k < 4 ? vertex.position_clip[k] : vertex.barycentrics[k - 4];
             };
             Sum exact;
             exact.add(-b_by / whole * number(a)), exact.add(a_by / whole * number(b));
@@ -159,19 +163,19 @@ TEST(Mvp, Eq4_13_WhatIsLeftOfTrianglesOfAllSizes) {
     for (const unsigned seed : {3u, 4u}) {
         AnySize any(seed, seed == 3 ? decades : 1), any_share(seed, 4);
         for (int i = 0; i < cases; ++i) {
-            Corners corners;
-            for (vec4& corner : corners) {
-                corner = any.homogeneous();
-                if (i % 2) corner.w = std::abs(corner.w);
+            Vertices vertices;
+            for (vec4& vertex : vertices) {
+                vertex = any.homogeneous();
+                if (i % 2) vertex.w = std::abs(vertex.w);
             }
-            const ClippedTriangles parts = clip_triangle(corners);
+            const ClippedTriangles parts = clip_triangle(vertices);
             for (const ClippedTriangle& part : parts)
-                ASSERT_TRUE(is_part_of(part, corners)) << "seed " << seed << ", case " << i;
+                ASSERT_TRUE(is_part_of(part, vertices)) << "seed " << seed << ", case " << i;
             cut += parts.end() - parts.begin() > 1;
             for (int k = 0; k < 8; ++k) {
-                const lvec3 weights = glm::abs(lvec3(any_share.vector()));
-                const auto expected = is_inside(corners, weights);
-                const auto times = times_covered(parts, weights);
+                const lvec3 barycentrics = glm::abs(lvec3(any_share.vector()));
+                const auto expected = is_inside(vertices, barycentrics);
+                const auto times = times_covered(parts, barycentrics);
                 if (!expected || !times) continue;
                 ASSERT_EQ(*times, *expected ? 1 : 0)
                     << "seed " << seed << ", case " << i << ", point " << k;
@@ -202,18 +206,18 @@ TEST(Mvp, Eq4_14_BoxesOfAllSizes) {
             for (const float x : {box.min.x, box.max.x})
                 for (const float y : {box.min.y, box.max.y})
                     for (const float z : {box.min.z, box.max.z}) {
-                        lvec4 corner(0), sizes(0);
+                        lvec4 vertex(0), sizes(0);
                         for (int row = 0; row < 4; ++row) {
                             Sum sum;
                             sum.add(real{x} * clip_from_world[0][row]);
                             sum.add(real{y} * clip_from_world[1][row]);
                             sum.add(real{z} * clip_from_world[2][row]);
                             sum.add(clip_from_world[3][row]);
-                            corner[row] = sum.value, sizes[row] = sum.of_sizes;
+                            vertex[row] = sum.value, sizes[row] = sum.of_sizes;
                         }
-                        // A product and four sums, of which inside_by has one.
+                        // A product and four sums, of which plane_distance has one.
                         const real tolerance = 5 * eps / 2 * (sizes.w + sizes[plane / 2]);
-                        const real distance = distance_inside(plane, corner).value;
+                        const real distance = distance_inside(plane, vertex).value;
                         is_beyond &= distance < -tolerance;
                         reaches_in |= distance > tolerance;
                     }

@@ -15,75 +15,78 @@
 
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/camera.hpp"
+#include "04_mvp/projection.hpp"
 #include "04_mvp/transform.hpp"
+#include "common/app/counters.hpp"
 #include "support/ascii_picture.hpp"
 #include "support/golden.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
+#include "support/projected.hpp"
 
 using namespace rasterbook;
-using rasterbook::test::look_up, rasterbook::test::Pixels, rasterbook::test::same_pixels;
+using rasterbook::test::look_up, rasterbook::test::Pixels, rasterbook::test::projected,
+    rasterbook::test::same_pixels;
 
 namespace {
 
-using Corners = std::array<vec4, 3>;
+using Vertices = std::array<vec4, 3>;
 using lvec3 = glm::vec<3, long double>;
 using Bits = std::array<std::uint32_t, 4>;
 
 Bits bits_of(vec4 v) { return std::bit_cast<Bits>(std::array{v.x, v.y, v.z, v.w}); }
 
-std::vector<ClippedTriangle> clipped(const Corners& corners) {
-    const ClippedTriangles triangles = clip_triangle(corners);
+std::vector<ClippedTriangle> clipped(const Vertices& vertices) {
+    const ClippedTriangles triangles = clip_triangle(vertices);
     return {triangles.begin(), triangles.end()};
 }
 
-float greatest_size(const Corners& corners) {
+float greatest_size(const Vertices& vertices) {
     float greatest = 0;
-    for (const vec4 corner : corners)
-        for (int i = 0; i < 4; ++i) greatest = std::max(greatest, std::abs(corner[i]));
+    for (const vec4 vertex : vertices)
+        for (int i = 0; i < 4; ++i) greatest = std::max(greatest, std::abs(vertex[i]));
     return greatest;
 }
 
-/// For EXPECT_TRUE: what is left lies in the frustum, and the weights say where it comes from.
+/// For EXPECT_TRUE: what is left lies in the frustum, and the barycentrics say where it comes from.
 ///
 /// One crossing rounds four times: at the difference of the distances, the quotient, the product
-/// and the sum, half an eps each. A corner goes through at most six crossings.
-testing::AssertionResult is_part_of(const ClippedTriangle& part, const Corners& corners) {
+/// and the sum, half an eps each. A vertex goes through at most six crossings.
+testing::AssertionResult is_part_of(const ClippedTriangle& part, const Vertices& vertices) {
     const float tolerance = 6 * 4 * FLT_EPSILON / 2;
-    const float greatest = greatest_size(corners);
-    for (const ClippedCorner& corner : part) {
-        const vec3 weights = corner.weights;
+    const float greatest = greatest_size(vertices);
+    for (const ClippedVertex& vertex : part) {
+        const vec3 barycentrics = vertex.barycentrics;
         for (int i = 0; i < 3; ++i)
-            if (!(weights[i] >= -tolerance && weights[i] <= 1 + tolerance))
-                return testing::AssertionFailure() << "weights " << testing::PrintToString(weights);
-        if (!(std::abs(weights.x + weights.y + weights.z - 1) <= tolerance))
+            if (!(barycentrics[i] >= -tolerance && barycentrics[i] <= 1 + tolerance))
+                return testing::AssertionFailure()
+                       << "barycentrics " << testing::PrintToString(barycentrics);
+        if (!(std::abs(barycentrics.x + barycentrics.y + barycentrics.z - 1) <= tolerance))
             return testing::AssertionFailure()
-                   << "the sum of the weights " << testing::PrintToString(weights);
-        const dvec4 sum = dvec4(corners[0]) * double{weights.x} +
-                          dvec4(corners[1]) * double{weights.y} +
-                          dvec4(corners[2]) * double{weights.z};
+                   << "the sum of the barycentrics " << testing::PrintToString(barycentrics);
+        const dvec4 sum = dvec4(vertices[0]) * double{barycentrics.x} +
+                          dvec4(vertices[1]) * double{barycentrics.y} +
+                          dvec4(vertices[2]) * double{barycentrics.z};
         for (int i = 0; i < 4; ++i)
-            if (!(std::abs(sum[i] - corner.position_clip[i]) <= tolerance * greatest))
+            if (!(std::abs(sum[i] - vertex.position_clip[i]) <= tolerance * greatest))
                 return testing::AssertionFailure()
                        << "the weighted sum " << testing::PrintToString(sum) << " is not "
-                       << testing::PrintToString(corner.position_clip);
+                       << testing::PrintToString(vertex.position_clip);
         for (int plane = 0; plane < frustum_planes; ++plane)
-            if (!(inside_by(plane, corner.position_clip) >= -tolerance * greatest))
-                return testing::AssertionFailure() << testing::PrintToString(corner.position_clip)
+            if (!(plane_distance(plane, vertex.position_clip) >= -tolerance * greatest))
+                return testing::AssertionFailure() << testing::PrintToString(vertex.position_clip)
                                                    << " is outside of plane " << plane;
     }
     return testing::AssertionSuccess();
 }
 
 ScreenTriangle on_screen(const ClippedTriangle& part, ivec2 size) {
-    return snap_triangle(screen_from_clip(part[0].position_clip, size),
-                         screen_from_clip(part[1].position_clip, size),
-                         screen_from_clip(part[2].position_clip, size));
+    return projected(part, size).on_screen;
 }
 
-Pixels covered(const Corners& corners, ivec2 size) {
+Pixels covered(const Vertices& vertices, ivec2 size) {
     Pixels pixels;
-    for (const ClippedTriangle& part : clip_triangle(corners))
+    for (const ClippedTriangle& part : clip_triangle(vertices))
         fill_triangle(on_screen(part, size), size,
                       [&](ivec2 pixel, vec3) { pixels.insert({pixel.x, pixel.y}); });
     return pixels;
@@ -92,10 +95,10 @@ Pixels covered(const Corners& corners, ivec2 size) {
 /// The oracle: whether the ray through a point of the screen hits the triangle between the planes.
 ///
 /// The ray's points with w > 0 are multiples of (x, y, w = 1) in normalised device coordinates:
-/// which sum of the corners is that?
-bool is_hit(const Corners& corners, lvec3 ray) {
+/// which sum of the vertices is that?
+bool is_hit(const Vertices& vertices, lvec3 ray) {
     const auto column = [&](std::size_t i) {
-        return lvec3(corners[i].x, corners[i].y, corners[i].w);
+        return lvec3(vertices[i].x, vertices[i].y, vertices[i].w);
     };
     const lvec3 a = column(0), b = column(1), c = column(2);
     const long double whole = glm::dot(a, glm::cross(b, c));
@@ -104,53 +107,53 @@ bool is_hit(const Corners& corners, lvec3 ray) {
                                glm::dot(ray, glm::cross(a, b))) /
                          whole;
     const long double z =
-        shares.x * corners[0].z + shares.y * corners[1].z + shares.z * corners[2].z;
+        shares.x * vertices[0].z + shares.y * vertices[1].z + shares.z * vertices[2].z;
     return shares.x >= 0 && shares.y >= 0 && shares.z >= 0 && z >= -1 && z <= 1;
 }
 
-bool is_hit(const Corners& corners, dvec2 point, ivec2 size) {
-    return is_hit(corners, {static_cast<long double>(point.x) * 2 / size.x - 1,
-                            1 - static_cast<long double>(point.y) * 2 / size.y, 1});
+bool is_hit(const Vertices& vertices, dvec2 point, ivec2 size) {
+    return is_hit(vertices, {static_cast<long double>(point.x) * 2 / size.x - 1,
+                             1 - static_cast<long double>(point.y) * 2 / size.y, 1});
 }
 
 /// Whether an edge is within 1/256 pixel of the centre, which is how far snapping may move it.
-bool is_close_to_edge(const Corners& corners, dvec2 center, ivec2 size) {
+bool is_close_to_edge(const Vertices& vertices, dvec2 center, ivec2 size) {
     constexpr int directions = 16;
     for (int i = 0; i < directions; ++i) {
         const double angle = 2 * std::numbers::pi * i / directions;
         const dvec2 beside = center + dvec2(std::cos(angle), std::sin(angle)) / 256.0;
-        if (is_hit(corners, beside, size) != is_hit(corners, center, size)) return true;
+        if (is_hit(vertices, beside, size) != is_hit(vertices, center, size)) return true;
     }
     return false;
 }
 
 /// For EXPECT_TRUE: each pixel is as the oracle has it, unless an edge is close to its centre.
-testing::AssertionResult covers_what_rays_hit(const Corners& corners, ivec2 size, int& covering) {
-    const Pixels actual = covered(corners, size);
+testing::AssertionResult covers_what_rays_hit(const Vertices& vertices, ivec2 size, int& covering) {
+    const Pixels actual = covered(vertices, size);
     Pixels expected;
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             const dvec2 center(x + 0.5, y + 0.5);
             const bool is = actual.contains({x, y});
-            bool should = is_hit(corners, center, size);
-            if (is != should && is_close_to_edge(corners, center, size)) should = is;
+            bool should = is_hit(vertices, center, size);
+            if (is != should && is_close_to_edge(vertices, center, size)) should = is;
             if (should) expected.insert({x, y});
         }
     covering += !expected.empty();
     return same_pixels(actual, expected);
 }
 
-constexpr Corners all_inside = {{{-0.5f, -0.25f, 0, 1}, {0.5f, -1, 1, 1.5f}, {0, 2, -3, 3}}};
+constexpr Vertices all_inside = {{{-0.5f, -0.25f, 0, 1}, {0.5f, -1, 1, 1.5f}, {0, 2, -3, 3}}};
 
 }  // namespace
 
-TEST(Mvp, Eq4_10_InsideByOfEachPlane) {
+TEST(Mvp, Eq4_10_DistanceToEachPlane) {
     const vec4 point(1, 2, 4, 8);
     const float expected[] = {9, 7, 10, 6, 12, 4};  // left, right, bottom, top, near, far
     for (int plane = 0; plane < frustum_planes; ++plane)
-        EXPECT_EQ(inside_by(plane, point), expected[plane]) << "plane " << plane;
-    EXPECT_EQ(inside_by(1, {0, 0, 0, 1}), 1);
-    EXPECT_EQ(inside_by(1, {3, 0, 0, 1}), -2);
+        EXPECT_EQ(plane_distance(plane, point), expected[plane]) << "plane " << plane;
+    EXPECT_EQ(plane_distance(1, {0, 0, 0, 1}), 1);
+    EXPECT_EQ(plane_distance(1, {3, 0, 0, 1}), -2);
 }
 
 TEST(Mvp, Eq4_10_PlanesBoundTheCube) {
@@ -159,17 +162,19 @@ TEST(Mvp, Eq4_10_PlanesBoundTheCube) {
         const float sign = plane % 2 == 0 ? -1.0f : 1.0f;
         point[plane / 2] = sign * 2;
         for (int other = 0; other < frustum_planes; ++other)
-            EXPECT_EQ(inside_by(other, point), other == plane ? 0 : other == (plane ^ 1) ? 4 : 2);
+            EXPECT_EQ(plane_distance(other, point), other == plane         ? 0
+                                                    : other == (plane ^ 1) ? 4
+                                                                           : 2);
     }
 }
 
 TEST(Mvp, Eq4_11_CrossingOfTheWorkedExample) {
-    const ClippedCorner from = {{0, 0, 0, 1}, {1, 0, 0}}, to = {{3, 0, 0, 1}, {0, 1, 0}};
-    const ClippedCorner there = crossing(from, 1, to, -2);
+    const ClippedVertex from = {{0, 0, 0, 1}, {1, 0, 0}}, to = {{3, 0, 0, 1}, {0, 1, 0}};
+    const ClippedVertex there = crossing(from, 1, to, -2);
     EXPECT_EQ(there.position_clip, vec4(1, 0, 0, 1));
-    EXPECT_NEAR(there.weights.x, 2.0f / 3, FLT_EPSILON);
-    EXPECT_NEAR(there.weights.y, 1.0f / 3, FLT_EPSILON);
-    EXPECT_EQ(there.weights.z, 0);
+    EXPECT_NEAR(there.barycentrics.x, 2.0f / 3, FLT_EPSILON);
+    EXPECT_NEAR(there.barycentrics.y, 1.0f / 3, FLT_EPSILON);
+    EXPECT_EQ(there.barycentrics.z, 0);
 }
 
 TEST(Mvp, Eq4_12_BothWaysCrossInTheSamePoint) {
@@ -180,19 +185,19 @@ TEST(Mvp, Eq4_12_BothWaysCrossInTheSamePoint) {
         const auto vector = [&] {
             return vec4(any(random), any(random), any(random), any(random));
         };
-        const ClippedCorner from = {vector(), vec3(vector())}, to = {vector(), vec3(vector())};
+        const ClippedVertex from = {vector(), vec3(vector())}, to = {vector(), vec3(vector())};
         const int plane = i % frustum_planes;
-        const float from_by = inside_by(plane, from.position_clip),
-                    to_by = inside_by(plane, to.position_clip);
+        const float from_by = plane_distance(plane, from.position_clip),
+                    to_by = plane_distance(plane, to.position_clip);
         if ((from_by >= 0) == (to_by >= 0)) continue;
         ++crossings;
-        const ClippedCorner there = crossing(from, from_by, to, to_by),
+        const ClippedVertex there = crossing(from, from_by, to, to_by),
                             back = crossing(to, to_by, from, from_by);
         ASSERT_EQ(bits_of(there.position_clip), bits_of(back.position_clip))
             << "seed 1, case " << i;
-        ASSERT_EQ(there.weights, back.weights) << "seed 1, case " << i;
+        ASSERT_EQ(there.barycentrics, back.barycentrics) << "seed 1, case " << i;
         // Half an eps for each of four roundings, of the greatest number there is, 3 or 6.
-        ASSERT_NEAR(inside_by(plane, there.position_clip), 0, 12 * FLT_EPSILON)
+        ASSERT_NEAR(plane_distance(plane, there.position_clip), 0, 12 * FLT_EPSILON)
             << "seed 1, case " << i;
     }
     EXPECT_GT(crossings, 80'000);
@@ -200,12 +205,12 @@ TEST(Mvp, Eq4_12_BothWaysCrossInTheSamePoint) {
 
 TEST(Mvp, Eq4_13_WhatIsLeftOfTheWorkedExample) {
     // A right angle at the middle; its sides end twice as far away as the picture.
-    const Corners corners = {{{0, 0, 0, 1}, {2, 0, 0, 1}, {0, 2, 0, 1}}};
+    const Vertices vertices = {{{0, 0, 0, 1}, {2, 0, 0, 1}, {0, 2, 0, 1}}};
     std::set<std::pair<float, float>> left;
-    for (const ClippedTriangle& part : clipped(corners)) {
-        EXPECT_TRUE(is_part_of(part, corners));
-        for (const ClippedCorner& corner : part)
-            left.insert({corner.position_clip.x, corner.position_clip.y});
+    for (const ClippedTriangle& part : clipped(vertices)) {
+        EXPECT_TRUE(is_part_of(part, vertices));
+        for (const ClippedVertex& vertex : part)
+            left.insert({vertex.position_clip.x, vertex.position_clip.y});
     }
     EXPECT_EQ(left, (std::set<std::pair<float, float>>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
 }
@@ -215,54 +220,54 @@ TEST(Mvp, Eq4_13_WhatIsAllInsideStaysBitForBit) {
     ASSERT_EQ(parts.size(), 1u);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(bits_of(parts[0][i].position_clip), bits_of(all_inside[i]));
-        EXPECT_EQ(parts[0][i].weights, vec3(i == 0, i == 1, i == 2));
+        EXPECT_EQ(parts[0][i].barycentrics, vec3(i == 0, i == 1, i == 2));
     }
 }
 
 TEST(Mvp, Eq4_13_NothingIsLeftOutsideOfOnePlane) {
     EXPECT_FALSE(clipped(all_inside).empty());
     for (int plane = 0; plane < frustum_planes; ++plane) {
-        Corners corners = all_inside;
-        for (vec4& corner : corners)
-            corner[plane / 2] = (plane % 2 == 0 ? -1.001f : 1.001f) * corner.w;
-        EXPECT_TRUE(clipped(corners).empty()) << "plane " << plane;
+        Vertices vertices = all_inside;
+        for (vec4& vertex : vertices)
+            vertex[plane / 2] = (plane % 2 == 0 ? -1.001f : 1.001f) * vertex.w;
+        EXPECT_TRUE(clipped(vertices).empty()) << "plane " << plane;
     }
 }
 
-TEST(Mvp, WeightsOfWhatIsLeftSayWhereItComesFrom) {
-    look_up("Eq. 4.12 for positions and weights alike");
+TEST(Mvp, BarycentricsOfWhatIsLeftSayWhereItComesFrom) {
+    look_up("Eq. 4.12 for positions and barycentrics alike");
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(-3, 3);
     int cut = 0;
     for (int i = 0; i < 100'000; ++i) {
-        const auto corner = [&] {
+        const auto vertex = [&] {
             return vec4(any(random), any(random), any(random), any(random) + 1);
         };
-        const Corners corners = {corner(), corner(), corner()};
-        const auto parts = clipped(corners);
+        const Vertices vertices = {vertex(), vertex(), vertex()};
+        const auto parts = clipped(vertices);
         for (const ClippedTriangle& part : parts)
-            ASSERT_TRUE(is_part_of(part, corners)) << "seed 2, case " << i;
+            ASSERT_TRUE(is_part_of(part, vertices)) << "seed 2, case " << i;
         cut += parts.size() > 2;
     }
     EXPECT_GT(cut, 10'000);
 }
 
 TEST(Mvp, WhatIsLeftKeepsTheWinding) {
-    look_up("Eq. 4.13: the corners stay in their order");
+    look_up("Eq. 4.13: the vertices stay in their order");
     constexpr ivec2 size(640, 480);
     std::mt19937 random(3);
     std::uniform_real_distribution<float> any(-3, 3);
     int parts = 0;
     for (int i = 0; i < 20'000; ++i) {
-        const auto corner = [&] {
+        const auto vertex = [&] {
             return vec4(any(random), any(random), any(random), any(random) + 2);
         };
-        const Corners corners = {corner(), corner(), corner()};
+        const Vertices vertices = {vertex(), vertex(), vertex()};
         const auto row = [&](std::size_t k) {
-            return dvec3(corners[k].x, corners[k].y, corners[k].w);
+            return dvec3(vertices[k].x, vertices[k].y, vertices[k].w);
         };
         const double turn = glm::dot(row(0), glm::cross(row(1), row(2)));
-        for (const ClippedTriangle& part : clip_triangle(corners)) {
+        for (const ClippedTriangle& part : clip_triangle(vertices)) {
             const std::int64_t twice_area = on_screen(part, size).twice_area;
             constexpr std::int64_t pixel = 65536;  // slivers may be turned by the snapping
             if (std::abs(twice_area) < 4 * pixel) continue;
@@ -279,15 +284,15 @@ TEST(Mvp, HardCase_SharedEdgeIsCutInTheSamePoints) {
     std::uniform_real_distribution<float> any(-3, 3);
     int cut = 0;
     for (int i = 0; i < 100'000; ++i) {
-        const auto corner = [&] {
+        const auto vertex = [&] {
             return vec4(any(random), any(random), any(random), any(random) + 1.5f);
         };
-        const vec4 first = corner(), second = corner(), third = corner(), fourth = corner();
-        const auto on_edge = [&](const Corners& corners) {
+        const vec4 first = vertex(), second = vertex(), third = vertex(), fourth = vertex();
+        const auto on_edge = [&](const Vertices& vertices) {
             std::set<Bits> points;
-            for (const ClippedTriangle& part : clip_triangle(corners))
-                for (const ClippedCorner& p : part)
-                    if (p.weights.z == 0) points.insert(bits_of(p.position_clip));
+            for (const ClippedTriangle& part : clip_triangle(vertices))
+                for (const ClippedVertex& p : part)
+                    if (p.barycentrics.z == 0) points.insert(bits_of(p.position_clip));
             return points;
         };
         const auto points = on_edge({first, second, third});
@@ -308,11 +313,11 @@ TEST(Mvp, HardCase_TrianglesAroundTheCameraCoverWhatItsRaysHit) {
     int covering = 0;
     for (int i = 0; i < 10'000; ++i) {
         const float reach = spread(random);
-        const auto corner = [&] {
+        const auto vertex = [&] {
             return clip_from_view *
                    vec4(reach * any(random), reach * any(random), reach * any(random), 1);
         };
-        ASSERT_TRUE(covers_what_rays_hit({corner(), corner(), corner()}, size, covering))
+        ASSERT_TRUE(covers_what_rays_hit({vertex(), vertex(), vertex()}, size, covering))
             << "seed 5, case " << i;
     }
     EXPECT_GT(covering, 3'000);
@@ -320,34 +325,35 @@ TEST(Mvp, HardCase_TrianglesAroundTheCameraCoverWhatItsRaysHit) {
 
 TEST(Mvp, HardCase_TriangleAcrossAllSixPlanes) {
     look_up("Eq. 4.13: plane by plane");
-    const Corners corners = {{{-10, -9, -8, 1}, {12, -9, 1, 1}, {0, 10, 4, 1}}};
+    const Vertices vertices = {{{-10, -9, -8, 1}, {12, -9, 1, 1}, {0, 10, 4, 1}}};
     for (int plane = 0; plane < frustum_planes; ++plane)
-        EXPECT_LT(std::min({inside_by(plane, corners[0]), inside_by(plane, corners[1]),
-                            inside_by(plane, corners[2])}),
+        EXPECT_LT(std::min({plane_distance(plane, vertices[0]), plane_distance(plane, vertices[1]),
+                            plane_distance(plane, vertices[2])}),
                   0);
     int covering = 0;
-    EXPECT_TRUE(covers_what_rays_hit(corners, {64, 48}, covering));
+    EXPECT_TRUE(covers_what_rays_hit(vertices, {64, 48}, covering));
     EXPECT_EQ(covering, 1);
-    for (const ClippedTriangle& part : clip_triangle(corners))
-        EXPECT_TRUE(is_part_of(part, corners));
+    for (const ClippedTriangle& part : clip_triangle(vertices))
+        EXPECT_TRUE(is_part_of(part, vertices));
 }
 
-TEST(Mvp, HardCase_NearPlaneThroughCorners) {
-    look_up("Eq. 4.13: a corner on the plane is inside");
+TEST(Mvp, HardCase_NearPlaneThroughVertices) {
+    look_up("Eq. 4.13: a vertex on the plane is inside");
     const vec4 on(0.25f, 0, -1, 1), also_on(-0.5f, 0.25f, -1, 1), third_on(0, -0.5f, -1, 1),
         inside(0, 0.5f, 0, 1), beside(0.5f, 0.5f, 0.5f, 1), outside(0, 0, -2, 1),
         far_outside(0.5f, 0, -3, 1);
-    for (const Corners& corners : {Corners{on, inside, beside}, Corners{on, also_on, inside},
-                                   Corners{on, also_on, third_on}}) {
-        const auto parts = clipped(corners);
+    for (const Vertices& vertices : {Vertices{on, inside, beside}, Vertices{on, also_on, inside},
+                                     Vertices{on, also_on, third_on}}) {
+        const auto parts = clipped(vertices);
         ASSERT_EQ(parts.size(), 1u);
         for (std::size_t i = 0; i < 3; ++i)
-            EXPECT_EQ(bits_of(parts[0][i].position_clip), bits_of(corners[i]));
+            EXPECT_EQ(bits_of(parts[0][i].position_clip), bits_of(vertices[i]));
     }
-    for (const Corners& corners : {Corners{on, outside, far_outside}, Corners{on, also_on, outside},
-                                   Corners{far_outside, on, outside}})
-        for (const ClippedTriangle& part : clip_triangle(corners)) {
-            EXPECT_TRUE(is_part_of(part, corners));
+    for (const Vertices& vertices :
+         {Vertices{on, outside, far_outside}, Vertices{on, also_on, outside},
+          Vertices{far_outside, on, outside}})
+        for (const ClippedTriangle& part : clip_triangle(vertices)) {
+            EXPECT_TRUE(is_part_of(part, vertices));
             EXPECT_EQ(on_screen(part, {640, 480}).twice_area, 0) << "a point or a side is left";
         }
     int covering = 0;
@@ -360,8 +366,8 @@ TEST(Mvp, HardCase_CameraInsideATriangle) {
     look_up("Eq. 4.13: w is 0 at the eye, and the near plane lies before it");
     const mat4 clip_from_view = perspective(1.0f, 4.0f / 3, 0.001f, 100.0f);
     const auto floor_at = [&](float y) {
-        return Corners{clip_from_view * vec4(-50, y, 40, 1), clip_from_view * vec4(60, y, 30, 1),
-                       clip_from_view * vec4(0, y, -80, 1)};
+        return Vertices{clip_from_view * vec4(-50, y, 40, 1), clip_from_view * vec4(60, y, 30, 1),
+                        clip_from_view * vec4(0, y, -80, 1)};
     };
     EXPECT_TRUE(covered(floor_at(0), {64, 48}).empty()) << "seen from its edge";
     int covering = 0;
@@ -383,22 +389,22 @@ TEST(Mvp, HardCase_WZeroNegativeAndTiny) {
     }
     EXPECT_TRUE(covered({vec4(0), vec4(0), vec4(0)}, size).empty());
     EXPECT_TRUE(covered({vec4(0), all_inside[1], all_inside[2]}, size).empty())
-        << "a corner at the eye has no place on the screen";
+        << "a vertex at the eye has no place on the screen";
     // A tiny w is ordinary: positions on the screen are quotients.
     constexpr float tiny = 0x1p-135f;
     EXPECT_EQ(covered({{tiny * all_inside[0], tiny * all_inside[1], tiny * all_inside[2]}}, size),
               covered(all_inside, size));
 }
 
-TEST(Mvp, HardCase_TinyAndHugeCornersAreCutAsOthers) {
-    look_up("Eq. 4.12: products of corners may overflow, quotients do not");
+TEST(Mvp, HardCase_TinyAndHugeVerticesAreCutAsOthers) {
+    look_up("Eq. 4.12: products of vertices may overflow, quotients do not");
     constexpr ivec2 size(64, 48);
-    const Corners corners = {{{-1, -2, 0, 1}, {3, 0, 0.5f, 2}, {0, 2, -0.25f, 1.5f}}};
-    const Pixels expected = covered(corners, size);
+    const Vertices vertices = {{{-1, -2, 0, 1}, {3, 0, 0.5f, 2}, {0, 2, -0.25f, 1.5f}}};
+    const Pixels expected = covered(vertices, size);
     EXPECT_GT(expected.size(), 500u);
     for (const float scale : {0x1p-120f, 0x1p-70f, 0x1p70f, 0x1p120f})
         EXPECT_TRUE(same_pixels(
-            covered({{scale * corners[0], scale * corners[1], scale * corners[2]}}, size),
+            covered({{scale * vertices[0], scale * vertices[1], scale * vertices[2]}}, size),
             expected))
             << scale;
 }
@@ -456,6 +462,93 @@ TEST(Mvp, HardCase_BoxAroundTheCameraIsNotCulled) {
     EXPECT_FALSE(is_outside_frustum({{-90, -1, -4}, {90, 1, -3}}, clip_from_view));
     EXPECT_FALSE(is_outside_frustum({{0, 0, -1}, {0, 0, -1}}, clip_from_view)) << "a point";
     EXPECT_TRUE(is_outside_frustum({{-90, -90, 0.1f}, {90, 90, 1}}, clip_from_view)) << "behind";
+}
+
+TEST(Mvp, Eq4_9_ProjectingDividesByWAndSnaps) {
+    const Mesh mesh;
+    const Triangle triangle{};
+    // In NDC (-0.5, 0.5, 0), (-0.5, -0.5, 0.5) and (0.5, 0.5, -1).
+    const ClippedTriangle clipped = {{{{-1, 1, 0, 2}, {1, 0, 0}},
+                                      {{-0.5f, -0.5f, 0.5f, 1}, {0, 1, 0}},
+                                      {{2, 2, -4, 4}, {0, 0, 1}}}};
+    const ProjectedTriangle front = project(mesh, triangle, clipped, {8, 4});
+    EXPECT_EQ(&front.mesh, &mesh);
+    EXPECT_EQ(&front.triangle, &triangle);
+    EXPECT_EQ(front.on_screen.vertices,
+              (std::array{256 * ivec2(2, 1), 256 * ivec2(2, 3), 256 * ivec2(6, 1)}));
+    EXPECT_FALSE(front.is_back_facing);
+    EXPECT_EQ(front.depth.at({1, 0, 0}), 0.5f);
+    EXPECT_EQ(front.depth.at({0, 1, 0}), 0.75f);
+    EXPECT_EQ(front.depth.at({0, 0, 1}), 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(front.clipped[i].position_clip, clipped[i].position_clip);
+        EXPECT_EQ(front.clipped[i].barycentrics, clipped[i].barycentrics);
+    }
+    const ClippedTriangle turned = {{clipped[0], clipped[2], clipped[1]}};
+    EXPECT_TRUE(project(mesh, triangle, turned, {8, 4}).is_back_facing);
+    const ClippedTriangle degenerate = {{clipped[0], clipped[0], clipped[1]}};
+    EXPECT_TRUE(project(mesh, triangle, degenerate, {8, 4}).is_back_facing) << "never drawn";
+}
+
+TEST(Mvp, EachVisibleTriangleIsVisitedInTheScenesOrder) {
+    look_up("Eq. 4.14: what is culled; and each piece of Eq. 4.13 in its order");
+    const mat4 clip_from_world = perspective(1.0f, 1.0f, 1.0f, 10.0f);
+    constexpr ivec2 size(64);
+    const auto mesh = [](float z, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+        Mesh result;
+        result.positions = {{0, 0, z}, {1, 0, z}, {0, 1, z}, {0, 0, 5}};
+        for (const auto& [a, b, c] : triangles) {
+            result.triangles.push_back({{Vertex{a}, Vertex{b}, Vertex{c}}, 0});
+            for (const std::uint32_t i : {a, b, c}) result.bounds.add(result.positions[i]);
+        }
+        return result;
+    };
+    Scene scene;
+    scene.meshes.push_back(mesh(-4, {{0, 1, 2}, {0, 2, 1}}));  // front and back
+    scene.meshes.push_back(mesh(-20, {{0, 1, 2}}));            // beyond the far plane
+    scene.meshes.push_back(mesh(-3, {{1, 2, 3}, {0, 1, 2}}));  // one cut by the near plane
+    scene.meshes[2].tangents.resize(1);
+
+    struct Visited {
+        const Mesh* mesh;
+        const Triangle* triangle;
+        bool is_back_facing;
+        bool operator==(const Visited&) const = default;
+    };
+    const auto visited = [&](Culling culling, Counters& counters) {
+        std::vector<Visited> all;
+        for_each_visible_triangle(
+            scene, clip_from_world, size, culling, counters,
+            [&](const ProjectedTriangle& triangle) {
+                all.push_back({&triangle.mesh, &triangle.triangle, triangle.is_back_facing});
+            });
+        return all;
+    };
+    const auto count = [](const Counters& counters, Counter counter) {
+        return counters.values[static_cast<std::size_t>(counter)];
+    };
+    const Mesh &first = scene.meshes[0], &last = scene.meshes[2];
+    Counters culled, all;
+    const std::vector<Visited> fronts = visited(Culling::back_faces, culled);
+    std::vector<Visited> both = visited(Culling::none, all);
+    const auto parts = std::ranges::count(both, &last.triangles[0], &Visited::triangle);
+    EXPECT_GE(parts, 1) << "what the near plane leaves";
+    std::vector<Visited> expected = {{&first, &first.triangles[0], false},
+                                     {&first, &first.triangles[1], true}};
+    const bool is_back = both.at(2).is_back_facing;
+    for (int i = 0; i < parts; ++i) expected.push_back({&last, &last.triangles[0], is_back});
+    expected.push_back({&last, &last.triangles[1], false});
+    EXPECT_TRUE(both == expected);
+    std::erase_if(both, &Visited::is_back_facing);
+    EXPECT_TRUE(fronts == both);
+    for (const Counters& counters : {culled, all}) {
+        EXPECT_EQ(count(counters, Counter::meshes_in), 3u);
+        EXPECT_EQ(count(counters, Counter::meshes_culled_by_frustum), 1u);
+        EXPECT_EQ(count(counters, Counter::meshes_with_tangents), 1u);
+        EXPECT_EQ(count(counters, Counter::triangles_in), 4u);
+    }
+    EXPECT_EQ(count(all, Counter::triangles_culled_by_facing), 0u);
+    EXPECT_EQ(count(culled, Counter::triangles_culled_by_facing), expected.size() - fronts.size());
 }
 
 TEST(Mvp, PictureOfTheLesson) { EXPECT_TRUE(test::equals_golden("04_mvp", "04_mvp")); }

@@ -22,7 +22,7 @@ using rasterbook::test::look_up;
 
 namespace {
 
-using Corners = std::array<vec4, 3>;
+using Vertices = std::array<vec4, 3>;
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -96,37 +96,38 @@ testing::AssertionResult are_within(const char* what, const Vector& v, float lea
 class Drawing {
   public:
     /// For EXPECT_TRUE: all that came to a pixel was finite and in its range.
-    testing::AssertionResult draw(const Corners& corners) {
+    testing::AssertionResult draw(const Vertices& vertices) {
         testing::AssertionResult result = testing::AssertionSuccess();
         const auto check = [&result](const testing::AssertionResult& next) {
             if (result && !next) result = next;
         };
-        for (const ClippedTriangle& part : clip_triangle(corners)) {
+        for (const ClippedTriangle& part : clip_triangle(vertices)) {
             ++parts;
             std::array<vec3, 3> screen;
             for (std::size_t i = 0; i < 3; ++i) {
                 const vec4 p = part[i].position_clip;
-                check(are_within("a corner in clip space", p, -p.w, p.w));
-                check(are_within("a corner's w", vec2(p.w), 0, 2 * clip_limit));
-                check(are_within("a corner's weights", part[i].weights, 0, 1 + of_weights));
+                check(are_within("a vertex in clip space", p, -p.w, p.w));
+                check(are_within("a vertex's w", vec2(p.w), 0, 2 * clip_limit));
+                check(are_within("a vertex's barycentrics", part[i].barycentrics, 0,
+                                 1 + of_barycentrics));
                 screen[i] = screen_from_clip(p, size);
             }
             const ScreenTriangle on_screen = snap_triangle(screen[0], screen[1], screen[2]);
             if (on_screen.twice_area == 0) continue;
-            for (const vec3 corner : screen) {
-                check(are_within("a depth", vec2(corner.z), 0, 1));
-                check(are_within("a place", vec2(corner) / vec2(size), 0, 1));
+            for (const vec3 vertex : screen) {
+                check(are_within("a depth", vec2(vertex.z), 0, 1));
+                check(are_within("a place", vec2(vertex) / vec2(size), 0, 1));
             }
             const TriangleDepth depth(vec3(screen[0].z, screen[1].z, screen[2].z));
-            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 weights) {
+            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 barycentrics) {
                 ++pixels;
-                check(are_within("a pixel's weights", weights, 0, 1 + of_pixels));
-                const float here = depth.at(weights);
+                check(are_within("a pixel's barycentrics", barycentrics, 0, 1 + of_pixels));
+                const float here = depth.at(barycentrics);
                 check(are_within("a pixel's depth", vec2(here), 0, 1 + 2 * of_pixels));
                 depths_.test_and_write(pixel, here);
             });
         }
-        if (!result) result << "\nof the triangle " << testing::PrintToString(corners);
+        if (!result) result << "\nof the triangle " << testing::PrintToString(vertices);
         return result;
     }
 
@@ -142,7 +143,7 @@ class Drawing {
 
   private:
     /// Each of six crossings rounds its shares by 1 eps, a product and a sum by half of one each.
-    static constexpr float of_weights = 6 * 2 * FLT_EPSILON;
+    static constexpr float of_barycentrics = 6 * 2 * FLT_EPSILON;
     /// fill_triangle promises 2 ulp; a product and three sums then make up to twice that much.
     static constexpr float of_pixels = 2 * FLT_EPSILON;
 
@@ -151,15 +152,15 @@ class Drawing {
 
 }  // namespace
 
-TEST(Mvp, HardCase_SpecialNumbersInCornersReachNoPixel) {
+TEST(Mvp, HardCase_SpecialNumbersInVerticesReachNoPixel) {
     look_up("Eq. 4.13: what counts as outside, and what rounding leaves there");
     Mix mix(1);
     Drawing drawing;
     for (int i = 0; i < cases; ++i) {
         mix.set_rarity(static_cast<unsigned>(i % 8 + 1));
-        Corners corners;
-        for (vec4& corner : corners) corner = mix.homogeneous();
-        ASSERT_TRUE(drawing.draw(corners)) << "seed 1, case " << i;
+        Vertices vertices;
+        for (vec4& vertex : vertices) vertex = mix.homogeneous();
+        ASSERT_TRUE(drawing.draw(vertices)) << "seed 1, case " << i;
     }
     EXPECT_TRUE(drawing.keeps_depths());
     EXPECT_GT(drawing.parts, cases / 10);
@@ -197,20 +198,20 @@ TEST(Mvp, HardCase_SpecialNumbersBeforeTheCameraReachNoPixel) {
     EXPECT_GT(culled, cases / 100);
 }
 
-TEST(Mvp, HardCase_NotANumberInACornerLeavesNothing) {
+TEST(Mvp, HardCase_NotANumberInAVertexLeavesNothing) {
     look_up("Eq. 4.13, and what counts as outside");
-    constexpr Corners all_inside = {{{-0.5f, -0.25f, 0, 1}, {0.5f, -1, 1, 1.5f}, {0, 2, -3, 3}}};
-    const auto parts_of = [](const Corners& corners) {
-        const ClippedTriangles parts = clip_triangle(corners);
+    constexpr Vertices all_inside = {{{-0.5f, -0.25f, 0, 1}, {0.5f, -1, 1, 1.5f}, {0, 2, -3, 3}}};
+    const auto parts_of = [](const Vertices& vertices) {
+        const ClippedTriangles parts = clip_triangle(vertices);
         return parts.end() - parts.begin();
     };
     EXPECT_EQ(parts_of(all_inside), 1);
     for (const float bad : {not_a_number, infinity, -infinity, clip_limit, -0x1p126f})
         for (std::size_t i = 0; i < 3; ++i)
             for (int axis = 0; axis < 4; ++axis) {
-                Corners corners = all_inside;
-                corners[i][axis] = bad;
-                EXPECT_EQ(parts_of(corners), 0) << bad << ", corner " << i << ", axis " << axis;
+                Vertices vertices = all_inside;
+                vertices[i][axis] = bad;
+                EXPECT_EQ(parts_of(vertices), 0) << bad << ", vertex " << i << ", axis " << axis;
             }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures that materials name: found or not, used as MTL says; and the lesson's own pictures.
+// Textures that materials name: found or not, used as MTL says; and the lesson's own pictures.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "05_textures/textured_scene.hpp"
-#include "common/image_io.hpp"
-#include "common/mesh.hpp"
+#include "05_textures/textures.hpp"
+#include "common/image/image_io.hpp"
+#include "common/model/mesh.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
 #include "support/look_up.hpp"
@@ -31,7 +31,7 @@ void write_text(const fs::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-void write_picture(const fs::path& file, ivec2 size, const std::vector<u8vec3>& texels) {
+void write_image_file(const fs::path& file, ivec2 size, const std::vector<u8vec3>& texels) {
     Image<u8vec3> picture(size);
     std::copy(texels.begin(), texels.end(), picture.pixels().begin());
     fs::create_directories(file.parent_path());
@@ -51,7 +51,7 @@ struct Model {
                    const std::string& header = "mtllib square.mtl\n") {
         write_text(folder / "square.mtl", library);
         write_text(folder / "square.obj", header + square + "usemtl m\n" + faces);
-        write_picture(folder / "red.png", {1, 1}, {red});
+        write_image_file(folder / "red.png", {1, 1}, {red});
     }
 
     ProcessResult run(std::vector<std::string> arguments = {}) const {
@@ -88,8 +88,8 @@ const std::string plain = "newmtl m\nKd 1 1 1\n";
 
 }  // namespace
 
-TEST(Textures, PictureThatCannotBeReadIsAnErrorThatNamesWhoAsksForIt) {
-    look_up("Eq. 5.11, and how pictures are found");
+TEST(Textures, ImageThatCannotBeReadIsAnErrorThatNamesWhoAsksForIt) {
+    look_up("Eq. 5.11, and how images are found");
     Model model(plain + "map_Kd bad.png\n");
     const std::string red_png = read_text(model.folder / "red.png");
     struct Case {
@@ -114,18 +114,18 @@ TEST(Textures, PictureThatCannotBeReadIsAnErrorThatNamesWhoAsksForIt) {
     EXPECT_EQ(model.run().exit_status, 1) << "a folder";
 }
 
-TEST(Textures, MaterialThatNoTriangleHasReadsNoPicture) {
-    look_up("Eq. 5.11, and how pictures are found");
+TEST(Textures, MaterialThatNoTriangleHasReadsNoImage) {
+    look_up("Eq. 5.11, and how images are found");
     const Model model(plain + "map_Kd red.png\nnewmtl unused\nmap_Kd missing.png\n");
     EXPECT_TRUE(is_all(model.drawn(), red));
     EXPECT_EQ(model.run().err, "");
 }
 
-TEST(Textures, WithKeepGoingAChessboardTakesThePlaceOfABrokenPicture) {
-    look_up("Eq. 5.11, and how pictures are found");
+TEST(Textures, WithKeepGoingAChessboardTakesThePlaceOfABrokenImage) {
+    look_up("Eq. 5.11, and how images are found");
     const Model model(plain + "map_Kd bad.png\n");
-    for (const bool is_there : {false, true}) {
-        if (is_there) write_text(model.folder / "bad.png", "not a picture\n");
+    for (const bool exists : {false, true}) {
+        if (exists) write_text(model.folder / "bad.png", "not a picture\n");
         const ProcessResult result = model.run({"--keep-going", "--filter", "nearest"});
         EXPECT_EQ(result.exit_status, 0);
         EXPECT_TRUE(result.err.starts_with("warning: " + (model.folder / "square.mtl").string() +
@@ -141,8 +141,8 @@ TEST(Textures, WithKeepGoingAChessboardTakesThePlaceOfABrokenPicture) {
     EXPECT_TRUE(is_all(Model(plain + "map_Kd red.png\n").drawn({"--keep-going"}), red));
 }
 
-TEST(Textures, PicturesAreFoundAsExportersNameThem) {
-    look_up("Eq. 5.11, and how pictures are found");
+TEST(Textures, ImagesAreFoundAsExportersNameThem) {
+    look_up("Eq. 5.11, and how images are found");
     EXPECT_TRUE(is_all(Model(plain).drawn(), white)) << "without a picture";
     for (const char* statement :
          {"map_Kd red.png\n", "map_kd red.png\n", "\tmap_Kd   red.png   \r\n", "map_Kd ./red.png\n",
@@ -157,32 +157,32 @@ TEST(Textures, PicturesAreFoundAsExportersNameThem) {
           std::pair("textures/very red/red.bmp", "map_Kd textures\\very red\\red.bmp\n"),
           std::pair("-red.png", "map_Kd -red.png\n")}) {
         const Model model(plain + statement);
-        write_picture(model.folder / name, {1, 1}, {red});
+        write_image_file(model.folder / name, {1, 1}, {red});
         EXPECT_TRUE(is_all(model.drawn(), red)) << statement;
     }
 }
 
 TEST(Textures, PathsAreThoseBesideTheLibrary) {
-    look_up("Eq. 5.11, and how pictures are found");
+    look_up("Eq. 5.11, and how images are found");
     const Model model("", square_with_uv, "mtllib materials\\square.mtl\n");
     write_text(model.folder / "materials/square.mtl", plain + "map_Kd ../pictures/green.png\n");
-    write_picture(model.folder / "pictures/green.png", {1, 1}, {green});
+    write_image_file(model.folder / "pictures/green.png", {1, 1}, {green});
     EXPECT_TRUE(is_all(model.drawn(), green));
 }
 
 TEST(Textures, MaterialsMayComeFromSeveralLibraries) {
-    look_up("Eq. 5.11, and how pictures are found");
+    look_up("Eq. 5.11, and how images are found");
     for (const char* header :
          {"mtllib square.mtl\nmtllib other.mtl\n", "mtllib other.mtl square.mtl\n"}) {
         const Model model("newmtl another\nKd 1 1 1\nmap_Kd red.png\n", square_with_uv, header);
         write_text(model.folder / "other.mtl", plain + "map_Kd green.png\n");
-        write_picture(model.folder / "green.png", {1, 1}, {green});
+        write_image_file(model.folder / "green.png", {1, 1}, {green});
         EXPECT_TRUE(is_all(model.drawn(), green)) << header;
     }
 }
 
-TEST(Textures, MaterialThatDoesNotExistIsAWarningAndHasNoPicture) {
-    look_up("Eq. 5.11, and how pictures are found");
+TEST(Textures, MaterialThatDoesNotExistIsAWarningAndHasNoTexture) {
+    look_up("Eq. 5.11, and how images are found");
     const Model model("newmtl another\nmap_Kd red.png\n");
     const ProcessResult result = model.run({"--stats"});
     EXPECT_EQ(result.exit_status, 0);
@@ -192,9 +192,9 @@ TEST(Textures, MaterialThatDoesNotExistIsAWarningAndHasNoPicture) {
     EXPECT_TRUE(is_all(read_image(model.out), white));
 }
 
-TEST(Textures, Eq5_5_PictureStandsUprightOnTheSquare) {
+TEST(Textures, Eq5_5_TextureStandsUprightOnTheSquare) {
     const Model model(plain + "map_Kd four.png\n");
-    write_picture(model.folder / "four.png", {2, 2}, {red, green, blue, white});
+    write_image_file(model.folder / "four.png", {2, 2}, {red, green, blue, white});
     const Image<u8vec4> drawn = model.drawn({"--filter", "nearest"});
     EXPECT_EQ(hue(drawn[{4, 4}]), red) << "the first row is the upper one";
     EXPECT_EQ(hue(drawn[{43, 4}]), green);
@@ -206,7 +206,7 @@ TEST(Textures, Eq5_4_ClampOnGoesBeforeTheKnob) {
     const auto upper_right = [](const std::string& option, const std::string& knob) {
         // Twice the picture's size: beyond the middle lies what the wrap says.
         const Model model(plain + "map_Kd " + option + " -s 2 2 1 four.png\n");
-        write_picture(model.folder / "four.png", {2, 2}, {red, green, blue, white});
+        write_image_file(model.folder / "four.png", {2, 2}, {red, green, blue, white});
         const Image<u8vec4> drawn = model.drawn({"--filter", "nearest", "--wrap", knob});
         return std::array{hue(drawn[{28, 20}]), hue(drawn[{43, 4}])};
     };
@@ -219,7 +219,7 @@ TEST(Textures, Eq5_4_ClampOnGoesBeforeTheKnob) {
         EXPECT_EQ(upper_right("-clamp on", knob), clamped) << knob;
 }
 
-TEST(Textures, OnePictureMayBeClampedByOneMaterialAndRepeatedByAnother) {
+TEST(Textures, OneImageMayBeClampedByOneMaterialAndRepeatedByAnother) {
     look_up("Eq. 5.4");
     Scene scene;
     const Model model(plain);
@@ -230,22 +230,19 @@ TEST(Textures, OnePictureMayBeClampedByOneMaterialAndRepeatedByAnother) {
     }
     Mesh& mesh = scene.meshes.emplace_back();
     for (std::uint32_t i = 1; i < 5; ++i) mesh.triangles.push_back({{}, i});
-    struct {
-        TextureVariant texture;
-    } options;
-    const TexturedScene textured(scene, options);
-    ASSERT_EQ(textured.diffuse_textures.size(), 5u);
-    EXPECT_EQ(textured.diffuse_textures[0], nullptr);
-    EXPECT_EQ(textured.diffuse_textures[1]->wrap, Wrap::clamp);
-    EXPECT_EQ(textured.diffuse_textures[2]->wrap, Wrap::repeat);
-    EXPECT_EQ(textured.diffuse_textures[1], textured.diffuse_textures[3]) << "read once";
-    EXPECT_EQ(textured.diffuse_textures[2], textured.diffuse_textures[4]);
+    const MaterialTextures textures = load_diffuse_textures(scene, {});
+    ASSERT_EQ(textures.size(), 5u);
+    EXPECT_EQ(textures[0], nullptr);
+    EXPECT_EQ(textures[1]->wrap, Wrap::clamp);
+    EXPECT_EQ(textures[2]->wrap, Wrap::repeat);
+    EXPECT_EQ(textures[1], textures[3]) << "read once";
+    EXPECT_EQ(textures[2], textures[4]);
 }
 
 TEST(Textures, Eq5_1_OffsetAndScaleOfTheMap) {
     Mesh mesh;
     mesh.uvs = {{0, 0}, {1, 0.5f}, {0.25f, 1}};
-    const Triangle triangle = {{Corner{0, 2}, Corner{1, no_index}, Corner{2, 1}}, 0};
+    const Triangle triangle = {{Vertex{0, 2}, Vertex{1, no_index}, Vertex{2, 1}}, 0};
     TextureMap map;
     const std::array<vec2, 3> plainly = {vec2(0.25f, 1), vec2(0), vec2(1, 0.5f)};
     EXPECT_EQ(uvs_of(mesh, triangle, map), plainly);
@@ -254,7 +251,7 @@ TEST(Textures, Eq5_1_OffsetAndScaleOfTheMap) {
     EXPECT_EQ(uvs_of(mesh, triangle, map), scaled);
 
     const Model model(plain + "map_Kd -o 0.5 0 0 two.png\n");
-    write_picture(model.folder / "two.png", {2, 1}, {red, green});
+    write_image_file(model.folder / "two.png", {2, 1}, {red, green});
     const Image<u8vec4> drawn = model.drawn({"--filter", "nearest"});
     EXPECT_EQ(hue(drawn[{4, 24}]), green);
     EXPECT_EQ(hue(drawn[{43, 24}]), red);
@@ -263,7 +260,7 @@ TEST(Textures, Eq5_1_OffsetAndScaleOfTheMap) {
 TEST(Textures, TrianglesWithoutUvHaveTheColourAtZero) {
     look_up("Eq. 5.5");
     const Model model(plain + "map_Kd four.png\n", square_without_uv);
-    write_picture(model.folder / "four.png", {2, 2}, {red, green, blue, white});
+    write_image_file(model.folder / "four.png", {2, 2}, {red, green, blue, white});
     EXPECT_TRUE(is_all(model.drawn({"--filter", "nearest"}), blue)) << "the lower left texel";
     const Image<u8vec4> drawn = model.drawn();
     for (const u8vec4 color : drawn.pixels())
@@ -273,7 +270,7 @@ TEST(Textures, TrianglesWithoutUvHaveTheColourAtZero) {
 TEST(Textures, Eq5_11_HalfOfTheLightIsCode188) {
     const auto color = [](const std::vector<std::string>& arguments, u8vec3 texel) {
         const Model model(plain + "map_Kd gray.png\n");
-        write_picture(model.folder / "gray.png", {1, 1}, {texel});
+        write_image_file(model.folder / "gray.png", {1, 1}, {texel});
         return linear_from_srgb(model.drawn(arguments)[{24, 24}].r / 255.0);
     };
     const double whole = color({}, white);
@@ -295,7 +292,7 @@ TEST(Textures, SceneWithoutMapsSamplesNothingAndLooksAsIfAllWereWhite) {
     }
     ASSERT_EQ(library.find("map_"), library.npos);
     ASSERT_NE(with_maps, library);
-    write_picture(folder / "white.png", {1, 1}, {white});
+    write_image_file(folder / "white.png", {1, 1}, {white});
     std::vector<std::string> pictures;
     for (const std::string* text : {&library, &std::as_const(with_maps)}) {
         write_text(folder / "teapot.obj", read_text(models / "teapot.obj"));

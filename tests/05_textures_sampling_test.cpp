@@ -52,7 +52,7 @@ Image<vec4> noise(ivec2 size, unsigned seed) {
 
 /// The texel's column and row; (-1, -1) when the place is not in the picture.
 ivec2 texel_at(const TextureLevel& level, vec2 uv, Wrap wrap) {
-    const vec2 place = place_from_uv(uv, wrap);
+    const vec2 place = texture_position(uv, wrap);
     const bool is_inside = place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1;
     return is_inside ? ivec2(vec2(sample_nearest(level, place))) : ivec2(-1);
 }
@@ -264,12 +264,12 @@ TEST(Textures, Eq5_4_WithSidesThatArePowersOfTwoNoCaseIsLeftOut) {
 
 TEST(Textures, Eq5_5_VPointsUpAndRowsDown) {
     const TextureLevel level = with_border(columns_and_rows({4, 2}), Wrap::repeat);
-    EXPECT_EQ(place_from_uv({0.25f, 0.75f}, Wrap::repeat), vec2(0.25f, 0.25f));
+    EXPECT_EQ(texture_position({0.25f, 0.75f}, Wrap::repeat), vec2(0.25f, 0.25f));
     EXPECT_EQ(texel_at(level, {0.25f, 0.75f}, Wrap::repeat), ivec2(1, 0)) << "the upper row";
     EXPECT_EQ(texel_at(level, {0.9f, 0.1f}, Wrap::repeat), ivec2(3, 1)) << "the lower one";
     EXPECT_EQ(texel_at(level, {0.1f, 0.9f}, Wrap::repeat), ivec2(0, 0));
-    EXPECT_EQ(place_from_uv({0, 0}, Wrap::clamp), vec2(0, 1)) << "the lower left corner";
-    EXPECT_EQ(place_from_uv({1, 1}, Wrap::clamp), vec2(1, 0)) << "the upper right corner";
+    EXPECT_EQ(texture_position({0, 0}, Wrap::clamp), vec2(0, 1)) << "the lower left corner";
+    EXPECT_EQ(texture_position({1, 1}, Wrap::clamp), vec2(1, 0)) << "the upper right corner";
     EXPECT_EQ(texel_at(level, {1, 1}, Wrap::clamp), ivec2(3, 0));
     EXPECT_EQ(texel_at(level, {0, 0}, Wrap::clamp), ivec2(0, 1));
 }
@@ -320,7 +320,7 @@ TEST(Textures, Eq5_6_HardCase_EqualsTheOracleAlsoAcrossTheSeams) {
                 const real tolerance = of_place(uv.x, size.x, false, size.x) +
                                        of_place(uv.y, size.y, true, size.y) +
                                        eps / 2 * (size.x + size.y + 1) + 6 * eps / 2;
-                const vec4 actual = sample_bilinear(level, place_from_uv(uv, wrap));
+                const vec4 actual = sample_bilinear(level, texture_position(uv, wrap));
                 for (int channel = 0; channel < 4; ++channel)
                     ASSERT_TRUE(is_near(actual[channel], exact[channel], tolerance))
                         << "seed 3, " << name_of(wrap) << ", case " << i << ", uv "
@@ -401,7 +401,8 @@ TEST(Textures, Eq5_8_FootprintsOfAllSizes) {
         };
         const real exact = std::max(real{0}, std::log2(std::max(length(across), length(down))));
         // The square is off by 2 eps: two products and a sum, the first product twice. Its
-        // logarithm by as much over ln 2 = 0.69, halved; the logarithm itself by 1 ulp.
+        // logarithm by as much over ln 2 = 0.69, halved; the logarithm itself by less than eps of
+        // itself.
         ASSERT_TRUE(is_near(level_of_detail(across, down, size), exact, 1.5L * eps + eps * exact))
             << "seed 6, case " << i;
     }
@@ -449,12 +450,12 @@ TEST(Textures, HardCase_FootprintsThatAreNotNumbers) {
 TEST(Textures, Eq5_9_MeansOfTheWorkedExample) {
     Image<vec4> two_by_two({2, 2});
     for (int i = 0; i < 4; ++i) two_by_two[{i % 2, i / 2}] = vec4(static_cast<float>(i * i));
-    EXPECT_EQ(halved(two_by_two).size(), ivec2(1));
-    EXPECT_EQ((halved(two_by_two)[{0, 0}]), vec4(3.5f));
+    EXPECT_EQ(downsampled(two_by_two).size(), ivec2(1));
+    EXPECT_EQ((downsampled(two_by_two)[{0, 0}]), vec4(3.5f));
     // Of five texels each of two covers two and a half.
     Image<vec4> five({5, 1});
     for (int x = 0; x < 5; ++x) five[{x, 0}] = vec4(static_cast<float>(10 * x));
-    const Image<vec4> two = halved(five);
+    const Image<vec4> two = downsampled(five);
     ASSERT_EQ(two.size(), ivec2(2, 1));
     EXPECT_EQ((two[{0, 0}]), vec4(8)) << "(2 * 0 + 2 * 10 + 20) / 5";
     EXPECT_EQ((two[{1, 0}]), vec4(32)) << "(20 + 2 * 30 + 2 * 40) / 5";
@@ -479,7 +480,7 @@ TEST(Textures, Eq5_9_HardCase_OddSizesAreMeansOfWhatTexelsCover) {
     // In double, 13 times 27/13 is more than 27.
     for (const ivec2 from : {ivec2(3, 5), ivec2(1, 7), ivec2(9, 1), ivec2(2, 3), ivec2(31, 17),
                              ivec2(27, 1), ivec2(1, 27)}) {
-        const Image<vec4> picture = noise(from, 8), half = halved(picture);
+        const Image<vec4> picture = noise(from, 8), half = downsampled(picture);
         const ivec2 to = half.size();
         // In whole numbers: a texel of the picture is to.x wide and one of its half from.x.
         const auto common = [](int a, int a_side, int b, int b_side) {
@@ -502,7 +503,7 @@ TEST(Textures, Eq5_9_HardCase_OddSizesAreMeansOfWhatTexelsCover) {
     }
 }
 
-TEST(Textures, Eq5_9_EveryLevelHasThePicturesMean) {
+TEST(Textures, Eq5_9_EveryLevelHasTheMeanOfTheTexture) {
     for (const ivec2 size : {ivec2(64), ivec2(32, 4), ivec2(1, 128), ivec2(2, 1)}) {
         const auto mean = [](const TextureLevel& level) {
             dvec4 sum(0);
@@ -555,13 +556,13 @@ TEST(Textures, Eq5_10_GoesEvenlyFromLevelToLevel) {
     }
 }
 
-TEST(Textures, Eq5_1_UvOfAFragmentAndItsSteps) {
+TEST(Textures, Eq5_1_UvOfAFragmentAndItsDerivatives) {
     const std::array uvs = {vec2(0, 0), vec2(1, 0), vec2(1, 2)};
     const FragmentUv uv =
         fragment_uv(uvs, {{0.5f, 0.25f, 0.25f}, {-0.5f, 0.25f, 0.25f}, {0, -1, 1}});
     EXPECT_EQ(uv.here, vec2(0.5f, 0.5f));
-    EXPECT_EQ(uv.step_x, vec2(0.5f, 0.5f));
-    EXPECT_EQ(uv.step_y, vec2(0, 2));
+    EXPECT_EQ(uv.ddx, vec2(0.5f, 0.5f));
+    EXPECT_EQ(uv.ddy, vec2(0, 2));
 }
 
 TEST(Textures, Eq5_11_CodesOfTheWorkedExample) {
@@ -624,53 +625,56 @@ TEST(Textures, HardCase_SpecialNumbersSeeAColour) {
             const float inside = wrapped(coordinate, texture.wrap);
             ASSERT_TRUE(inside >= 0 && inside <= 1) << "seed 11, case " << i << ": " << coordinate;
         }
-        const vec2 place = place_from_uv(uv.here, texture.wrap);
+        const vec2 place = texture_position(uv.here, texture.wrap);
         ASSERT_TRUE(place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1)
             << "seed 11, case " << i;
-        ASSERT_GE(level_of_detail(uv.step_x, uv.step_y, texture.levels[0].size), 0)
+        ASSERT_GE(level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size), 0)
             << "seed 11, case " << i;
         ASSERT_TRUE(is_color(sample(texture, all_filters[mix.below(3)], uv)))
             << "seed 11, case " << i << ", uv " << testing::PrintToString(uv.here) << ", steps "
-            << testing::PrintToString(uv.step_x) << ", " << testing::PrintToString(uv.step_y);
+            << testing::PrintToString(uv.ddx) << ", " << testing::PrintToString(uv.ddy);
     }
 }
 
-TEST(Textures, HardCase_SpecialNumbersAtTheCornersSeeAColour) {
+TEST(Textures, HardCase_SpecialNumbersAtTheVerticesSeeAColour) {
     look_up("Eq. 5.2, and where the proportions of the w end");
     const Texture texture = make_texture(noise({7, 12}, 12), Wrap::repeat);
     Mix mix(12);
     int pixels = 0;
     for (int i = 0; i < 200'000; ++i) {
         constexpr ivec2 size(4, 3);
-        const auto corner = [&] { return vec2(mix.share() * 4, mix.share() * 3); };
-        const vec2 a = corner(), b = corner();
-        ScreenTriangle on_screen = snap_triangle(a, b, corner());
+        const auto vertex = [&] { return vec2(mix.share() * 4, mix.share() * 3); };
+        const vec2 a = vertex(), b = vertex();
+        ScreenTriangle on_screen = snap_triangle(a, b, vertex());
         if (i % 16 == 0) on_screen = snap_triangle({-4e6f, -4e6f}, {-4e6f, 4e6f}, {4e6f, 0});
         if (i % 16 == 1) on_screen = snap_triangle({1, 1}, {1, 1 + 1 / 64.0f}, {4, 1 + 1 / 64.0f});
         if (!is_front_facing(on_screen)) continue;
         ClippedTriangle piece;
         for (std::size_t k = 0; k < 3; ++k) {
-            vec3 weights(0);
-            weights[static_cast<int>(k)] = 1;
-            if (i % 3 == 0) weights = vec3(mix.share(), mix.share(), 1 - mix.share());
-            piece[k] = {{0, 0, 0, mix.w()}, weights};
+            vec3 barycentrics(0);
+            barycentrics[static_cast<int>(k)] = 1;
+            if (i % 3 == 0) barycentrics = vec3(mix.share(), mix.share(), 1 - mix.share());
+            piece[k] = {{0, 0, 0, mix.w()}, barycentrics};
         }
         const std::array uvs = {mix.pair(), mix.pair(), mix.pair()};
-        const PerspectiveWeights perspective(on_screen, piece);
-        const auto check = [&](vec3 screen_weights) {
+        const PerspectiveSetup setup = perspective_setup(on_screen, piece);
+        const auto check = [&](vec3 screen_barycentrics) {
             ++pixels;
-            const FragmentWeights weights = perspective.at(screen_weights);
+            const FragmentBarycentrics barycentrics =
+                perspective_correct(setup, screen_barycentrics);
             for (int k = 0; k < 3; ++k) {
-                ASSERT_TRUE(weights.here[k] >= 0 && weights.here[k] <= 1 + 2 * feps)
-                    << "seed 12, case " << i << ": " << testing::PrintToString(weights.here);
-                ASSERT_TRUE(std::isfinite(weights.step_x[k]) && std::isfinite(weights.step_y[k]))
+                ASSERT_TRUE(barycentrics.here[k] >= 0 && barycentrics.here[k] <= 1 + 2 * feps)
+                    << "seed 12, case " << i << ": " << testing::PrintToString(barycentrics.here);
+                ASSERT_TRUE(std::isfinite(barycentrics.ddx[k]) &&
+                            std::isfinite(barycentrics.ddy[k]))
                     << "seed 12, case " << i;
             }
-            ASSERT_TRUE(
-                is_color(sample(texture, all_filters[mix.below(3)], fragment_uv(uvs, weights))))
+            ASSERT_TRUE(is_color(
+                sample(texture, all_filters[mix.below(3)], fragment_uv(uvs, barycentrics))))
                 << "seed 12, case " << i;
         };
-        fill_triangle(on_screen, size, [&](ivec2, vec3 screen_weights) { check(screen_weights); });
+        fill_triangle(on_screen, size,
+                      [&](ivec2, vec3 screen_barycentrics) { check(screen_barycentrics); });
         for (const vec3 on_a_side : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1),
                                      vec3(0, 0.5f, 0.5f), vec3(0.25f, 0, 0.75f)})
             check(on_a_side);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a triangle's corners have, in between, in perspective; textures:
+// Vertex attributes inside a triangle, in perspective; textures:
 // 05_textures_sampling_test.cpp and 05_textures_files_test.cpp.
 #include <algorithm>
 #include <array>
@@ -18,6 +18,7 @@
 #include "support/exact.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
+#include "support/projected.hpp"
 #include "support/reference.hpp"
 
 using namespace rasterbook;
@@ -29,14 +30,14 @@ using lvec2 = glm::vec<2, real>;
 
 constexpr ivec2 size(64, 48);
 
-/// The corners of a triangle that is not clipped. Of their positions only w counts.
+/// The vertices of a triangle that is not clipped. Of their positions only w counts.
 ClippedTriangle whole(vec3 w) {
     return {
         {{{0, 0, 0, w.x}, {1, 0, 0}}, {{0, 0, 0, w.y}, {0, 1, 0}}, {{0, 0, 0, w.z}, {0, 0, 1}}}};
 }
 
-/// A right angle in the picture's upper left corner, with sides of 8 pixels: the second corner's
-/// weight is y / 8, the third one's x / 8.
+/// A right angle in the picture's upper left corner, with sides of 8 pixels: the second vertex's
+/// barycentric coordinate is y / 8, the third one's x / 8.
 const ScreenTriangle eighths = snap_triangle({0, 0}, {0, 8}, {8, 0});
 
 /// A number and how fast it changes: the sum, product and quotient of two keep that exact.
@@ -51,23 +52,23 @@ struct Changing {
     }
 };
 
-/// Twice the areas on the screen that belong to the corners.
+/// Twice the areas on the screen that belong to the vertices.
 std::array<int128, 3> areas(const ScreenTriangle& triangle, ivec2 pixel) {
-    const auto [a, b, c] = triangle.corners;
+    const auto [a, b, c] = triangle.vertices;
     const ivec2 p = exact_center(pixel);
     return {exact_twice_area(b, c, p), exact_twice_area(c, a, p), exact_twice_area(a, b, p)};
 }
 
-struct ExactWeights {
+struct ExactBarycentrics {
     lvec3 here;
-    std::array<lvec3, 2> step;      ///< To the right and down.
+    std::array<lvec3, 2> step;      ///< Per pixel to the right, and down.
     std::array<lvec3, 2> of_sizes;  ///< What the steps would be if nothing in them cancelled.
 };
 
 /// The oracle for Eq. 5.2, 5.3 and 5.7: of the triangle and the piece as they are given.
-ExactWeights exact_weights(const ScreenTriangle& on_screen, const ClippedTriangle& piece,
-                           ivec2 pixel) {
-    ExactWeights exact;
+ExactBarycentrics exact_barycentrics(const ScreenTriangle& on_screen, const ClippedTriangle& piece,
+                                     ivec2 pixel) {
+    ExactBarycentrics exact;
     const auto here = areas(on_screen, pixel);
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const auto next = areas(on_screen, pixel + (axis == 0 ? ivec2(1, 0) : ivec2(0, 1)));
@@ -81,55 +82,59 @@ ExactWeights exact_weights(const ScreenTriangle& on_screen, const ClippedTriangl
             for (int i = 0; i < 3; ++i) {
                 const Changing share =
                     on_screen_share *
-                    Changing{piece[k].weights[i] / static_cast<real>(piece[k].position_clip.w), 0};
+                    Changing{piece[k].barycentrics[i] / static_cast<real>(piece[k].position_clip.w),
+                             0};
                 shares[static_cast<std::size_t>(i)] = shares[static_cast<std::size_t>(i)] + share;
                 sum = sum + share;
                 sizes[i] += std::abs(share.change);
             }
         }
         for (int i = 0; i < 3; ++i) {
-            const Changing weight = shares[static_cast<std::size_t>(i)] / sum;
-            exact.here[i] = weight.value;
-            exact.step[axis][i] = weight.change;
+            const Changing coordinate = shares[static_cast<std::size_t>(i)] / sum;
+            exact.here[i] = coordinate.value;
+            exact.step[axis][i] = coordinate.change;
             exact.of_sizes[axis][i] =
-                (sizes[i] + weight.value * (sizes.x + sizes.y + sizes.z)) / sum.value;
+                (sizes[i] + coordinate.value * (sizes.x + sizes.y + sizes.z)) / sum.value;
         }
     }
     return exact;
 }
 
-/// How many eps a weight may be off, and a step in proportion to its terms' sizes.
+/// How many eps a coordinate may be off, and a derivative in proportion to its terms' sizes.
 struct Tolerance {
-    real weight, step;
+    real coordinate, step;
 };
 
-/// fill_triangle's weights are within 2 ulp, which is up to 2 eps of them; a quotient and a product
-/// make 3 eps of a share, two sums 4 of all, a quotient and a product 8 of a weight. What shares
-/// change by has 1.5, their sum 2.5; times a weight 11, and the difference 11.5. The sum that
-/// divides it, the quotient and the product make that less than 17.
+/// fill_triangle's barycentrics are within 2 ulp, which is up to 2 eps of them; a quotient and a
+/// product make 3 eps of a share, two sums 4 of all, a quotient and a product 8 of a coordinate.
+/// What shares change by has 1.5, their sum 2.5; times a coordinate 11, and the difference 11.5.
+/// The sum that divides it, the quotient and the product make that less than 17.
 constexpr Tolerance of_whole = {8, 17};
 
-/// A piece's share has another product and two sums: 4.5 eps, 5.5 all of them, 11 a weight. What
-/// its shares change by has 3, their sum 4; times a weight 15.5, the difference 16; and 6.5.
+/// A piece's share has another product and two sums: 4.5 eps, 5.5 all of them, 11 a coordinate.
+/// What its shares change by has 3, their sum 4; times a coordinate 15.5, the difference 16;
+/// and 6.5.
 constexpr Tolerance of_piece = {11, 23};
 
-/// For EXPECT_TRUE: weights that are those of the oracle, and whose sum is 1.
-testing::AssertionResult are_near(const FragmentWeights& weights, const ExactWeights& exact,
-                                  Tolerance tolerance) {
+/// For EXPECT_TRUE: barycentrics that are those of the oracle, and whose sum is 1.
+testing::AssertionResult are_near(const FragmentBarycentrics& barycentrics,
+                                  const ExactBarycentrics& exact, Tolerance tolerance) {
     for (int i = 0; i < 3; ++i) {
-        const auto here =
-            is_near(weights.here[i], exact.here[i], tolerance.weight * eps * exact.here[i]);
-        if (!here) return testing::AssertionFailure() << "weight " << i << ": " << here.message();
-        const vec3 steps[] = {weights.step_x, weights.step_y};
+        const auto here = is_near(barycentrics.here[i], exact.here[i],
+                                  tolerance.coordinate * eps * exact.here[i]);
+        if (!here)
+            return testing::AssertionFailure() << "coordinate " << i << ": " << here.message();
+        const vec3 steps[] = {barycentrics.ddx, barycentrics.ddy};
         for (std::size_t axis = 0; axis < 2; ++axis) {
             const auto step = is_near(steps[axis][i], exact.step[axis][i],
                                       tolerance.step * eps * exact.of_sizes[axis][i]);
             if (!step)
                 return testing::AssertionFailure()
-                       << "step_" << "xy"[axis] << " of weight " << i << ": " << step.message();
+                       << "dd" << "xy"[axis] << " of coordinate " << i << ": " << step.message();
         }
     }
-    return is_near(real{weights.here.x} + weights.here.y + weights.here.z, 1, 2 * eps)
+    return is_near(real{barycentrics.here.x} + barycentrics.here.y + barycentrics.here.z, 1,
+                   2 * eps)
            << " is the sum";  // two sums, a quotient and a product, half an eps each
 }
 
@@ -169,13 +174,13 @@ class AnyTriangle {
 ///
 /// @return  How many pixels there were; -1 after a failure.
 int compare(const ScreenTriangle& on_screen, const ClippedTriangle& piece, Tolerance tolerance) {
-    const PerspectiveWeights perspective(on_screen, piece);
+    const PerspectiveSetup setup = perspective_setup(on_screen, piece);
     int pixels = 0;
-    fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+    fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
         if (pixels < 0) return;
         ++pixels;
-        const auto result = are_near(perspective.at(screen_weights),
-                                     exact_weights(on_screen, piece, pixel), tolerance);
+        const auto result = are_near(perspective_correct(setup, screen_barycentrics),
+                                     exact_barycentrics(on_screen, piece, pixel), tolerance);
         EXPECT_TRUE(result) << "pixel " << testing::PrintToString(pixel);
         if (!result) pixels = -1;
     });
@@ -185,55 +190,58 @@ int compare(const ScreenTriangle& on_screen, const ClippedTriangle& piece, Toler
 }  // namespace
 
 TEST(Textures, Eq5_1_SumOfTheWorkedExample) {
-    const vec3 weights(0.5f, 0.25f, 0.25f);
-    EXPECT_EQ(interpolate(std::array{10.0f, 20.0f, 40.0f}, weights), 20.0f);
-    EXPECT_EQ(interpolate(std::array{vec2(0, 0), vec2(1, 0), vec2(1, 1)}, weights),
+    const vec3 barycentrics(0.5f, 0.25f, 0.25f);
+    EXPECT_EQ(interpolate(std::array{10.0f, 20.0f, 40.0f}, barycentrics), 20.0f);
+    EXPECT_EQ(interpolate(std::array{vec2(0, 0), vec2(1, 0), vec2(1, 1)}, barycentrics),
               vec2(0.5f, 0.25f));
-    const std::array corners = {vec3(1, 2, 3), vec3(4, 5, 6), vec3(7, 8, 10)};
+    const std::array vertices = {vec3(1, 2, 3), vec3(4, 5, 6), vec3(7, 8, 10)};
     for (int i = 0; i < 3; ++i) {
         vec3 only(0);
         only[i] = 1;
-        EXPECT_EQ(interpolate(corners, only), corners[static_cast<std::size_t>(i)]);
+        EXPECT_EQ(interpolate(vertices, only), vertices[static_cast<std::size_t>(i)]);
     }
 }
 
 TEST(Textures, Eq5_1_SumsOfAllSizes) {
     AnySize any(1, 8);
     for (int i = 0; i < 100'000; ++i) {
-        const vec3 corners = any.vector(), weights = any.vector();
+        const vec3 vertices = any.vector(), barycentrics = any.vector();
         Sum exact;
-        for (int k = 0; k < 3; ++k) exact.add(real{corners[k]} * weights[k]);
-        ASSERT_TRUE(is_near(interpolate(std::array{corners.x, corners.y, corners.z}, weights),
-                            exact.value, 1.5L * eps * exact.of_sizes))  // a product and two sums
+        for (int k = 0; k < 3; ++k) exact.add(real{vertices[k]} * barycentrics[k]);
+        ASSERT_TRUE(
+            is_near(interpolate(std::array{vertices.x, vertices.y, vertices.z}, barycentrics),
+                    exact.value, 1.5L * eps * exact.of_sizes))  // a product and two sums
             << "seed 1, case " << i;
     }
 }
 
 TEST(Textures, Eq5_2_HalfwayOnTheScreenIsNotHalfwayOnTheSurface) {
     // The middle of a side whose far end is three times as far: a quarter of the way.
-    const PerspectiveWeights side(eighths, whole({1, 1, 3}));
-    const vec3 middle = side.at({0.5f, 0, 0.5f}).here;
-    constexpr float tolerance = static_cast<float>(of_whole.weight * eps);
+    const PerspectiveSetup side = perspective_setup(eighths, whole({1, 1, 3}));
+    const vec3 middle = perspective_correct(side, vec3(0.5f, 0, 0.5f)).here;
+    constexpr float tolerance = static_cast<float>(of_whole.coordinate * eps);
     EXPECT_NEAR(middle.x, 0.75f, tolerance);
     EXPECT_EQ(middle.y, 0.0f);
     EXPECT_NEAR(middle.z, 0.25f, tolerance);
-    const vec3 inside = PerspectiveWeights(eighths, whole({1, 3, 3})).at({0.25f, 0.5f, 0.25f}).here;
+    const PerspectiveSetup setup = perspective_setup(eighths, whole({1, 3, 3}));
+    const vec3 inside = perspective_correct(setup, vec3(0.25f, 0.5f, 0.25f)).here;
     EXPECT_NEAR(inside.x, 1.0f / 2, tolerance);
     EXPECT_NEAR(inside.y, 1.0f / 3, tolerance);
     EXPECT_NEAR(inside.z, 1.0f / 6, tolerance);
 }
 
-TEST(Textures, Eq5_2_CornersKeepTheirOwn) {
+TEST(Textures, Eq5_2_VerticesKeepTheirOwn) {
     AnyTriangle any(2);
     for (int i = 0; i < 1000; ++i) {
         const vec3 w(any.of_sizes(1e-6f, 1e6f), any.of_sizes(1e-6f, 1e6f),
                      any.of_sizes(1e-6f, 1e6f));
-        const PerspectiveWeights perspective(any.on_screen(), whole(w));
-        for (int corner = 0; corner < 3; ++corner) {
+        const PerspectiveSetup setup = perspective_setup(any.on_screen(), whole(w));
+        for (int vertex = 0; vertex < 3; ++vertex) {
             vec3 only(0);
-            only[corner] = 1;
+            only[vertex] = 1;
             for (int k = 0; k < 3; ++k)
-                ASSERT_NEAR(perspective.at(only).here[k], only[k], static_cast<float>(eps))
+                ASSERT_NEAR(perspective_correct(setup, only).here[k], only[k],
+                            static_cast<float>(eps))
                     << "seed 2, case " << i;
         }
     }
@@ -253,26 +261,26 @@ TEST(Textures, Eq5_2_HardCase_WOfAllOrdersInOneTriangle) {
     EXPECT_GT(pixels, 100'000);
 }
 
-TEST(Textures, HardCase_EqualWLeavesTheWeightsOnTheScreen) {
+TEST(Textures, HardCase_EqualWLeavesTheBarycentricsOnTheScreen) {
     look_up("Eq. 5.2: what is the same in all shares can be cancelled");
     AnyTriangle any(4);
     for (int i = 0; i < 300; ++i) {
         const float w = any.of_sizes(1e-38f, 1e38f);
         const ScreenTriangle on_screen = any.on_screen();
-        const PerspectiveWeights perspective(on_screen, whole(vec3(w)));
-        fill_triangle(on_screen, size, [&](ivec2, vec3 screen_weights) {
-            const vec3 here = perspective.at(screen_weights).here;
-            // The sum of fill_triangle's weights is 1 within 2 eps; two sums, a quotient, a
+        const PerspectiveSetup setup = perspective_setup(on_screen, whole(vec3(w)));
+        fill_triangle(on_screen, size, [&](ivec2, vec3 screen_barycentrics) {
+            const vec3 here = perspective_correct(setup, screen_barycentrics).here;
+            // The sum of fill_triangle's barycentrics is 1 within 2 eps; two sums, a quotient, a
             // product.
             for (int k = 0; k < 3; ++k)
-                ASSERT_NEAR(here[k], screen_weights[k],
-                            static_cast<float>(4 * eps) * screen_weights[k])
+                ASSERT_NEAR(here[k], screen_barycentrics[k],
+                            static_cast<float>(4 * eps) * screen_barycentrics[k])
                     << "seed 4, case " << i << ", w " << w;
         });
     }
 }
 
-TEST(Textures, HardCase_DenormalWBesideAHugeOne) {
+TEST(Textures, HardCase_SubnormalWBesideAHugeOne) {
     look_up("Eq. 5.2: only the proportions of the w count, and those have limits");
     constexpr float tiny = std::numeric_limits<float>::denorm_min();
     AnyTriangle any(5);
@@ -281,32 +289,36 @@ TEST(Textures, HardCase_DenormalWBesideAHugeOne) {
         vec3 w(1e30f);
         w[i % 3] = i % 2 ? tiny : 1e-40f;
         if (i % 4 < 2) w[(i + 1) % 3] = 1e-30f;
-        // The far side through the centres of pixels: there the near corner has no weight.
+        // The far side through the centres of pixels: there the near vertex's coordinate is 0.
         const float row = std::floor(any.between(0, 47)) + 0.5f;
-        std::array<vec2, 3> corners = {vec2(1, row), vec2(60, row),
-                                       vec2(any.between(0, 64), row - 8)};
-        std::rotate(corners.begin(), corners.begin() + (5 - i % 3) % 3, corners.end());
-        const ScreenTriangle on_screen = snap_triangle(corners[0], corners[1], corners[2]);
+        std::array<vec2, 3> vertices = {vec2(1, row), vec2(60, row),
+                                        vec2(any.between(0, 64), row - 8)};
+        std::rotate(vertices.begin(), vertices.begin() + (5 - i % 3) % 3, vertices.end());
+        const ScreenTriangle on_screen = snap_triangle(vertices[0], vertices[1], vertices[2]);
         ASSERT_TRUE(is_front_facing(on_screen));
-        const PerspectiveWeights perspective(on_screen, whole(w));
-        const auto check = [&](ivec2 pixel, vec3 screen_weights) {
-            const FragmentWeights weights = perspective.at(screen_weights);
-            ASSERT_TRUE(is_near(real{weights.here.x} + weights.here.y + weights.here.z, 1, 2 * eps))
+        const PerspectiveSetup setup = perspective_setup(on_screen, whole(w));
+        const auto check = [&](ivec2 pixel, vec3 screen_barycentrics) {
+            const FragmentBarycentrics barycentrics =
+                perspective_correct(setup, screen_barycentrics);
+            ASSERT_TRUE(is_near(
+                real{barycentrics.here.x} + barycentrics.here.y + barycentrics.here.z, 1, 2 * eps))
                 << "case " << i;
             for (int k = 0; k < 3; ++k) {
-                ASSERT_GE(weights.here[k], 0) << "case " << i;
-                ASSERT_TRUE(std::isfinite(weights.step_x[k]) && std::isfinite(weights.step_y[k]))
+                ASSERT_GE(barycentrics.here[k], 0) << "case " << i;
+                ASSERT_TRUE(std::isfinite(barycentrics.ddx[k]) &&
+                            std::isfinite(barycentrics.ddy[k]))
                     << "case " << i;
             }
-            const real near_weight = screen_weights[i % 3];
-            if (near_weight == 0) {
+            const real near_coordinate = screen_barycentrics[i % 3];
+            if (near_coordinate == 0) {
                 ++on_far_side;
                 return;
             }
-            const ExactWeights exact = exact_weights(on_screen, whole(w), pixel);
+            const ExactBarycentrics exact = exact_barycentrics(on_screen, whole(w), pixel);
             for (int k = 0; k < 3; ++k)  // a w counts as 2^80 times the least one at most
-                ASSERT_TRUE(is_near(weights.here[k], exact.here[k],
-                                    of_whole.weight * eps * exact.here[k] + 0x1p-80L / near_weight))
+                ASSERT_TRUE(
+                    is_near(barycentrics.here[k], exact.here[k],
+                            of_whole.coordinate * eps * exact.here[k] + 0x1p-80L / near_coordinate))
                     << "case " << i;
         };
         fill_triangle(on_screen, size, check);
@@ -314,12 +326,12 @@ TEST(Textures, HardCase_DenormalWBesideAHugeOne) {
         // Centres on a lower side belong to the triangle below; here they are asked for.
         for (int x = 1; x < 60 && !HasFatalFailure(); ++x) {
             const auto here = areas(on_screen, {x, static_cast<int>(row)});
-            vec3 screen_weights;
+            vec3 screen_barycentrics;
             for (int k = 0; k < 3; ++k)
-                screen_weights[k] =
+                screen_barycentrics[k] =
                     static_cast<float>(static_cast<double>(here[static_cast<std::size_t>(k)]) /
                                        static_cast<double>(on_screen.twice_area));
-            check({x, static_cast<int>(row)}, screen_weights);
+            check({x, static_cast<int>(row)}, screen_barycentrics);
         }
     }
     EXPECT_GT(on_far_side, 10'000);
@@ -329,31 +341,32 @@ TEST(Textures, HardCase_FloorFromOneToAHundredIsRightToA256thOfATexel) {
     look_up("Eq. 5.2");
     constexpr int texels = 1024, width = 512;
     const ScreenTriangle on_screen = snap_triangle({0, 0}, {0, width}, {width, 0});
-    const PerspectiveWeights perspective(on_screen, whole({1, 1, 100}));
+    const PerspectiveSetup setup = perspective_setup(on_screen, whole({1, 1, 100}));
     double greatest = 0, greatest_affine = 0;
     int pixels = 0;
-    fill_triangle(on_screen, {width, 1}, [&](ivec2 pixel, vec3 screen_weights) {
+    fill_triangle(on_screen, {width, 1}, [&](ivec2 pixel, vec3 screen_barycentrics) {
         const std::array us = {0.0f, 0.0f, 1.0f};
         const double along = (pixel.x + 0.5) / width;
         const double exact = along / 100 / (1 - along + along / 100);
-        const auto error = [&](vec3 weights) {
-            return texels * std::abs(double{interpolate(us, weights)} - exact);
+        const auto error = [&](vec3 barycentrics) {
+            return texels * std::abs(double{interpolate(us, barycentrics)} - exact);
         };
-        greatest = std::max(greatest, error(perspective.at(screen_weights).here));
-        greatest_affine = std::max(greatest_affine, error(screen_weights));
+        greatest = std::max(greatest, error(perspective_correct(setup, screen_barycentrics).here));
+        greatest_affine = std::max(greatest_affine, error(screen_barycentrics));
         ++pixels;
     });
     EXPECT_LE(greatest, 1.0 / 256);
-    EXPECT_GT(greatest_affine, 830) << "weights on the screen alone are far off";
+    EXPECT_GT(greatest_affine, 830) << "barycentrics on the screen alone are far off";
     EXPECT_GE(pixels, width - 1);
 }
 
 TEST(Textures, Eq5_3_PieceOfTheWorkedExample) {
     ClippedTriangle piece = whole({1, 2, 2});
-    piece[1].weights = {0.5f, 0.5f, 0};
-    piece[2].weights = {0.5f, 0, 0.5f};
-    const vec3 here = PerspectiveWeights(eighths, piece).at({0.5f, 0.25f, 0.25f}).here;
-    constexpr float tolerance = static_cast<float>(of_piece.weight * eps);
+    piece[1].barycentrics = {0.5f, 0.5f, 0};
+    piece[2].barycentrics = {0.5f, 0, 0.5f};
+    const PerspectiveSetup setup = perspective_setup(eighths, piece);
+    const vec3 here = perspective_correct(setup, vec3(0.5f, 0.25f, 0.25f)).here;
+    constexpr float tolerance = static_cast<float>(of_piece.coordinate * eps);
     EXPECT_NEAR(here.x, 5.0f / 6, tolerance);
     EXPECT_NEAR(here.y, 1.0f / 12, tolerance);
     EXPECT_NEAR(here.z, 1.0f / 12, tolerance);
@@ -365,8 +378,8 @@ TEST(Textures, Eq5_3_PiecesWithWOfAllSizes) {
     for (int i = 0; i < 400; ++i) {
         const float reach = i % 2 ? 1e6f : 10;
         ClippedTriangle piece;
-        for (ClippedCorner& corner : piece)
-            corner = {{0, 0, 0, any.of_sizes(1 / reach, reach)}, any.shares()};
+        for (ClippedVertex& vertex : piece)
+            vertex = {{0, 0, 0, any.of_sizes(1 / reach, reach)}, any.shares()};
         const int compared = compare(any.on_screen(), piece, of_piece);
         ASSERT_GE(compared, 0) << "seed 6, case " << i;
         pixels += compared;
@@ -376,66 +389,64 @@ TEST(Textures, Eq5_3_PiecesWithWOfAllSizes) {
 
 namespace {
 
-/// The weights of a triangle's corners where the ray through a place in NDC meets its plane: no
-/// clipping, no division by a corner's w.
-lvec3 weights_of_whole(const std::array<vec4, 3>& corners, lvec2 place_ndc) {
+/// The barycentrics of a triangle's vertices where the ray through a place in NDC meets its plane:
+/// no clipping, no division by a vertex's w.
+lvec3 barycentrics_of_whole(const std::array<vec4, 3>& vertices, lvec2 place_ndc) {
     std::array<lvec3, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = {corners[i].x, corners[i].y, corners[i].w};
+    for (std::size_t i = 0; i < 3; ++i) p[i] = {vertices[i].x, vertices[i].y, vertices[i].w};
     const lvec3 ray(place_ndc, 1);
     const lvec3 shares(glm::dot(ray, glm::cross(p[1], p[2])), glm::dot(ray, glm::cross(p[2], p[0])),
                        glm::dot(ray, glm::cross(p[0], p[1])));
     return shares / (shares.x + shares.y + shares.z);
 }
 
-/// How far a piece may be from where its corners' weights say, in pixels: it is snapped to 1/256
-/// pixel, coming to the screen rounds four times, and clipping is off by up to 39 eps of the
+/// How far a piece may be from where its vertices' barycentrics say, in pixels: it is snapped to
+/// 1/256 pixel, coming to the screen rounds four times, and clipping is off by up to 39 eps of the
 /// greatest coordinate, over w (04_mvp_clip_math_test.cpp), in x or y and in w.
-real displacement_px(const std::array<vec4, 3>& corners, const ClippedTriangle& piece) {
+real displacement_px(const std::array<vec4, 3>& vertices, const ClippedTriangle& piece) {
     real greatest = 0, least_w = piece[0].position_clip.w;
-    for (const vec4 corner : corners)
+    for (const vec4 vertex : vertices)
         for (int axis = 0; axis < 4; ++axis)
-            greatest = std::max(greatest, std::abs(real{corner[axis]}));
-    for (const ClippedCorner& corner : piece)
-        least_w = std::min(least_w, real{corner.position_clip.w});
+            greatest = std::max(greatest, std::abs(real{vertex[axis]}));
+    for (const ClippedVertex& vertex : piece)
+        least_w = std::min(least_w, real{vertex.position_clip.w});
     return 1.0L / 512 + size.x * (2 * eps + 39 * eps * greatest / least_w);
 }
 
 }  // namespace
 
-TEST(Textures, Eq5_3_HardCase_PiecesHaveTheWeightsOfTheWholeTriangle) {
+TEST(Textures, Eq5_3_HardCase_PiecesHaveTheBarycentricsOfTheWholeTriangle) {
     AnyTriangle any(7);
     int pixels = 0, sharp = 0, across_near = 0, across_many = 0;
     for (int i = 0; i < 3000; ++i) {
-        std::array<vec4, 3> corners;
+        std::array<vec4, 3> vertices;
         unsigned outside = 0;
-        for (vec4& corner : corners) {
+        for (vec4& vertex : vertices) {
             const float x = any.between(-3, 3), y = any.between(-3, 3), z = any.between(-2, 2);
-            corner = {x, y, z, any.between(-1, 3)};
+            vertex = {x, y, z, any.between(-1, 3)};
             for (int plane = 0; plane < frustum_planes; ++plane)
-                outside |= static_cast<unsigned>(inside_by(plane, corner) < 0) << plane;
+                outside |= static_cast<unsigned>(plane_distance(plane, vertex) < 0) << plane;
         }
         int visited = 0;
-        for (const ClippedTriangle& piece : clip_triangle(corners)) {
-            std::array<vec3, 3> screen;
-            for (std::size_t k = 0; k < 3; ++k)
-                screen[k] = screen_from_clip(piece[k].position_clip, size);
-            const ScreenTriangle on_screen = snap_triangle(screen[0], screen[1], screen[2]);
-            if (!is_front_facing(on_screen)) continue;
-            const PerspectiveWeights perspective(on_screen, piece);
-            const real reach_px = displacement_px(corners, piece);
-            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-                const vec3 here = perspective.at(screen_weights).here;
-                // A quotient of linear functions is greatest and least in corners of a square.
+        for (const ClippedTriangle& piece : clip_triangle(vertices)) {
+            const auto [mesh, triangle, clipped, on_screen, depth, is_back_facing] =
+                projected(piece, size);
+            if (is_back_facing) continue;
+            const PerspectiveSetup setup = perspective_setup(on_screen, piece);
+            const real reach_px = displacement_px(vertices, piece);
+            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
+                const vec3 here = perspective_correct(setup, screen_barycentrics).here;
+                // A quotient of linear functions is greatest and least in the corners of a square.
                 lvec3 least(2), most(-2);
                 for (int corner = 0; corner < 4; ++corner) {
                     const lvec2 way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1);
                     const lvec2 place = (lvec2(pixel) + 0.5L + reach_px * way) / lvec2(size);
                     const lvec3 there =
-                        weights_of_whole(corners, {2 * place.x - 1, 1 - 2 * place.y});
+                        barycentrics_of_whole(vertices, {2 * place.x - 1, 1 - 2 * place.y});
                     least = glm::min(least, there), most = glm::max(most, there);
                 }
                 for (int k = 0; k < 3; ++k) {
-                    const real rounding = of_piece.weight * eps * std::abs(real{here[k]});
+                    const real rounding = of_piece.coordinate * eps * std::abs(real{here[k]});
                     ASSERT_TRUE(here[k] >= least[k] - rounding && here[k] <= most[k] + rounding)
                         << "seed 7, case " << i << ": " << here[k] << " is not in " << least[k]
                         << " to " << most[k];
@@ -452,40 +463,41 @@ TEST(Textures, Eq5_3_HardCase_PiecesHaveTheWeightsOfTheWholeTriangle) {
     EXPECT_GT(pixels, 100'000);
     EXPECT_GT(across_near, 50'000);
     EXPECT_GT(across_many, 50'000);
-    EXPECT_GT(sharp, 3 * pixels / 2) << "the tolerance of most weights is below 1/1000";
+    EXPECT_GT(sharp, 3 * pixels / 2) << "the tolerance of most barycentrics is below 1/1000";
 }
 
-TEST(Textures, Eq5_7_StepsOfTheWorkedExample) {
-    const FragmentWeights middle =
-        PerspectiveWeights(eighths, whole({1, 1, 3})).at({0.5f, 0, 0.5f});
+TEST(Textures, Eq5_7_DerivativesOfTheWorkedExample) {
+    const PerspectiveSetup setup = perspective_setup(eighths, whole({1, 1, 3}));
+    const FragmentBarycentrics middle = perspective_correct(setup, vec3(0.5f, 0, 0.5f));
     // Shares of 1/2, 0 and 1/6 that change by -1/8, 0 and 1/24 to the right: their sum, 2/3, by
     // -1/12. Downwards by -1/8, 1/8 and 0: their sum not at all.
     constexpr float tolerance = static_cast<float>(of_whole.step * eps * 0.5L);
-    EXPECT_NEAR(middle.step_x.x, -3.0f / 32, tolerance);
-    EXPECT_NEAR(middle.step_x.y, 0.0f, tolerance);
-    EXPECT_NEAR(middle.step_x.z, 3.0f / 32, tolerance);
-    EXPECT_NEAR(middle.step_y.x, -3.0f / 16, tolerance);
-    EXPECT_NEAR(middle.step_y.y, 3.0f / 16, tolerance);
-    EXPECT_NEAR(middle.step_y.z, 0.0f, tolerance);
+    EXPECT_NEAR(middle.ddx.x, -3.0f / 32, tolerance);
+    EXPECT_NEAR(middle.ddx.y, 0.0f, tolerance);
+    EXPECT_NEAR(middle.ddx.z, 3.0f / 32, tolerance);
+    EXPECT_NEAR(middle.ddy.x, -3.0f / 16, tolerance);
+    EXPECT_NEAR(middle.ddy.y, 3.0f / 16, tolerance);
+    EXPECT_NEAR(middle.ddy.z, 0.0f, tolerance);
 }
 
-TEST(Textures, Eq5_7_StepsLeadToTheNextPixelWhereThereIsNoPerspective) {
+TEST(Textures, Eq5_7_DerivativesLeadToTheNextPixelWhereThereIsNoPerspective) {
     AnyTriangle any(8);
     for (int i = 0; i < 200; ++i) {
         const ScreenTriangle on_screen = any.on_screen();
-        const PerspectiveWeights perspective(on_screen, whole(vec3(2)));
-        FragmentWeights last{};
+        const PerspectiveSetup setup = perspective_setup(on_screen, whole(vec3(2)));
+        FragmentBarycentrics last{};
         ivec2 last_pixel(-2);
-        fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-            const FragmentWeights weights = perspective.at(screen_weights);
+        fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
+            const FragmentBarycentrics barycentrics =
+                perspective_correct(setup, screen_barycentrics);
             const bool is_next = pixel == last_pixel + ivec2(1, 0);
-            for (int k = 0; k < 3 && is_next;
-                 ++k)  // both weights, and the step, which is not above 1
-                ASSERT_NEAR(weights.here[k] - last.here[k], last.step_x[k],
-                            static_cast<float>((2 * of_whole.weight + of_whole.step) * eps) *
-                                std::max(1.0f, 2 * std::abs(last.step_x[k])))
+            // Both barycentrics, and the derivative, which is not above 1.
+            for (int k = 0; k < 3 && is_next; ++k)
+                ASSERT_NEAR(barycentrics.here[k] - last.here[k], last.ddx[k],
+                            static_cast<float>((2 * of_whole.coordinate + of_whole.step) * eps) *
+                                std::max(1.0f, 2 * std::abs(last.ddx[k])))
                     << "seed 8, case " << i;
-            last = weights, last_pixel = pixel;
+            last = barycentrics, last_pixel = pixel;
         });
     }
 }

@@ -13,6 +13,7 @@
 #include "06_phong/light.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
+#include "06_phong/shading_variants.hpp"
 #include "support/any_size.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
@@ -47,7 +48,15 @@ testing::AssertionResult are_near(vec3 actual, lvec3 exact, lvec3 tolerance) {
     return testing::AssertionSuccess();
 }
 
-/// How unsure a lamp's light is: what it should be, and the bounds.
+/// How far unit_or(v) is off, in u. In the usual case the square is off by 3 u (a product, two
+/// sums), its root by half of that and one more, the quotient by one more, the product by one more:
+/// 4.5. Very short or long vectors are scaled first, which rounds twice more.
+real of_unit(lvec3 v) {
+    const real squared = glm::dot(v, v);
+    return squared > 1.001e-30L && squared < 0.999e30L ? 4.5L : 2.9L * 2;
+}
+
+/// What should arrive of a light, and how far it may be off.
 struct ExactIncoming {
     lvec3 toward, of_toward;
     real share, of_share;
@@ -55,7 +64,7 @@ struct ExactIncoming {
 
 /// t^2 (3 - 2t), and how far it is off where t is off by of_t. The curve rises by at most 3/2 of
 /// what t does; then 2 products and a difference.
-std::pair<real, real> exact_spot_share(real t, real of_t) {
+std::pair<real, real> exact_spot_attenuation(real t, real of_t) {
     t = std::min(std::max(real{0}, t), real{1});
     const real share = t * t * (3 - 2 * t);
     return {share, 1.5L * of_t + 3 * u * share};
@@ -63,20 +72,24 @@ std::pair<real, real> exact_spot_share(real t, real of_t) {
 
 ExactIncoming exact_incoming(const Light& light, vec3 position) {
     if (light.kind == LightKind::directional) return {lvec3(light.direction_world), lvec3(0), 1, 0};
-    // A difference and a product; scaling adds the length's 2 u, then 4.5 as in unit_or. What the
+    // A difference and a product; scaling adds the length's 2 u, then unit_or's own. What the
     // factor itself is off turns nothing.
-    const lvec3 way = (lvec3(light.position_world) - lvec3(position)) / real{light.half_distance};
-    const lvec3 toward = unit(way), of_toward = (2 + 2 + 4.5L) * u * sizes(toward);
+    const lvec3 to_light =
+        (lvec3(light.position_world) - lvec3(position)) / real{light.half_distance};
+    const lvec3 toward = unit(to_light),
+                of_toward = (2 + 2 + of_unit(to_light)) * u * sizes(toward);
     // The square: twice 3 u, and 3 of its sum. Then the sum with 1, and the quotient.
-    const real square = glm::dot(way, way), share = 1 / (1 + square);
+    const real square = glm::dot(to_light, to_light), share = 1 / (1 + square);
     const real of_share = u * share * (2 + 9 * square * share);
     if (light.kind == LightKind::point) return {toward, of_toward, share, of_share};
     const lvec3 shines = light.direction_world;
     const real width = real{light.cos_full} - light.cos_none;
     const real t = (-glm::dot(toward, shines) - light.cos_none) / width;
-    // The cosine's products, each 8.5 u and 3 of their sum; two differences, a quotient.
-    const real of_cosine = (8.5L + 3) * u * glm::dot(sizes(toward), sizes(shines));
-    const auto [spot, of_spot] = exact_spot_share(t, of_cosine / width + 3 * u * std::abs(t));
+    // The cosine's products, each as far off as `toward`, and 3 u of their sum; two differences, a
+    // quotient.
+    const real of_cosine =
+        glm::dot(of_toward, sizes(shines)) + 3 * u * glm::dot(sizes(toward), sizes(shines));
+    const auto [spot, of_spot] = exact_spot_attenuation(t, of_cosine / width + 3 * u * std::abs(t));
     return {toward, of_toward, share * spot, of_share * spot + of_spot * share + u * share * spot};
 }
 
@@ -101,27 +114,25 @@ TEST(Phong, Eq6_8_DirectionsOfVectorsOfAllSizes) {
         for (int i = 0; i < cases; ++i) {
             const vec3 v = any.vector();
             const lvec3 exact = unit(lvec3(v));
-            // The square is off by 3 u (a product, two sums), its root by half of that and one
-            // more, the quotient by one more, the product by one more: 4.5 u.
-            ASSERT_TRUE(are_near(unit_or(v, vec3(0)), exact, 4.5L * u * sizes(exact)))
+            ASSERT_TRUE(are_near(unit_or(v, vec3(0)), exact, of_unit(lvec3(v)) * u * sizes(exact)))
                 << "seed 1, case " << i << ", 10^+-" << size;
         }
     }
 }
 
-TEST(Phong, Eq6_6_AttenuationOverWaysOfAllSizes) {
+TEST(Phong, Eq6_6_AttenuationOverDistancesOfAllSizes) {
     AnySize any(2, decades);
     for (int i = 0; i < cases; ++i) {
-        const vec3 way = any.vector();
-        const real square = glm::dot(lvec3(way), lvec3(way)), exact = 1 / (1 + square);
+        const vec3 to_light = any.vector();
+        const real square = glm::dot(lvec3(to_light), lvec3(to_light)), exact = 1 / (1 + square);
         // 3 u of the square's part, a sum and a quotient.
-        ASSERT_TRUE(is_near(attenuation(way), exact,
+        ASSERT_TRUE(is_near(distance_attenuation(to_light), exact,
                             u * exact * (2 + 3 * square * exact) * of_higher_order))
             << "seed 2, case " << i;
     }
 }
 
-TEST(Phong, Eq6_7_SpotSharesBetweenNumbersOfAllSizes) {
+TEST(Phong, Eq6_7_SpotAttenuationBetweenNumbersOfAllSizes) {
     AnySize any(3, decades);
     for (int i = 0; i < cases; ++i) {
         const float none = any.number(), full = none + any.positive();
@@ -131,23 +142,24 @@ TEST(Phong, Eq6_7_SpotSharesBetweenNumbersOfAllSizes) {
         const real exact_t = (real{cosine} - none) / (real{full} - none);
         // Two differences and a quotient.
         const auto [exact, tolerance] =
-            exact_spot_share(exact_t, 3 * u * std::min(std::abs(exact_t), real{2}));
-        ASSERT_TRUE(is_near(spot_share(cosine, full, none), exact, tolerance * of_higher_order))
+            exact_spot_attenuation(exact_t, 3 * u * std::min(std::abs(exact_t), real{2}));
+        ASSERT_TRUE(
+            is_near(spot_attenuation(cosine, full, none), exact, tolerance * of_higher_order))
             << "seed 3, case " << i;
     }
 }
 
-TEST(Phong, Eq6_6_LightOfLampsOfAllSizes) {
+TEST(Phong, Eq6_6_LightOfPointLightsAndSpotlightsOfAllSizes) {
     AnySize any(4, decades);
     std::array<int, 3> seen{};
     for (int i = 0; i < 3 * cases; ++i) {
         Light light = any_light(any);
         const vec3 position = any.vector();
-        // Every other spot shines at the point, more or less; else hardly one would.
+        // Every other spotlight shines at the point, more or less; else hardly one would.
         if (light.kind == LightKind::spot && i % 2)
             light.direction_world = vec3(unit(unit(lvec3(position) - lvec3(light.position_world)) +
                                               0.1L * lvec3(light.direction_world)));
-        const Incoming actual = incoming_light(light, position);
+        const Incoming<float> actual = incoming_light(light, position);
         const ExactIncoming exact = exact_incoming(light, position);
         ASSERT_TRUE(are_near(actual.toward, exact.toward, exact.of_toward)) << "seed 4, case " << i;
         const lvec3 color = light.color;
@@ -177,7 +189,24 @@ TEST(Phong, Eq6_2_MirrorDirectionsOfVectorsOfAllSizes) {
 
 namespace {
 
+float highlight_cosine(Highlight highlight, const SurfacePoint<float>& point, vec3 toward_light) {
+    return highlight == Highlight::phong ? phong_cosine(point, toward_light)
+                                         : blinn_cosine(point, toward_light);
+}
+
+/// A highlight that is a single product.
+struct SquaredCosine {
+    Highlight highlight;
+    bool is_on = true;
+
+    float operator()(const SurfacePoint<float>& point, vec3 toward_light) const {
+        const float cosine = highlight_cosine(highlight, point, toward_light);
+        return cosine * cosine;
+    }
+};
+
 /// The highlight's cosine, and how far it may be off.
+/// @param of_l  How far l may be off.
 std::pair<real, real> exact_highlight_cosine(Highlight highlight, lvec3 n, lvec3 l, lvec3 of_l,
                                              lvec3 v) {
     if (highlight == Highlight::phong) {
@@ -190,7 +219,7 @@ std::pair<real, real> exact_highlight_cosine(Highlight highlight, lvec3 n, lvec3
     // A sum of two; scaled, which may turn it by what it is off, by its length; a dot product.
     const lvec3 sum = l + v, of_sum = u * sizes(sum) + of_l, h = unit(sum);
     const lvec3 of_h =
-        (of_sum + length_of(of_sum) * sizes(h)) / length_of(sum) + 4.5L * u * sizes(h);
+        (of_sum + length_of(of_sum) * sizes(h)) / length_of(sum) + of_unit(sum) * u * sizes(h);
     return {std::max(real{0}, glm::dot(n, h)),
             glm::dot(sizes(n), of_h) + 3 * u * glm::dot(sizes(n), sizes(h))};
 }
@@ -207,21 +236,21 @@ TEST(Phong, Eq6_3_HighlightsOfDirectionsOfAllSizes) {
         if (i % 3 == 1) v = vec3(unit(1e-3L * lvec3(v) - lvec3(l)));  // nearly opposite
         const auto [exact, tolerance] = exact_highlight_cosine(highlight, n, l, lvec3(0), v);
         // Directions are rounded, so the exact cosine may exceed 1, which the stage does not.
-        ASSERT_TRUE(is_near(highlight_cosine(highlight, n, l, v), std::min(exact, real{1}),
-                            tolerance * of_higher_order))
+        ASSERT_TRUE(is_near(highlight_cosine(highlight, {vec3(0), n, v}, l),
+                            std::min(exact, real{1}), tolerance * of_higher_order))
             << "seed 6, case " << i;
     }
 }
 
-TEST(Phong, Eq6_5_ReflectedLightOfLampsOfAllSizes) {
+TEST(Phong, Eq6_5_ReflectedLightOfLightsOfAllSizes) {
     AnySize any(7, decades);
     int lit = 0;
     for (int i = 0; i < cases; ++i) {
         const std::array lights = {any_light(any), any_light(any), any_light(any)};
-        const SurfacePoint point{any.vector(), any_direction(any), any_direction(any)};
+        const SurfacePoint<float> point{any.vector(), any_direction(any), any_direction(any)};
         const auto highlight = static_cast<Highlight>(i % 2);
-        const ReflectedLight actual = reflected_light(std::span(lights), point, true, highlight,
-                                                      [](float cosine) { return cosine * cosine; });
+        const ReflectedLight actual =
+            reflected_light(std::span<const Light>(lights), point, SquaredCosine{highlight});
         lvec3 diffuse(0), specular(0), of_diffuse(0), of_specular(0);
         bool is_sure = true;
         const lvec3 n = point.normal_world;
@@ -233,7 +262,7 @@ TEST(Phong, Eq6_5_ReflectedLightOfLampsOfAllSizes) {
                 glm::dot(sizes(n), of_toward) + 3 * u * glm::dot(sizes(n), sizes(toward));
             is_sure = is_sure && std::abs(cosine) > 1.01L * of_cosine;
             if (!(cosine > 0)) continue;
-            // The lamp's colour is a product; one more with the cosine, and three sums.
+            // The light's colour is a product; one more with the cosine, and three sums.
             const lvec3 color = share * lvec3(light.color);
             const lvec3 of_color = (of_share + 5 * u * share + 2 * least) * lvec3(light.color);
             diffuse += cosine * color;
@@ -261,9 +290,9 @@ TEST(Phong, Eq6_5_SumsOfColorsOfAllSizes) {
         material.ambient = any.vector(), material.diffuse = any.vector();
         material.specular = any.vector(), material.emission = any.vector();
         SurfaceColor color = surface_color(material);
-        const vec3 tint = any.vector(), around = any.vector();
+        const vec3 tint = any.vector(), ambient_light = any.vector();
         const ReflectedLight light{any.vector(), any.vector()};
-        const vec3 plain = unlit(color), sent = phong(color, around, light);
+        const vec3 plain = unlit(color), sent = phong(color, ambient_light, light);
         const SurfaceColor before = color;
         color.tint(tint);
         for (int c = 0; c < 3; ++c) {
@@ -275,7 +304,7 @@ TEST(Phong, Eq6_5_SumsOfColorsOfAllSizes) {
             ASSERT_TRUE(is_near(color.diffuse[c], kd * t, u * std::abs(kd * t)));
             ASSERT_TRUE(is_near(plain[c], kd + ke, u * std::abs(kd + ke)));
             Sum sum;
-            sum.add(ke), sum.add(real{before.ambient[c]} * around[c]);
+            sum.add(ke), sum.add(real{before.ambient[c]} * ambient_light[c]);
             sum.add(kd * light.diffuse[c]), sum.add(real{before.specular[c]} * light.specular[c]);
             // A product and three sums.
             ASSERT_TRUE(is_near(sent[c], sum.value, 4 * u * sum.of_sizes * of_higher_order))
@@ -296,7 +325,7 @@ struct ExactFace {
 /// product is off by 4 of them, in proportion to its terms. Scaling may turn it by that once more.
 ExactFace exact_face(const Mesh& mesh, const Triangle& triangle) {
     std::array<lvec3, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = mesh.positions[triangle.corners[i].position];
+    for (std::size_t i = 0; i < 3; ++i) p[i] = mesh.positions[triangle.vertices[i].position];
     const lvec3 s = p[1] - p[0], t = p[2] - p[0], normal = glm::cross(s, t);
     const lvec3 a = sizes(s), b = sizes(t);
     const lvec3 terms(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
@@ -333,9 +362,9 @@ TEST(Phong, Eq6_9_NormalsAndAnglesOfFacesOfAllSizes) {
                              exact.of_normal + u * sizes(exact.normal)))
             << "seed 9, case " << i;
         for (std::size_t k = 0; k < 3; ++k)
-            ASSERT_TRUE(is_near(corner_angle_radians(mesh, mesh.triangles[0], k), exact.angles[k],
+            ASSERT_TRUE(is_near(vertex_angle_radians(mesh, mesh.triangles[0], k), exact.angles[k],
                                 of_angle(exact.angles[k])))
-                << "seed 9, case " << i << ", corner " << k;
+                << "seed 9, case " << i << ", vertex " << k;
     }
 }
 
@@ -379,7 +408,7 @@ TEST(Phong, Eq6_9_MeansOfNormalsAroundPositionsOfAllSizes) {
         ASSERT_TRUE(are_near(actual, sum, of_sum)) << "seed 10, case " << i;
 
         complete_normals(mesh);
-        const vec3 completed = mesh.normals[mesh.triangles[0].corners[0].normal];
+        const vec3 completed = mesh.normals[mesh.triangles[0].vertices[0].normal];
         const lvec3 scaled = unit(lvec3(actual));  // within half an ulp and what double rounds
         ASSERT_TRUE(are_near(completed, scaled, 1.01L * u * sizes(scaled)))
             << "seed 10, case " << i;
@@ -393,12 +422,12 @@ TEST(Phong, Eq6_9_NormalsOfFilesOfAllSizes) {
         Mesh mesh = mesh_of({any.vector(), any.vector(), any.vector()}, {{0, 1, 2}});
         const std::array<vec3, 3> in_file = {any.vector(), any.vector(), any.vector()};
         mesh.normals = {in_file[2], in_file[1], in_file[0]};
-        for (std::uint32_t k = 0; k < 3; ++k) mesh.triangles[0].corners[k].normal = 2 - k;
+        for (std::uint32_t k = 0; k < 3; ++k) mesh.triangles[0].vertices[k].normal = 2 - k;
         complete_normals(mesh);
         ASSERT_EQ(mesh.normals.size(), 3u);
         for (std::size_t k = 0; k < 3; ++k) {
             const lvec3 exact = unit(lvec3(in_file[k]));
-            ASSERT_TRUE(are_near(mesh.normals[mesh.triangles[0].corners[k].normal], exact,
+            ASSERT_TRUE(are_near(mesh.normals[mesh.triangles[0].vertices[k].normal], exact,
                                  1.01L * u * sizes(exact)))
                 << "seed 11, case " << i;
         }

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "06_phong/normals.hpp"
-#include "common/obj.hpp"
+#include "common/model/obj.hpp"
 #include "support/look_up.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
@@ -24,7 +24,7 @@ using Quad = std::array<std::uint32_t, 4>;
 
 constexpr vec3 up(0, 1, 0);
 
-/// Quads cut along the diagonal from their first corner, or along the other one where a bit is set.
+/// Quads cut along the diagonal from their first vertex, or along the other one where a bit is set.
 Mesh cut(const std::vector<vec3>& positions, const std::vector<Quad>& quads, unsigned other) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t i = 0; i < quads.size(); ++i) {
@@ -58,18 +58,18 @@ Mesh ball(std::uint32_t segments) {
     for (std::uint32_t row = 0; row < segments; ++row)
         for (std::uint32_t column = 0; column < around; ++column) {
             const std::uint32_t next = (column + 1) % around;
-            // At a pole all columns are its first corner.
-            const auto corner = [&](std::uint32_t r, std::uint32_t c) {
+            // At a pole all columns are its first vertex.
+            const auto vertex = [&](std::uint32_t r, std::uint32_t c) {
                 return r * around + (r == 0 || r == segments ? 0 : c);
             };
             if (row > 0)
                 triangles.push_back(
-                    {corner(row, column), corner(row + 1, next), corner(row, next)});
+                    {vertex(row, column), vertex(row + 1, next), vertex(row, next)});
             if (row + 1 < segments)
                 triangles.push_back(
-                    {corner(row, column), corner(row + 1, column), corner(row + 1, next)});
+                    {vertex(row, column), vertex(row + 1, column), vertex(row + 1, next)});
             else
-                triangles.back() = {corner(row, column), corner(row + 1, 0), corner(row, next)};
+                triangles.back() = {vertex(row, column), vertex(row + 1, 0), vertex(row, next)};
         }
     return mesh_of(positions, triangles);
 }
@@ -77,7 +77,7 @@ Mesh ball(std::uint32_t segments) {
 }  // namespace
 
 TEST(Phong, Eq6_9_AngleCountsAndNotTheNumberOfTriangles) {
-    // The worked example: a square that is cut through the corner at 0, and beyond an edge along z
+    // The worked example: a square that is cut through the vertex at 0, and beyond an edge along z
     // one that is not, 45 degrees down.
     const float s = std::sqrt(0.5f);
     const Mesh mesh = cut({vec3(0), {-1, 0, 0}, {-1, 0, 1}, {0, 0, 1}, {s, -s, 1}, {s, -s, 0}},
@@ -97,8 +97,8 @@ TEST(Phong, Eq6_9_AngleCountsAndNotTheNumberOfTriangles) {
 TEST(Phong, Eq6_9_AnglesOfATriangle) {
     const Mesh mesh = mesh_of({vec3(0), {1, 0, 0}, {1, std::sqrt(3.0f), 0}}, {{0, 1, 2}});
     constexpr float degree = std::numbers::pi_v<float> / 180;
-    for (const auto& [corner, degrees] : {std::pair{0, 60.0f}, {1, 90.0f}, {2, 30.0f}})
-        EXPECT_NEAR(corner_angle_radians(mesh, mesh.triangles[0], static_cast<std::size_t>(corner)),
+    for (const auto& [vertex, degrees] : {std::pair{0, 60.0f}, {1, 90.0f}, {2, 30.0f}})
+        EXPECT_NEAR(vertex_angle_radians(mesh, mesh.triangles[0], static_cast<std::size_t>(vertex)),
                     degrees * degree, 2 * FLT_EPSILON);
 }
 
@@ -111,8 +111,8 @@ TEST(Phong, Eq6_9_FacesBeyondASharpEdgeDoNotCount) {
             cut({vec3(0), {-1, 0, 0}, {-1, 0, 1}, {0, 0, 1}, {across, down, 1}, {across, down, 0}},
                 {Quad{0, 1, 2, 3}, Quad{3, 4, 5, 0}}, 0);
         complete_normals(mesh);
-        const vec3 at_edge = mesh.normals[mesh.triangles[0].corners[0].normal];
-        const vec3 apart = mesh.normals[mesh.triangles[0].corners[1].normal];
+        const vec3 at_edge = mesh.normals[mesh.triangles[0].vertices[0].normal];
+        const vec3 apart = mesh.normals[mesh.triangles[0].vertices[1].normal];
         EXPECT_NEAR(degrees_between(at_edge, up), bend < 50 ? 0.5 * bend : 0, 1e-4) << bend;
         EXPECT_EQ(apart, up) << bend;
     }
@@ -138,9 +138,9 @@ TEST(Phong, Eq6_9_AnyCutOfPolygonsGivesTheSameNormals) {
             }
     }
     // And they are the roof's: the upper corners' normals lean out evenly.
-    const vec3 corner = normalize_or(first.at(0, up), up);
-    EXPECT_NEAR(corner.x, corner.z, 2 * FLT_EPSILON);
-    EXPECT_GT(corner.x, 0.1f);
+    const vec3 vertex = normalize_or(first.at(0, up), up);
+    EXPECT_NEAR(vertex.x, vertex.z, 2 * FLT_EPSILON);
+    EXPECT_GT(vertex.x, 0.1f);
 }
 
 TEST(Phong, Eq6_9_ABallIsRound) {
@@ -148,9 +148,9 @@ TEST(Phong, Eq6_9_ABallIsRound) {
     complete_normals(mesh);
     double worst = 0, worst_of_face = 0;
     for (const Triangle& triangle : mesh.triangles)
-        for (const Corner& corner : triangle.corners) {
-            const vec3 exact = mesh.positions[corner.position];
-            worst = std::max(worst, degrees_between(mesh.normals[corner.normal], exact));
+        for (const Vertex& vertex : triangle.vertices) {
+            const vec3 exact = mesh.positions[vertex.position];
+            worst = std::max(worst, degrees_between(mesh.normals[vertex.normal], exact));
             worst_of_face =
                 std::max(worst_of_face, degrees_between(face_normal(mesh, triangle), exact));
         }
@@ -164,33 +164,33 @@ TEST(Phong, HardCase_ACrateWithoutNormalsStaysSharp) {
     for (Mesh& mesh : crate.meshes) {
         std::vector<vec3> in_file;
         for (Triangle& triangle : mesh.triangles)
-            for (Corner& corner : triangle.corners) {
-                in_file.push_back(mesh.normals[corner.normal]);
-                corner.normal = no_index;
+            for (Vertex& vertex : triangle.vertices) {
+                in_file.push_back(mesh.normals[vertex.normal]);
+                vertex.normal = no_index;
             }
         complete_normals(mesh);
         ASSERT_EQ(mesh.normals.size(), in_file.size());
         std::size_t i = 0;
         for (const Triangle& triangle : mesh.triangles)
-            for (const Corner& corner : triangle.corners) {
-                EXPECT_EQ(mesh.normals[corner.normal], face_normal(mesh, triangle));
-                EXPECT_LT(degrees_between(mesh.normals[corner.normal], in_file[i++]), 1e-3);
+            for (const Vertex& vertex : triangle.vertices) {
+                EXPECT_EQ(mesh.normals[vertex.normal], face_normal(mesh, triangle));
+                EXPECT_LT(degrees_between(mesh.normals[vertex.normal], in_file[i++]), 1e-3);
             }
     }
 }
 
-TEST(Phong, HardCase_SomeCornersWithoutNormals) {
+TEST(Phong, HardCase_SomeVerticesWithoutNormals) {
     look_up("Eq. 6.9");
     // The file's normals stay, but for their length; the others are those of the faces around.
     Mesh mesh = mesh_of({vec3(0), {0, 0, 1}, {1, 0, 0}}, {{0, 1, 2}});
     mesh.normals = {{3, 4, 0}, vec3(0)};
-    mesh.triangles[0].corners[0].normal = 0;
-    mesh.triangles[0].corners[1].normal = 1;
+    mesh.triangles[0].vertices[0].normal = 0;
+    mesh.triangles[0].vertices[1].normal = 1;
     complete_normals(mesh);
     ASSERT_EQ(mesh.normals.size(), 3u);
-    EXPECT_EQ(mesh.normals[mesh.triangles[0].corners[0].normal], vec3(0.6f, 0.8f, 0));
-    EXPECT_EQ(mesh.normals[mesh.triangles[0].corners[1].normal], up);  // of length 0: the face's
-    EXPECT_EQ(mesh.normals[mesh.triangles[0].corners[2].normal], up);
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[0].normal], vec3(0.6f, 0.8f, 0));
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[1].normal], up);  // of length 0: the face's
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[2].normal], up);
 }
 
 TEST(Phong, HardCase_TrianglesOfNoAreaChangeNoNormals) {
@@ -219,8 +219,8 @@ TEST(Phong, HardCase_FacesThatCancel) {
     complete_normals(sheet);
     ASSERT_EQ(sheet.normals.size(), 6u);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(sheet.normals[sheet.triangles[0].corners[i].normal], up);
-        EXPECT_EQ(sheet.normals[sheet.triangles[1].corners[i].normal], -up);
+        EXPECT_EQ(sheet.normals[sheet.triangles[0].vertices[i].normal], up);
+        EXPECT_EQ(sheet.normals[sheet.triangles[1].vertices[i].normal], -up);
     }
 }
 
@@ -229,7 +229,7 @@ TEST(Phong, HardCase_NormalsOfTinyAndHugeFaces) {
     for (const float size : {1e-45f, 1e-40f, 1e-30f, 1e-19f, 1e19f, 1e30f, 3e38f}) {
         Mesh mesh =
             mesh_of({vec3(0), {size, 0, 0}, {size, size, 0}, {0, size, 0}}, {{0, 1, 2}, {0, 2, 3}});
-        EXPECT_NEAR(corner_angle_radians(mesh, mesh.triangles[0], 0), std::numbers::pi / 4,
+        EXPECT_NEAR(vertex_angle_radians(mesh, mesh.triangles[0], 0), std::numbers::pi / 4,
                     FLT_EPSILON);
         complete_normals(mesh);
         for (const vec3 normal : mesh.normals) EXPECT_EQ(normal, vec3(0, 0, 1)) << size;

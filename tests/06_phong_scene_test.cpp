@@ -12,32 +12,19 @@
 
 #include <gtest/gtest.h>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/lit_scene.hpp"
 #include "06_phong/shading_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/image_io.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/counters.hpp"
+#include "common/image/backdrop.hpp"
+#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
-#include "common/obj.hpp"
+#include "common/model/obj.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
+#include "support/lessons.hpp"
 #include "support/look_up.hpp"
 #include "support/picture_difference.hpp"
+#include "support/pictures.hpp"
 #include "support/printers.hpp"
-
-namespace lesson {
-#define main main_of_lesson
-#include "06_phong/main.cpp"
-#undef main
-}  // namespace lesson
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -45,33 +32,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path models = fs::path(RASTERBOOK_ASSETS) / "models";
-
-lesson::Options small_picture() {
-    lesson::Options options;
+lesson_06::Options small_picture() {
+    lesson_06::Options options;
     options.size = {320, 180};
     return options;
 }
 
-/// The picture before it is written, in light.
-Image<vec3> picture_of(const Scene& scene, const lesson::Options& options) {
+/// The image before it is written, linear.
+Image<vec3> picture_of(const Scene& scene, const lesson_06::Options& options) {
     NoCounters none;
-    return lesson::render(options, LitScene(scene, options), none);
+    return lesson_06::render(options, lesson_06::make_assets(scene, options), none);
 }
 
-Counters counters_of(const LitScene& scene, const lesson::Options& options) {
-    Counters counters;
-    lesson::render(options, scene, counters);
-    return counters;
-}
-
-std::uint64_t count(const Counters& counters, Counter counter) {
-    return counters.values[static_cast<std::size_t>(counter)];
-}
-
-bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+Drawn drawn_of(const PhongAssets& assets, const lesson_06::Options& options) {
+    return drawn(options, assets,
+                 [](auto&... arguments) { return lesson_06::render(arguments...); });
 }
 
 bool is_finite(const Image<vec3>& picture) {
@@ -107,8 +82,8 @@ Scene square_of(const std::string& material) {
 }
 
 /// Looks at the square from the front, and a little from the side.
-lesson::Options before_the_square() {
-    lesson::Options options = small_picture();
+lesson_06::Options before_the_square() {
+    lesson_06::Options options = small_picture();
     options.size = {160, 90};
     options.orbit.yaw_degrees = -20;
     return options;
@@ -143,15 +118,14 @@ constexpr std::array all_shadings = {Shading::flat, Shading::gouraud, Shading::p
 TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
     look_up("Eq. 6.5");
     const std::string map_of_highlights =
-        "Ks 1 1 1\nmap_Ks " + (models / "../textures/brick_specular.png").string() + "\n";
+        "Ks 1 1 1\nmap_Ks " + std::string(RASTERBOOK_ASSETS "/textures/brick_specular.png") + "\n";
     struct Row {
         Scene scene;
         bool has_light, has_highlights, has_textures;
     };
     for (const auto& [scene, has_light, has_highlights, has_textures] :
-         {Row{load_obj(models / "scene.obj"), true, true, true},
-          Row{load_obj(models / "crate.obj"), true, false, true},
-          Row{load_obj(models / "teapot.obj"), true, true, false},
+         {Row{loaded("scene.obj"), true, true, true}, Row{loaded("crate.obj"), true, false, true},
+          Row{loaded("teapot.obj"), true, true, false},
           Row{square_of("illum 0\nKs 1 1 1\n"), false, false, false},
           Row{square_of("illum 1\nKs 1 1 1\n"), true, false, false},
           Row{square_of("illum 2\nKs 1 1 1\n"), true, true, false},
@@ -161,26 +135,26 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
           Row{square_of("illum 2\n" + map_of_highlights), true, true, true},
           Row{square_of(map_of_highlights + "Ks 0 0 0\n"), true, false, false},
           Row{square_of("illum 2\nKs 0 0 1e-30\n"), true, true, false}}) {
-        lesson::Options options = small_picture();
+        lesson_06::Options options = small_picture();
         options.size /= 2;
-        const LitScene as_called_for(scene, options);
+        const PhongAssets as_called_for = lesson_06::make_assets(scene, options);
         options.shading.all_effects = true;
-        const LitScene with_all(scene, options);
+        const PhongAssets with_all = lesson_06::make_assets(scene, options);
         for (const Shading shading : all_shadings) {
             options.shading.shading = shading;
-            const Counters counters = counters_of(as_called_for, options);
-            const auto shaded = count(counters, Counter::fragments_shaded);
+            const Drawn usual = drawn_of(as_called_for, options);
+            const auto shaded = usual.count(Counter::fragments_shaded);
             EXPECT_GT(shaded, 1000u);
-            EXPECT_EQ(count(counters, Counter::fragments_lit), has_light ? shaded : 0);
-            EXPECT_EQ(count(counters, Counter::highlights) > 0, has_highlights);
-            EXPECT_LE(count(counters, Counter::highlights), shaded);
-            EXPECT_EQ(count(counters, Counter::texture_samples) > 0, has_textures);
-            EXPECT_LE(count(counters, Counter::texture_samples), shaded);
+            EXPECT_EQ(usual.count(Counter::fragments_lit), has_light ? shaded : 0);
+            EXPECT_EQ(usual.count(Counter::highlights) > 0, has_highlights);
+            EXPECT_LE(usual.count(Counter::highlights), shaded);
+            EXPECT_EQ(usual.count(Counter::texture_samples) > 0, has_textures);
+            EXPECT_LE(usual.count(Counter::texture_samples), shaded);
 
-            const Counters all = counters_of(with_all, options);
-            EXPECT_EQ(count(all, Counter::fragments_lit), has_light ? shaded : 0);
-            EXPECT_EQ(count(all, Counter::highlights), has_light ? shaded : 0);
-            EXPECT_EQ(count(all, Counter::texture_samples), has_light ? 2 * shaded : shaded);
+            const Drawn all = drawn_of(with_all, options);
+            EXPECT_EQ(all.count(Counter::fragments_lit), has_light ? shaded : 0);
+            EXPECT_EQ(all.count(Counter::highlights), has_light ? shaded : 0);
+            EXPECT_EQ(all.count(Counter::texture_samples), has_light ? 2 * shaded : shaded);
         }
     }
 }
@@ -188,23 +162,23 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
 TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
     look_up("Eq. 6.5");
     const std::vector<std::pair<const char*, Scene>> scenes = {
-        {"scene", load_obj(models / "scene.obj")},
-        {"crate", load_obj(models / "crate.obj")},
-        {"teapot", load_obj(models / "teapot.obj")},
-        {"scene_bumpy", load_obj(models / "scene_bumpy.obj")},
+        {"scene", loaded("scene.obj")},
+        {"crate", loaded("crate.obj")},
+        {"teapot", loaded("teapot.obj")},
+        {"scene_bumpy", loaded("scene_bumpy.obj")},
         {"illum", squares_of_illum_0_1_2("", "")}};
     NoCounters none;
     for (const auto& [name, scene] : scenes) {
-        lesson::Options options = small_picture();
-        const LitScene as_called_for(scene, options);
+        lesson_06::Options options = small_picture();
+        const PhongAssets as_called_for = lesson_06::make_assets(scene, options);
         options.shading.all_effects = true;
-        const LitScene with_all(scene, options);
+        const PhongAssets with_all = lesson_06::make_assets(scene, options);
         for (const Shading shading : all_shadings)
             for (const Highlight highlight : {Highlight::phong, Highlight::blinn}) {
                 options.shading.shading = shading;
                 options.shading.highlight = highlight;
-                const Image<vec3> picture = lesson::render(options, as_called_for, none);
-                EXPECT_TRUE(are_the_same_bits(picture, lesson::render(options, with_all, none)))
+                const Image<vec3> picture = lesson_06::render(options, as_called_for, none);
+                EXPECT_TRUE(are_the_same_bits(picture, lesson_06::render(options, with_all, none)))
                     << name << ", shading " << static_cast<int>(shading);
                 EXPECT_FALSE(is_backdrop(picture)) << name;
             }
@@ -237,7 +211,7 @@ TEST(Phong, HardCase_IllumDecides) {
 TEST(Phong, HardCase_AmbientOfOneAsExportersWriteIt) {
     look_up("Eq. 6.5");
     for (const char* model : {"scene.obj", "teapot.obj"}) {
-        Scene scene = load_obj(models / model);
+        Scene scene = loaded(model);
         for (Material& material : scene.materials) material.ambient = material.diffuse;
         const Image<vec3> as_diffuse = picture_of(scene, small_picture());
         for (Material& material : scene.materials) material.ambient = vec3(1);
@@ -318,8 +292,8 @@ TEST(Phong, HardCase_BacksOfFaces) {
     // A square from behind looks as one that is named the other way round from the front.
     Scene scene = square_of("Kd 0.8 0.6 0.4\nKs 0.5 0.5 0.5\nNs 20\n"), turned = scene;
     Mesh& mesh = turned.meshes[0];
-    for (Triangle& triangle : mesh.triangles) std::swap(triangle.corners[1], triangle.corners[2]);
-    lesson::Options options = before_the_square();
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle.vertices[1], triangle.vertices[2]);
+    lesson_06::Options options = before_the_square();
     options.orbit.yaw_degrees = -150;
     EXPECT_TRUE(is_backdrop(picture_of(scene, options)));
     for (const Shading shading : all_shadings)
@@ -352,7 +326,7 @@ TEST(Phong, HardCase_MoreLightThanAFileHolds) {
 
 TEST(Phong, HardCase_ModelsOfAllSizes) {
     look_up("Eq. 6.6");
-    const Scene scene = load_obj(models / "teapot.obj");
+    const Scene scene = loaded("teapot.obj");
     const auto scaled = [&](float factor) {
         Scene other = scene;
         for (Mesh& mesh : other.meshes) {
@@ -365,7 +339,7 @@ TEST(Phong, HardCase_ModelsOfAllSizes) {
         for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
             if (shading == Shading::flat && kind != LightKind::point)
                 continue;  // light is the same
-            lesson::Options options = small_picture();
+            lesson_06::Options options = small_picture();
             options.size = {160, 90};
             options.shading.shading = shading;
             options.shading.key_light = kind;
@@ -388,7 +362,7 @@ TEST(Phong, HardCase_ModelsOfAllSizes) {
 
 TEST(Phong, HardCase_NormalsOfTheFileAreTurnedToLengthOne) {
     look_up("Eq. 6.9");
-    Scene scene = load_obj(models / "teapot.obj");
+    Scene scene = loaded("teapot.obj");
     const Image<vec3> expected = picture_of(scene, small_picture());
     for (Mesh& mesh : scene.meshes)
         for (std::size_t i = 0; i < mesh.normals.size(); ++i)

@@ -88,7 +88,7 @@ TEST(Phong, HardCase_SpecialNumbersHaveADirectionOrNone) {
     }
 }
 
-TEST(Phong, HardCase_SpecialNumbersOfLamps) {
+TEST(Phong, HardCase_SpecialNumbersOfLights) {
     look_up("Eq. 6.6");
     Mix mix(2);
     for (int i = 0; i < cases; ++i) {
@@ -96,7 +96,7 @@ TEST(Phong, HardCase_SpecialNumbersOfLamps) {
         vec3 position = mix.any_three();  // infinite ones, too
         for (int axis = 0; axis < 3; ++axis)
             if (std::isnan(position[axis])) position[axis] = 0;
-        const Incoming incoming = incoming_light(light, position);
+        const Incoming<float> incoming = incoming_light(light, position);
         ASSERT_TRUE(is_direction(incoming.toward)) << "seed 2, case " << i;
         ASSERT_TRUE(are_within("light", incoming.color, 0, 10)) << "seed 2, case " << i;
     }
@@ -106,10 +106,12 @@ TEST(Phong, HardCase_SpecialNumbersOfHighlights) {
     look_up("Eq. 6.3");
     Mix mix(3);
     for (int i = 0; i < cases; ++i) {
-        const auto highlight = static_cast<Highlight>(mix.below(2));
         // Not even of length 1.
-        const float cosine =
-            highlight_cosine(highlight, mix.any_three(), mix.any_three(), mix.any_three());
+        const SurfacePoint<float> point{vec3(0), mix.any_three(), mix.any_three()};
+        const vec3 toward_light = mix.any_three();
+        const auto highlight = static_cast<Highlight>(mix.below(2));
+        const float cosine = highlight == Highlight::phong ? phong_cosine(point, toward_light)
+                                                           : blinn_cosine(point, toward_light);
         ASSERT_TRUE(cosine >= 0 && cosine <= 1) << "seed 3, case " << i << ": " << cosine;
         const auto power = static_cast<Power>(mix.below(4));
         const float shininess = mix.amount();
@@ -126,10 +128,15 @@ TEST(Phong, HardCase_SpecialNumbersOfReflectedLight) {
     for (int i = 0; i < cases; ++i) {
         const std::span lights = some_lights.two(mix);
         const float shininess = mix.amount();
-        const SurfacePoint point{mix.place(), mix.direction(), mix.direction()};
+        const SurfacePoint<float> point{mix.place(), mix.direction(), mix.direction()};
+        const auto highlight = static_cast<Highlight>(mix.below(2));
         const ReflectedLight light = reflected_light(
-            lights, point, true, static_cast<Highlight>(mix.below(2)),
-            [&](float cosine) { return power_as(Power::in_float, cosine, shininess); });
+            lights, point, VariantHighlight{true, shininess, highlight, Power::polynomial});
+        if (highlight == Highlight::phong) {
+            ASSERT_EQ(reflected_light(lights, point, PhongHighlight{true, shininess}).specular,
+                      light.specular)
+                << "seed 4, case " << i;
+        }
         constexpr float most = 2 * 10 * (1 + 4 * FLT_EPSILON);  // directions may be a bit long
         ASSERT_TRUE(are_within("diffuse", light.diffuse, 0, most)) << "seed 4, case " << i;
         ASSERT_TRUE(are_within("specular", light.specular, 0, most)) << "seed 4, case " << i;
@@ -157,7 +164,7 @@ TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
         mesh.positions = {mix.place(), mix.place(), mix.place()};
         mesh.normals = {mix.any_three(), mix.any_three(), mix.any_three()};
         for (std::uint32_t k = 0; k < 3; ++k)
-            mesh.triangles[0].corners[k].normal = mix.below(16) == 0 ? no_index : k;
+            mesh.triangles[0].vertices[k].normal = mix.below(16) == 0 ? no_index : k;
         complete_normals(mesh);
         for (const vec3 normal : mesh.normals)
             ASSERT_TRUE(is_direction(normal)) << "seed 5, case " << i;
@@ -168,7 +175,7 @@ TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
         variant.power = static_cast<Power>(mix.below(4));
         variant.normals = static_cast<NormalScaling>(mix.below(3));
         triangle.material().shininess = mix.amount();
-        // In the triangle; a pixel's centre, its border, a corner.
+        // In the triangle; a pixel's centre, its border, a vertex.
         const float x = mix.up_to(1), y = mix.up_to(1 - x);
         const std::span lights = some_lights.two(mix);
         const ReflectedLight light =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outline by edges in depth and normals: on pictures made by hand, and on planes however steep.
+// Edge detection in depth and normals: on pictures made by hand, and on planes of any slope.
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "07_toon/outline.hpp"
-#include "common/obj.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
 #include "support/toon_pictures.hpp"
@@ -26,14 +26,14 @@ const Camera camera{vec3(0), mat4(1), 1, 1, 100};
 constexpr vec3 toward_eye(0, 0, 1);
 constexpr vec3 white(1);
 
-/// What is stored for a point at this distance: Eq. 4.8 and 4.9 in long double.
+/// The depth of a point at this distance: Eq. 4.8 and 4.9 in long double.
 float depth_at(long double distance, const Camera& from) {
     const long double near = from.near, far = from.far;
     const long double ndc = (far + near - 2 * far * near / distance) / (far - near);
     return static_cast<float>((ndc + 1) / 2);
 }
 
-/// A picture by hand: distances, and normals.
+/// A picture made by hand: distances and normals.
 struct ByHand {
     DepthBuffer depth;
     Image<vec3> normals, color;
@@ -93,11 +93,11 @@ TEST(Toon, Eq7_11_IsOneOverTheDistance) {
         const float depth = depth_at(distance, some);
         if (depth == DepthBuffer::cleared) continue;
         // The depth's rounding, half an ulp of 1, and three of 1 / near.
-        ASSERT_NEAR(nearness(depth, some) * some.near, some.near / distance, 3 * FLT_EPSILON)
+        ASSERT_NEAR(inverse_w(depth, some) * some.near, some.near / distance, 3 * FLT_EPSILON)
             << "seed 1, case " << i;
     }
-    EXPECT_EQ(nearness(0, camera), 1);
-    EXPECT_EQ(nearness(DepthBuffer::cleared, camera), 0);
+    EXPECT_EQ(inverse_w(0, camera), 1);
+    EXPECT_EQ(inverse_w(DepthBuffer::cleared, camera), 0);
 }
 
 TEST(Toon, Eq7_12_IsZeroForPlanesAndMeasuresBends) {
@@ -214,8 +214,8 @@ TEST(Toon, Eq7_14_RoundingDecidesNothingAtBoxes) {
         std::ranges::sort(angles);
         const vec2 middle = vec2(size) * 0.5f + 4.0f * vec2(any(random), any(random));
         const auto side_at = [&](ivec2 p) {
-            const vec2 way = vec2(p) + 0.5f - middle;
-            float angle = std::atan2(way.y, way.x);
+            const vec2 from_middle = vec2(p) + 0.5f - middle;
+            float angle = std::atan2(from_middle.y, from_middle.x);
             if (angle < 0) angle += glm::radians(360.0f);
             const auto sector = std::ranges::upper_bound(angles, angle) - angles;
             return sector % 3 == 2 && i % 2 ? 3 : static_cast<int>(sector % 3);
@@ -317,11 +317,11 @@ TEST(Toon, Eq7_14_PicturesThatAreTooSmall) {
 
 TEST(Toon, HardCase_SteepPlanesHaveNoEdges) {
     look_up("Eq. 7.12");
-    Scene floor = load_obj(models / "floor_checker.obj");
+    Scene floor = loaded("floor_checker.obj");
     int steep = 0, on_floor = 0;
     for (const float pitch : {0.5f, 1.0f, 2.0f, 5.0f, 20.0f, 90.0f})
         for (const float yaw : {0.0f, -30.0f}) {
-            lesson::Options options = small_toon();
+            lesson_07::Options options = small_toon();
             options.size = {640, 360};
             options.orbit = {yaw, pitch, 0.3f, 36};
             options.shading.outline = Outline::none;
@@ -339,11 +339,12 @@ TEST(Toon, HardCase_SteepPlanesHaveNoEdges) {
             EXPECT_EQ(inked, 0) << pitch << ", " << yaw;
         }
     EXPECT_GT(on_floor, 500'000);
-    // The first difference would ink them: seen so flat, a pixel farther is more than 2% farther.
-    const auto near_at = [](ivec2 p) { return 1.0f / 50 + 0.001f * static_cast<float>(p.y); };
-    const auto as_vector = [&](ivec2 p) { return vec3(near_at(p), 0, 0); };
-    steep += sobel(as_vector, {0, 1}).x > 0.02f * near_at(ivec2(0));
-    steep += second_difference(near_at, {0, 1}) > 0.02f * near_at(ivec2(0));
+    // The first difference would ink them: at such a grazing angle the next pixel is more than 2%
+    // farther away.
+    const auto inverse_w_at = [](ivec2 p) { return 1.0f / 50 + 0.001f * static_cast<float>(p.y); };
+    const auto as_vector = [&](ivec2 p) { return vec3(inverse_w_at(p), 0, 0); };
+    steep += sobel(as_vector, {0, 1}).x > 0.02f * inverse_w_at(ivec2(0));
+    steep += second_difference(inverse_w_at, {0, 1}) > 0.02f * inverse_w_at(ivec2(0));
     EXPECT_EQ(steep, 1);
 }
 
@@ -353,7 +354,7 @@ TEST(Toon, HardCase_EdgesAreAsWideAtAnyDistanceAndSize) {
     for (const ivec2 size : {ivec2(320, 180), ivec2(640, 360)})
         for (const float distance : {2.5f, 5.0f})
             for (const float width : {2.0f, 6.0f}) {
-                lesson::Options options;
+                lesson_07::Options options;
                 options.size = size;
                 options.orbit = {0, 0, distance, 36};  // one face, straight ahead
                 options.shading.outline = Outline::none;

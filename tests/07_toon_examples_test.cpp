@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The worked examples of the derivation with its own numbers, and what it says of rims and balls.
+// The worked examples of the derivation with its own numbers, and its claims about rims and balls.
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -19,9 +20,9 @@ using namespace rasterbook::test;
 
 namespace {
 
-/// A cube as a camera without perspective would see it: from far away, through a narrow view.
-lesson::Options before_the_cube(float yaw_degrees) {
-    lesson::Options options;
+/// A cube almost in orthographic projection: from far away, with a small field of view.
+lesson_07::Options before_the_cube(float yaw_degrees) {
+    lesson_07::Options options;
     options.size = {400, 300};
     options.orbit = {yaw_degrees, 0, 200, 0.4f};
     options.shading.outline = Outline::hull;
@@ -45,17 +46,17 @@ TEST(Toon, Eq7_1_WorkedExample) {
 }
 
 TEST(Toon, Eq7_2_WorkedExample) {
-    EXPECT_EQ(band_of(0.1f, 4), 0);
-    EXPECT_EQ(band_of(std::nextafter(0.25f, 0.0f), 4), 0);
-    EXPECT_EQ(band_of(0.25f, 4), 1);
-    EXPECT_EQ(band_of(0.7f, 4), 2);
-    EXPECT_EQ(band_of(0.75f, 4), 3);
-    EXPECT_EQ(band_of(2.4f, 4), 3);
-    EXPECT_EQ(band_of(std::numeric_limits<float>::quiet_NaN(), 4), 0);
+    EXPECT_EQ(tone_of(0.1f, 4), 0);
+    EXPECT_EQ(tone_of(std::nextafter(0.25f, 0.0f), 4), 0);
+    EXPECT_EQ(tone_of(0.25f, 4), 1);
+    EXPECT_EQ(tone_of(0.7f, 4), 2);
+    EXPECT_EQ(tone_of(0.75f, 4), 3);
+    EXPECT_EQ(tone_of(2.4f, 4), 3);
+    EXPECT_EQ(tone_of(std::numeric_limits<float>::quiet_NaN(), 4), 0);
     // In float, ten times the float below 7/10 is 7.
     const float rounded = 0.7f * 10;
     EXPECT_EQ(rounded, 7);
-    EXPECT_EQ(band_of(0.7f, 10), 6);
+    EXPECT_EQ(tone_of(0.7f, 10), 6);
 }
 
 TEST(Toon, Eq7_4_WorkedExample) {
@@ -73,9 +74,10 @@ TEST(Toon, Eq7_4_WorkedExample) {
 }
 
 TEST(Toon, Eq7_5_ExamplesOnAndBesideAThreshold) {
-    EXPECT_NEAR(smoothly_banded(0.25f, 0.1f, 4), 1 / 6.0, FLT_EPSILON);
-    EXPECT_NEAR(smoothly_banded(0.27f, 0.1f, 4), 0.7 / 3, 2 * FLT_EPSILON);  // 0.27f and 0.1f, too
-    EXPECT_NEAR(smoothly_banded(0.31f, 0.1f, 4), 1 / 3.0, FLT_EPSILON);
+    EXPECT_NEAR(smoothly_quantised(0.25f, 0.1f, 4), 1 / 6.0, FLT_EPSILON);
+    EXPECT_NEAR(smoothly_quantised(0.27f, 0.1f, 4), 0.7 / 3,
+                2 * FLT_EPSILON);  // 0.27f and 0.1f, too
+    EXPECT_NEAR(smoothly_quantised(0.31f, 0.1f, 4), 1 / 3.0, FLT_EPSILON);
 }
 
 TEST(Toon, Eq7_5_SlantedBordersAreOffByAnEighth) {
@@ -105,7 +107,7 @@ TEST(Toon, Eq7_5_SlantedBordersAreOffByAnEighth) {
 }
 
 TEST(Toon, Eq7_7_WorkedExample) {
-    // A ray from (0, 0, 5) at an angle to the way to the centre of the sphere of radius 1.
+    // A ray from (0, 0, 5) at an angle to the direction to the centre of the sphere of radius 1.
     const auto is_ink = [](double degrees) {
         const dvec3 eye(0, 0, 5);
         const dvec3 ray(std::sin(glm::radians(degrees)), 0, -std::cos(glm::radians(degrees)));
@@ -125,8 +127,8 @@ TEST(Toon, Eq7_7_WorkedExample) {
 TEST(Toon, Eq7_8_WorkedExample) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
-    mesh.triangles = {{{Corner{0}, Corner{1}, Corner{2}}, 0},   // its normal is (1, 0, 0)
-                      {{Corner{0}, Corner{2}, Corner{3}}, 0}};  // and that is (0, 1, 0)
+    mesh.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0},   // its normal is (1, 0, 0)
+                      {{Vertex{0}, Vertex{2}, Vertex{3}}, 0}};  // and that is (0, 1, 0)
     const vec3 normal = hull_normals(mesh)[0];
     EXPECT_NEAR(normal.x, std::sqrt(0.5), FLT_EPSILON);
     EXPECT_NEAR(normal.y, std::sqrt(0.5), FLT_EPSILON);
@@ -153,13 +155,13 @@ TEST(Toon, Eq7_9_WorkedExample) {
 TEST(Toon, Eq7_9_RimsOfACube) {
     const Scene cube = scene_of_one(cube_mesh(true));
     const float width = 24;
-    // Face-on: its corners go along the diagonals.
-    const lesson::Options face_on = before_the_cube(0);
+    // Face-on: its vertices move along the diagonals.
+    const lesson_07::Options face_on = before_the_cube(0);
     const Image<Seen> square = seen_in(toon_picture(cube, face_on));
     for (const int x : {180, 200, 220})
         EXPECT_NEAR(rim_above(square, x), width / std::sqrt(2), 1) << x;
-    // Edge-on: all of the width above the middle edge, less and less towards the outer corners,
-    // which go along (sqrt(2), 1).
+    // Edge-on: the full width above the middle edge, less and less towards the outer vertices,
+    // which move along (sqrt(2), 1).
     const Image<Seen> edge_on = seen_in(toon_picture(cube, before_the_cube(45)));
     int left = 0;
     while (left < 200 && edge_on[{left, 150}] != Seen::body) ++left;
@@ -172,13 +174,13 @@ TEST(Toon, Eq7_9_RimsOfACube) {
 TEST(Toon, Eq7_10_WorkedExample) {
     Mesh mesh;
     mesh.positions = {{0, 0, -2}, {1, 0, -2}, {0, 1, -2}};
-    EXPECT_FALSE(is_seen_from_behind(mesh, {{Corner{0}, Corner{1}, Corner{2}}, 0}, vec3(0)));
-    EXPECT_TRUE(is_seen_from_behind(mesh, {{Corner{0}, Corner{2}, Corner{1}}, 0}, vec3(0)));
+    EXPECT_FALSE(is_seen_from_behind(mesh, {{Vertex{0}, Vertex{1}, Vertex{2}}, 0}, vec3(0)));
+    EXPECT_TRUE(is_seen_from_behind(mesh, {{Vertex{0}, Vertex{2}, Vertex{1}}, 0}, vec3(0)));
 }
 
 TEST(Toon, Eq7_11_WorkedExample) {
     const Camera camera{vec3(0), mat4(1), 1, 1, 3};
-    EXPECT_NEAR(nearness(0.5f, camera), 2 / 3.0, FLT_EPSILON);
+    EXPECT_NEAR(inverse_w(0.5f, camera), 2 / 3.0, FLT_EPSILON);
 }
 
 TEST(Toon, Eq7_12_WorkedExample) {
@@ -187,9 +189,9 @@ TEST(Toon, Eq7_12_WorkedExample) {
         return second_difference([&](ivec2 p) { return of_column(column + p.x); }, x);
     };
     // Eight pixels of a floor, from w = 1 to w = 3.
-    const auto near_at = [](int i) { return 1 - static_cast<float>(i) / 12; };
-    const auto distance_at = [&](int i) { return 1 / near_at(i); };
-    for (int i = 1; i < 8; ++i) EXPECT_NEAR(bend_of(near_at, i), 0, 4 * FLT_EPSILON) << i;
+    const auto inverse_w_at = [](int i) { return 1 - static_cast<float>(i) / 12; };
+    const auto distance_at = [&](int i) { return 1 / inverse_w_at(i); };
+    for (int i = 1; i < 8; ++i) EXPECT_NEAR(bend_of(inverse_w_at, i), 0, 4 * FLT_EPSILON) << i;
     EXPECT_NEAR(bend_of(distance_at, 1), 0.018, 0.0005);
     EXPECT_NEAR(bend_of(distance_at, 2), 0.024, 0.0005);
     EXPECT_NEAR(bend_of(distance_at, 3), 0.033, 0.0005);
@@ -216,7 +218,7 @@ TEST(Toon, HardCase_ASheetSeenFromBehindFacesTheEye) {
     Scene sheet = scene_of_one(cube_mesh(true));
     sheet.meshes[0].triangles.erase(sheet.meshes[0].triangles.begin(),
                                     sheet.meshes[0].triangles.end() - 2);  // z = 1 is left
-    lesson::Options options = before_the_cube(180);
+    lesson_07::Options options = before_the_cube(180);
     options.shading.outline = Outline::facing;
     options.shading.two_sided = true;
     const Image<Seen> seen = seen_in(toon_picture(sheet, options));
@@ -233,7 +235,7 @@ TEST(Toon, HardCase_TheHullAlsoDrawsLinesWithinThePicture) {
         for (vec3& position : small.positions)
             position = 0.3f * position + vec3(0, 0, is_apart ? 1.6f : 1);
         scene.meshes.push_back(small);
-        lesson::Options options = before_the_cube(0);
+        lesson_07::Options options = before_the_cube(0);
         options.shading.outline_width_px = 4;
         const Image<Seen> seen = seen_in(toon_picture(scene, options));
         int within = 0;
@@ -246,8 +248,8 @@ TEST(Toon, HardCase_TheHullAlsoDrawsLinesWithinThePicture) {
 }
 
 TEST(Toon, HardCase_SmallBallsAreInkAllOver) {
-    look_up("Eq. 7.14, small round things");
-    // Balls without perspective, of R pixels' radius, with lines of 2 r pixels.
+    look_up("Eq. 7.14, small round bodies");
+    // Balls in orthographic projection, of radius R pixels, with lines of 2 r pixels.
     const Camera camera{vec3(0), mat4(1), 1, 1, 100};
     for (const int r : {1, 2, 3})
         for (const auto& [radius_over_r, is_all_ink] : {std::pair{6.2f, true}, {6.35f, false}}) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The outlines by the facing ratio and by a hull: how wide they are, and where they are missing.
-#include <algorithm>
+// The outlines by the facing ratio and by the inverted hull: how wide they are, and where they are
+// missing.
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "07_toon/outline.hpp"
-#include "common/obj.hpp"
 #include "support/lit_sphere.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
@@ -21,22 +22,22 @@ using namespace rasterbook::test;
 
 namespace {
 
-const Scene& sphere() {  // of radius 1; its corners lie on the sphere, its sides .0003 inside
+const Scene& sphere() {  // of radius 1; its vertices lie on the sphere, its faces .0003 inside
     static const Scene scene = scene_of_one(sphere_mesh(128, 256));
     return scene;
 }
 
 /// Seen from `distance` in its radii, so that it is in the middle of the picture.
-lesson::Options before_the_sphere(float distance, ivec2 size) {
-    lesson::Options options;
+lesson_07::Options before_the_sphere(float distance, ivec2 size) {
+    lesson_07::Options options;
     options.size = size;
-    // In radii of its box, of which the corners are not on the sphere.
+    // In radii of its bounding box, whose corners are not on the sphere.
     options.orbit = {-30, 27, distance / sphere().bounds().radius(), 36};
     return options;
 }
 
 /// The radius of a cone around the way to the middle of the picture, in pixels.
-double radius_px(double sine, const lesson::Options& options) {
+double radius_px(double sine, const lesson_07::Options& options) {
     const double tangent = sine / std::sqrt(1 - sine * sine);
     return options.size.y / 2.0 * tangent / std::tan(glm::radians(36.0) / 2);
 }
@@ -58,9 +59,9 @@ TEST(Toon, Eq7_7_RingOnASphere) {
     for (const ivec2 size : {ivec2(320, 180), ivec2(640, 360), ivec2(900, 500)})
         for (const float distance : {4.0f, 8.0f})
             for (const float least : {0.1f, 0.35f, 0.7f}) {
-                lesson::Options options = before_the_sphere(distance, size);
+                lesson_07::Options options = before_the_sphere(distance, size);
                 options.shading.outline = Outline::facing;
-                options.shading.least_facing = least;
+                options.shading.min_facing = least;
                 const Image<Seen> seen = seen_in(toon_picture(sphere(), options));
                 const double outer = radius_px(1 / distance, options);
                 const double inner = radius_px(std::sqrt(1 - least * least) / distance, options);
@@ -77,7 +78,7 @@ TEST(Toon, Eq7_7_RingOnASphere) {
 TEST(Toon, HardCase_TheFacingOutlineGrowsWithTheSphere) {
     look_up("Eq. 7.7");
     const auto width_at = [&](float distance, ivec2 size) {
-        lesson::Options options = before_the_sphere(distance, size);
+        lesson_07::Options options = before_the_sphere(distance, size);
         options.shading.outline = Outline::facing;
         const Image<Seen> seen = seen_in(toon_picture(sphere(), options));
         const double body_radius_px = std::sqrt(count_of(seen, Seen::body) / std::numbers::pi);
@@ -93,7 +94,7 @@ TEST(Toon, HardCase_TheFacingOutlineFailsOnACube) {
     const Scene cube = scene_of_one(cube_mesh(true));
     int with_a_flooded_face = 0;
     for (int yaw = 0; yaw < 360; yaw += 10) {
-        lesson::Options options = small_toon();
+        lesson_07::Options options = small_toon();
         options.orbit = {static_cast<float>(yaw), 27, 3, 36};
         options.shading.outline = Outline::facing;
         const Image<Seen> seen = seen_in(toon_picture(cube, options));
@@ -109,14 +110,14 @@ TEST(Toon, HardCase_TheFacingOutlineFailsOnACube) {
     EXPECT_GT(with_a_flooded_face, 5);
 }
 
-TEST(Toon, Eq7_8_CornersOfACubeGrowOutwards) {
+TEST(Toon, Eq7_8_VerticesOfACubeGrowOutwards) {
     for (const bool is_shared : {true, false}) {
         Mesh cube = cube_mesh(is_shared);
         for (std::size_t i = 0; i < 6; i += 2) {  // three faces cut along their other diagonal
-            const auto [a, b, c] = cube.triangles[i].corners;
-            const Corner d = cube.triangles[i + 1].corners[2];
-            cube.triangles[i].corners = {b, c, d};
-            cube.triangles[i + 1].corners = {b, d, a};
+            const auto [a, b, c] = cube.triangles[i].vertices;
+            const Vertex d = cube.triangles[i + 1].vertices[2];
+            cube.triangles[i].vertices = {b, c, d};
+            cube.triangles[i + 1].vertices = {b, d, a};
         }
         ASSERT_EQ(cube.positions.size(), is_shared ? 8u : 24u);
         const std::vector<vec3> normals = hull_normals(cube);
@@ -127,7 +128,7 @@ TEST(Toon, Eq7_8_CornersOfACubeGrowOutwards) {
     }
 }
 
-TEST(Toon, Eq7_8_PlacesAreSharedBitForBit) {
+TEST(Toon, Eq7_8_EqualPositionsGetTheSameBits) {
     Mesh mesh = cube_mesh(false);
     for (vec3& position : mesh.positions) position -= vec3(1, 0, 1);  // some at 0
     for (std::size_t i = 0; i < mesh.positions.size() / 2; ++i)       // those of three faces
@@ -148,15 +149,15 @@ TEST(Toon, Eq7_8_ASphereGrowsAlongItsRadii) {
     const Mesh mesh = sphere_mesh(64, 128);  // with seam and poles several times
     const std::vector<vec3> normals = hull_normals(mesh);
     for (const Triangle& triangle : mesh.triangles)
-        for (const Corner& corner : triangle.corners)  // quads' two triangles tilt it a bit
-            ASSERT_GT(glm::dot(normals[corner.position], mesh.positions[corner.position]), 0.9995f);
+        for (const Vertex& vertex : triangle.vertices)  // the diagonals of quads turn it a bit
+            ASSERT_GT(glm::dot(normals[vertex.position], mesh.positions[vertex.position]), 0.9995f);
 }
 
 TEST(Toon, Eq7_8_ASheetWithTwoSidesStays) {
     Mesh sheet;
     sheet.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
-    sheet.triangles = {{{Corner{0}, Corner{1}, Corner{2}}, 0},
-                       {{Corner{0}, Corner{2}, Corner{1}}, 0}};
+    sheet.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0},
+                       {{Vertex{0}, Vertex{2}, Vertex{1}}, 0}};
     for (const vec3 normal : hull_normals(sheet)) EXPECT_EQ(normal, vec3(0));
     EXPECT_TRUE(hull_normals(Mesh()).empty());
 }
@@ -165,12 +166,12 @@ TEST(Toon, Eq7_9_MovesByPixels) {
     // Straight ahead at w = 4, to the right: 3 of 100 pixels, which are 2 in NDC.
     EXPECT_EQ(pushed({0, 0, 1, 4}, {1, 0, 0, 0}, 3, {100, 50}), vec4(0.24f, 0, 1, 4));
     EXPECT_EQ(pushed({0, 0, 1, 4}, {0, 1, 0, 0}, 3, {100, 50}), vec4(0, 0.48f, 1, 4));
-    // Straight to the eye or away from it: nowhere.
+    // Straight towards the eye or away from it: it stays.
     EXPECT_EQ(pushed({0, 0, 1, 4}, {0, 0, 1, -1}, 3, {100, 50}), vec4(0, 0, 1, 4));
     EXPECT_EQ(pushed({2, 2, 1, 4}, {1, 1, 0, 2}, 3, {100, 50}), vec4(2, 2, 1, 4));
 }
 
-TEST(Toon, Eq7_9_MovesWhereItsNormalLeads) {
+TEST(Toon, Eq7_9_MovesAlongItsNormal) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-1, 1), octave(-20, 20);
     for (int i = 0; i < 100'000; ++i) {
@@ -196,7 +197,7 @@ TEST(Toon, Eq7_9_MovesWhereItsNormalLeads) {
             size);
         const long double ahead_x = ahead[0] - from[0], ahead_y = ahead[1] - from[1];
         const long double length = std::hypot(ahead_x, ahead_y);
-        if (length < 1e-5L) continue;  // nearly to the eye: float sees no direction
+        if (length < 1e-5L) continue;  // nearly towards the eye: float has no direction
         ASSERT_GE((x * ahead_x + y * ahead_y) / (length * width), 0.999L) << "seed 1, case " << i;
     }
 }
@@ -206,7 +207,7 @@ TEST(Toon, HardCase_TheHullIsAsWideAtAnyDistanceAndSize) {
     for (const ivec2 size : {ivec2(320, 180), ivec2(640, 360), ivec2(300, 900)})
         for (const float distance : {4.0f, 6.0f, 12.0f})
             for (const float width : {1.0f, 2.0f, 3.5f, 8.0f}) {
-                lesson::Options options = before_the_sphere(distance, size);
+                lesson_07::Options options = before_the_sphere(distance, size);
                 if (radius_px(1 / distance, options) + width > size.x / 2.0 ||
                     radius_px(1 / distance, options) + width > size.y / 2.0)
                     continue;
@@ -251,7 +252,7 @@ TEST(Toon, HardCase_TheHullOfACubeHasNoGaps) {
     for (const bool is_shared : {true, false})
         for (int yaw = -180; yaw < 180; yaw += 15)
             for (const float pitch : {-90.0f, -35.0f, 0.0f, 10.0f, 60.0f}) {
-                lesson::Options options = small_toon();
+                lesson_07::Options options = small_toon();
                 options.orbit = {static_cast<float>(yaw), pitch, 3, 36};
                 options.shading.outline = Outline::hull;
                 const Image<Seen> seen =
@@ -270,13 +271,13 @@ TEST(Toon, Eq7_10_BacksOfFaces) {
     std::uniform_real_distribution<float> any(-1, 1);
     Mesh mesh;
     mesh.positions.resize(3);
-    mesh.triangles = {{{Corner{0}, Corner{1}, Corner{2}}, 0}};
+    mesh.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0}};
     int backs = 0;
     for (int i = 0; i < 100'000; ++i) {
         const float scale = std::exp2(120 * any(random));  // also where floats would overflow
         for (vec3& p : mesh.positions) p = scale * vec3(any(random), any(random), any(random));
         const vec3 eye = scale * vec3(any(random), any(random), any(random));
-        // Six times the volume of the eye and the corners, by its first column.
+        // Six times the volume of the eye and the vertices, by its first column.
         const auto from_eye = [&](int k, int axis) {
             return (static_cast<long double>(mesh.positions[static_cast<std::size_t>(k)][axis]) -
                     eye[axis]) /
@@ -295,16 +296,16 @@ TEST(Toon, Eq7_10_BacksOfFaces) {
     EXPECT_GT(backs, 40'000);
 }
 
-TEST(Toon, HardCase_AHullOfAHollowHidesNothing) {
+TEST(Toon, HardCase_TheHullOfABowlHidesNothing) {
     look_up("Eq. 7.10");
-    // A bowl: around its bottom, hull normals lead to the middle, and small faces turn around.
+    // A bowl: around its bottom, hull normals point to the middle, and small faces turn around.
     Mesh bowl = sphere_mesh(64, 128);
-    for (Triangle& triangle : bowl.triangles) std::swap(triangle.corners[1], triangle.corners[2]);
+    for (Triangle& triangle : bowl.triangles) std::swap(triangle.vertices[1], triangle.vertices[2]);
     for (vec3& normal : bowl.normals) normal = -normal;
     std::erase_if(bowl.triangles, [&](const Triangle& triangle) {
-        return bowl.positions[triangle.corners[0].position].y > -0.3f;
+        return bowl.positions[triangle.vertices[0].position].y > -0.3f;
     });
-    lesson::Options options = small_toon();
+    lesson_07::Options options = small_toon();
     options.orbit = {-30, 80, 2, 36};
     options.shading.outline = Outline::none;
     const Image<Seen> bare = seen_in(toon_picture(scene_of_one(bowl), options));

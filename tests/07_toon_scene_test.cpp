@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a scene and its knobs call for, and the lesson's pictures.
+// Work only for what a scene and its options call for, and the lesson's pictures.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <string>
+#include <cstddef>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "common/obj.hpp"
 #include "support/golden.hpp"
-#include "support/lit_sphere.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
 #include "support/toon_pictures.hpp"
@@ -20,13 +17,8 @@ using namespace rasterbook::test;
 
 namespace {
 
-bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
-}
-
 const Scene& figure() {
-    static const Scene scene = load_obj(models / "figure.obj");
+    static const Scene scene = loaded("figure.obj");
     return scene;
 }
 
@@ -50,57 +42,55 @@ constexpr std::size_t on_a_threshold = 40;
 TEST(Toon, HardCase_WithoutOutlineThereIsNoWorkForIt) {
     look_up("Eq. 7.14");
     for (const char* model : {"figure.obj", "scene.obj"}) {
-        const Scene scene = load_obj(models / model);
-        lesson::Options options = small_toon();
+        const Scene scene = loaded(model);
+        lesson_07::Options options = small_toon();
         const auto counted = [&](Outline outline, float width, float facing) {
             options.shading.outline = outline;
             options.shading.outline_width_px = width;
-            options.shading.least_facing = facing;
-            Counters counters;
-            toon_picture(scene, options, counters);
-            EXPECT_EQ(count(counters, Counter::toon_fragments),
-                      count(counters, Counter::fragments_lit));
-            EXPECT_GT(count(counters, Counter::toon_fragments), 5000u);
-            return counters;
+            options.shading.min_facing = facing;
+            const Drawn toon = drawn_toon(scene, options);
+            EXPECT_EQ(toon.count(Counter::toon_fragments), toon.count(Counter::fragments_lit));
+            EXPECT_GT(toon.count(Counter::toon_fragments), 5000u);
+            return toon;
         };
-        const Counters none = counted(Outline::none, 3, 0.35f);
-        EXPECT_EQ(count(none, Counter::outline_tests), 0u);
-        EXPECT_EQ(count(none, Counter::outline_pixels), 0u);
-        const Counters facing = counted(Outline::facing, 3, 0.35f);
-        EXPECT_EQ(count(facing, Counter::outline_tests), count(none, Counter::fragments_shaded));
-        EXPECT_GT(count(facing, Counter::outline_pixels), 100u);
-        const Counters hull = counted(Outline::hull, 3, 0.35f);
-        EXPECT_GT(count(hull, Counter::outline_tests), count(hull, Counter::outline_pixels));
-        EXPECT_GT(count(hull, Counter::outline_pixels), 100u);
-        const Counters edges = counted(Outline::edges, 3, 0.35f);
-        EXPECT_EQ(count(edges, Counter::outline_tests), 320u * 180);
-        EXPECT_GT(count(edges, Counter::outline_pixels), 100u);
-        // All else is done as without.
-        for (const Counters& with : {facing, hull, edges})
+        const Drawn none = counted(Outline::none, 3, 0.35f);
+        EXPECT_EQ(none.count(Counter::outline_tests), 0u);
+        EXPECT_EQ(none.count(Counter::outline_pixels), 0u);
+        const Drawn facing = counted(Outline::facing, 3, 0.35f);
+        EXPECT_EQ(facing.count(Counter::outline_tests), none.count(Counter::fragments_shaded));
+        EXPECT_GT(facing.count(Counter::outline_pixels), 100u);
+        const Drawn hull = counted(Outline::hull, 3, 0.35f);
+        EXPECT_GT(hull.count(Counter::outline_tests), hull.count(Counter::outline_pixels));
+        EXPECT_GT(hull.count(Counter::outline_pixels), 100u);
+        const Drawn edges = counted(Outline::edges, 3, 0.35f);
+        EXPECT_EQ(edges.count(Counter::outline_tests), 320u * 180);
+        EXPECT_GT(edges.count(Counter::outline_pixels), 100u);
+        // Everything else is done as without an outline.
+        for (const Drawn& with : {facing, hull, edges})
             for (const Counter counter :
                  {Counter::fragments_tested, Counter::fragments_shaded, Counter::texture_samples,
                   Counter::fragments_lit, Counter::highlights, Counter::toon_fragments})
-                EXPECT_EQ(count(with, counter), count(none, counter));
+                EXPECT_EQ(with.count(counter), none.count(counter));
     }
 }
 
 TEST(Toon, HardCase_OutlinesOfNoWidthChangeNothing) {
     look_up("Eq. 7.14");
     for (const float yaw : {-30.0f, 0.0f, 77.0f, 180.0f}) {
-        lesson::Options options = small_toon();
+        lesson_07::Options options = small_toon();
         options.size = {640, 360};
         options.orbit.yaw_degrees = yaw;
         options.shading.outline = Outline::none;
         const Image<vec3> without = toon_picture(figure(), options);
         options.shading.outline_width_px = 0;
-        options.shading.least_facing = 0;
+        options.shading.min_facing = 0;
         for (const Outline outline : {Outline::facing, Outline::hull, Outline::edges}) {
             options.shading.outline = outline;
-            Counters counters;
-            EXPECT_TRUE(are_the_same_bits(toon_picture(figure(), options, counters), without))
+            const Drawn with = drawn_toon(figure(), options);
+            EXPECT_TRUE(are_the_same_bits(with.picture, without))
                 << yaw << ", outline " << static_cast<int>(outline);
-            EXPECT_GT(count(counters, Counter::outline_tests), 10'000u);
-            EXPECT_EQ(count(counters, Counter::outline_pixels), 0u);
+            EXPECT_GT(with.count(Counter::outline_tests), 10'000u);
+            EXPECT_EQ(with.count(Counter::outline_pixels), 0u);
         }
     }
 }
@@ -109,8 +99,8 @@ TEST(Toon, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
     look_up("Eq. 7.4");
     for (const char* model : {"figure.obj", "scene.obj", "crate.obj", "scene_bumpy.obj"})
         for (const bool smooth : {false, true}) {
-            const Scene scene = load_obj(models / model);
-            lesson::Options options = small_toon();
+            const Scene scene = loaded(model);
+            lesson_07::Options options = small_toon();
             options.shading.smooth = smooth;
             const Image<vec3> picture = toon_picture(scene, options);
             options.shading.all_effects = true;
@@ -119,14 +109,14 @@ TEST(Toon, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
         }
 }
 
-TEST(Toon, HardCase_AFlatLampLessSceneHasBandsAllTheSame) {
+TEST(Toon, HardCase_AFaceInDirectionalLightHasOneTone) {
     look_up("Eq. 7.3");
     Scene scene = scene_of_one(cube_mesh(true));
     scene.materials[0].diffuse = scene.materials[0].ambient = vec3(0.5f);
-    const auto colors = [&](int bands, LightKind light) {
-        lesson::Options options = small_toon();
+    const auto colors = [&](int tones, LightKind light) {
+        lesson_07::Options options = small_toon();
         options.orbit = {-30, 27, 3, 36};
-        options.shading.bands = bands;
+        options.shading.tones = tones;
         options.shading.key_light = light;
         options.shading.outline = Outline::none;
         std::vector<float> reds;
@@ -137,7 +127,7 @@ TEST(Toon, HardCase_AFlatLampLessSceneHasBandsAllTheSame) {
         reds.erase(std::ranges::unique(reds).begin(), reds.end());
         return reds;
     };
-    // Three faces in sunlight, each of one colour; one band: all of one.
+    // Three faces in directional light, each of one colour; with a single tone all have the same.
     EXPECT_LE(colors(255, LightKind::directional).size(), 3u);
     EXPECT_GE(colors(255, LightKind::directional).size(), 2u);
     EXPECT_EQ(colors(1, LightKind::directional).size(), 1u);
@@ -147,7 +137,7 @@ TEST(Toon, HardCase_AFlatLampLessSceneHasBandsAllTheSame) {
 }
 
 TEST(Toon, Eq7_5_SmoothBordersAreNearerToManySamples) {
-    lesson::Options options = small_toon();
+    lesson_07::Options options = small_toon();
     options.shading.outline = Outline::none;
     const Image<vec3> hard = toon_picture(figure(), options);
     options.shading.smooth = true;
@@ -175,7 +165,7 @@ TEST(Toon, HardCase_LinesAreAsWideWithManySamples) {
     look_up("Eq. 7.9");
     for (const Outline outline : {Outline::hull, Outline::edges}) {
         const auto darkness = [&](int samples_per_side) {
-            lesson::Options options = small_toon();
+            lesson_07::Options options = small_toon();
             options.size *= samples_per_side;
             options.samples_per_side = samples_per_side;
             options.orbit = {0, 0, 4, 36};
@@ -185,7 +175,7 @@ TEST(Toon, HardCase_LinesAreAsWideWithManySamples) {
             return count_of(seen, Seen::ink) /
                    static_cast<double>(samples_per_side * samples_per_side);
         };
-        // With one sample a slanting line of edges is a stair, and a bit wider.
+        // With one sample a slanted line has stairs, and is a bit wider.
         EXPECT_NEAR(darkness(4), darkness(1), 0.12 * darkness(1));
     }
 }

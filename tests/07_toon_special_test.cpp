@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Zeros, denormals, infinities and NaN at the entries: no colour that is none.
-#include <algorithm>
-#include <cfloat>
+// Zeros, subnormal numbers, infinities and NaN as inputs: every colour is finite.
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -32,18 +31,19 @@ class Mix : public SpecialNumbers {
     }
 };
 
-/// Three triangles of any corners and normals, of a material of any numbers.
-Scene any_scene(Mix& mix, bool is_ordinary_place) {
+/// Three triangles of any vertices and normals, of a material of any numbers.
+Scene any_scene(Mix& mix, bool is_ordinary_position) {
     Mesh mesh;
     for (std::uint32_t i = 0; i < 9; ++i) {
-        mesh.positions.push_back(
-            is_ordinary_place ? vec3(mix.ordinary(), mix.ordinary(), mix.ordinary()) : mix.place());
+        mesh.positions.push_back(is_ordinary_position
+                                     ? vec3(mix.ordinary(), mix.ordinary(), mix.ordinary())
+                                     : mix.place());
         mesh.normals.push_back(mix.any_three());
         mesh.bounds.add(mesh.positions.back());
     }
     for (std::uint32_t i = 0; i < 9; i += 3)
-        mesh.triangles.push_back({{Corner{i, no_index, mix.below(4) == 0 ? no_index : i},
-                                   Corner{i + 1, no_index, i + 1}, Corner{i + 2, no_index, i + 2}},
+        mesh.triangles.push_back({{Vertex{i, no_index, mix.below(4) == 0 ? no_index : i},
+                                   Vertex{i + 1, no_index, i + 1}, Vertex{i + 2, no_index, i + 2}},
                                   0});
     Scene scene = scene_of_one(mesh);
     Material& material = scene.materials[0];
@@ -64,11 +64,11 @@ TEST(Toon, HardCase_SpecialNumbersOfPaint) {
         const SurfaceColor color = mix.surface();
         const ReflectedLight light{glm::min(glm::abs(mix.place()), vec3(20)),
                                    glm::min(glm::abs(mix.place()), vec3(20))};
-        const int bands = 1 + static_cast<int>(mix.below(most_bands));
-        ASSERT_TRUE(is_finite(toon(color, vec3(0.5f), light, bands))) << "seed 1, case " << i;
-        const vec3 of_nothing = toon(color, vec3(0.5f), {mix.any_three(), mix.any_three()}, bands);
+        const int tones = 1 + static_cast<int>(mix.below(max_tones));
+        ASSERT_TRUE(is_finite(toon(color, vec3(0.5f), light, tones))) << "seed 1, case " << i;
+        const vec3 of_nothing = toon(color, vec3(0.5f), {mix.any_three(), mix.any_three()}, tones);
         ASSERT_TRUE(is_finite(of_nothing)) << "seed 1, case " << i;
-        const float level = smoothly_banded(mix.any(), mix.any(), bands);
+        const float level = smoothly_quantised(mix.any(), mix.any(), tones);
         ASSERT_TRUE(level >= 0 && level <= 1) << "seed 1, case " << i << ": " << level;
         const float share = highlight_share(brightness(mix.any_three()), mix.any());
         ASSERT_TRUE(share >= 0 && share <= 1) << "seed 1, case " << i << ": " << share;
@@ -102,13 +102,13 @@ TEST(Toon, HardCase_SpecialNumbersInPictures) {
     int drawn = 0, inked = 0;
     for (int i = 0; i < 3000; ++i) {
         const Scene scene = any_scene(mix, i % 2 == 0);
-        lesson::Options options;
+        lesson_07::Options options;
         options.size = {48, 27};
         options.shading.outline = static_cast<Outline>(mix.below(4));
         options.shading.key_light = static_cast<LightKind>(mix.below(3));
         options.shading.smooth = mix.below(2) == 0;
         options.shading.two_sided = mix.below(2) == 0;
-        options.shading.bands = 1 + static_cast<int>(mix.below(most_bands));
+        options.shading.tones = 1 + static_cast<int>(mix.below(max_tones));
         options.shading.outline_width_px = mix.below(2) == 0 ? 2.0f : 64.0f;
         const Image<vec3> picture = toon_picture(scene, options);
         for (const vec3 color : picture.pixels())
@@ -123,20 +123,20 @@ TEST(Toon, HardCase_SpecialNumbersInPictures) {
 
 TEST(Toon, HardCase_SilhouettesAreNeverNaN) {
     look_up("Eq. 7.6");
-    // At each silhouette normals are seen edge-on, and interpolated ones lead away from the eye.
+    // At a silhouette normals are seen edge-on, and interpolated ones point away from the eye.
     const Scene scene = [] {
         Scene figure = scene_of_one(cube_mesh(true));
         for (const vec3 position : figure.meshes[0].positions)
             figure.meshes[0].normals.push_back(position);  // far too smooth for a cube
         for (Triangle& triangle : figure.meshes[0].triangles)
-            for (Corner& corner : triangle.corners) corner.normal = corner.position;
+            for (Vertex& vertex : triangle.vertices) vertex.normal = vertex.position;
         figure.materials[0].specular = vec3(1), figure.materials[0].shininess = 1e30f;
         return figure;
     }();
     for (const Outline outline : {Outline::facing, Outline::hull, Outline::edges})
         for (const bool smooth : {false, true})
             for (int yaw = 0; yaw < 90; yaw += 15) {
-                lesson::Options options = small_toon();
+                lesson_07::Options options = small_toon();
                 options.orbit = {static_cast<float>(yaw), 0, 3, 36};
                 options.shading.outline = outline;
                 options.shading.smooth = smooth;

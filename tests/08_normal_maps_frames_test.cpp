@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How a texture lies on a surface: directions of a triangle, frames, and tangents of corners.
+// Tangent space: the directions of u and v on a triangle, tangent frames, and vertex tangents.
 #include <algorithm>
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -58,7 +59,7 @@ double degrees_between(vec3 a, vec3 b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
-/// A mesh as the scene has it when tangents are built: each corner has its own normal.
+/// A mesh as the scene has it when tangents are built: each vertex has its own normal.
 struct Patch {
     Mesh mesh;
 
@@ -70,23 +71,23 @@ struct Patch {
         mesh.uvs = std::move(uvs);
         mesh.normals = normals;
         for (Triangle& triangle : mesh.triangles)
-            for (Corner& corner : triangle.corners) {
-                corner.uv = corner.position;
-                if (!normals.empty()) corner.normal = corner.position;
+            for (Vertex& vertex : triangle.vertices) {
+                vertex.uv = vertex.position;
+                if (!normals.empty()) vertex.normal = vertex.position;
             }
         complete_normals(mesh);
     }
 
     std::vector<vec4> tangents() const {
         return vertex_tangents(mesh, [&](const Triangle& triangle) {
-            return std::array{mesh.uvs[triangle.corners[0].uv], mesh.uvs[triangle.corners[1].uv],
-                              mesh.uvs[triangle.corners[2].uv]};
+            return std::array{mesh.uvs[triangle.vertices[0].uv], mesh.uvs[triangle.vertices[1].uv],
+                              mesh.uvs[triangle.vertices[2].uv]};
         });
     }
 
-    /// The frame at a triangle's corner.
-    TangentFrame frame(std::size_t triangle, std::size_t corner) const {
-        const std::uint32_t normal = mesh.triangles[triangle].corners[corner].normal;
+    /// The frame at a triangle's vertex.
+    TangentFrame frame(std::size_t triangle, std::size_t vertex) const {
+        const std::uint32_t normal = mesh.triangles[triangle].vertices[vertex].normal;
         const vec4 tangent = tangents()[normal];
         return tangent_frame(vec3(tangent), mesh.normals[normal], tangent.w);
     }
@@ -119,10 +120,10 @@ Patch half_pipe(std::uint32_t strips) {
 TEST(NormalMaps, Eq8_2_SidesAreSumsOfTheDirections) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-1, 1);
-    const auto place = [&] { return vec3(any(random), any(random), any(random)); };
+    const auto position = [&] { return vec3(any(random), any(random), any(random)); };
     const auto uv = [&] { return vec2(any(random), any(random)); };
     for (int i = 0; i < 1000; ++i) {
-        const std::array<vec3, 3> p{place(), place(), place()};
+        const std::array<vec3, 3> p{position(), position(), position()};
         const std::array<vec2, 3> t{uv(), uv(), uv()};
         const UvDirections found = uv_directions(p, t);
         const dvec3 e1 = dvec3(p[1]) - dvec3(p[0]), e2 = dvec3(p[2]) - dvec3(p[0]);
@@ -151,8 +152,8 @@ TEST(NormalMaps, Eq8_3_WorkedExample) {
     EXPECT_TRUE(are_near(mirrored.tangent, {-2 * s, 0, -s}));
     EXPECT_TRUE(are_near(mirrored.bitangent, {-s, 0, -2 * s}));
     EXPECT_EQ(mirrored.handedness, -1);
-    // The frame is square all the same.
-    EXPECT_TRUE(are_near(tangent_frame(found.tangent, along_y, 1).bitangent, {s, 0, -2 * s}));
+    // The frame is orthogonal all the same.
+    EXPECT_TRUE(are_near(tangent_frame(found.tangent, along_y, 1.0f).bitangent, {s, 0, -2 * s}));
 }
 
 TEST(NormalMaps, Eq8_3_DirectionsOfKnownTriangles) {
@@ -178,7 +179,7 @@ TEST(NormalMaps, Eq8_3_DirectionsOfKnownTriangles) {
     EXPECT_TRUE(are_near(slanted.bitangent, std::sqrt(0.5f) * vec3(1, 1, 0)));
 }
 
-TEST(NormalMaps, Eq8_3_DirectionsDoNotDependOnTheFirstCorner) {
+TEST(NormalMaps, Eq8_3_DirectionsDoNotDependOnTheFirstVertex) {
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(-1, 1);
     for (int i = 0; i < 1000; ++i) {
@@ -191,8 +192,8 @@ TEST(NormalMaps, Eq8_3_DirectionsDoNotDependOnTheFirstCorner) {
         const UvDirections first = uv_directions(p, t);
         // Both ways around: the other one is the triangle from behind, under the same texture.
         for (const auto& [a, b, c] : {std::array{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}}) {
-            const auto at = [](auto& corners, int k) {
-                return corners[static_cast<std::size_t>(k)];
+            const auto at = [](auto& vertices, int k) {
+                return vertices[static_cast<std::size_t>(k)];
             };
             const UvDirections other =
                 uv_directions({at(p, a), at(p, b), at(p, c)}, {at(t, a), at(t, b), at(t, c)});
@@ -230,7 +231,7 @@ TEST(NormalMaps, Eq8_4_HandednessSaysWhereTheBitangentLies) {
 }
 
 TEST(NormalMaps, Eq8_4_HandednessIsExactWhereProductsAgree) {
-    // Two corners far out on the line u = v, and one near the origin, a little beside that line or
+    // Two vertices far out on the line u = v, and one near the origin, a little beside that line or
     // on it. The determinant's products agree in all digits of a double, or nearly.
     std::mt19937 random(6);
     const auto whole = [&](int least, int most) {
@@ -246,7 +247,7 @@ TEST(NormalMaps, Eq8_4_HandednessIsExactWhereProductsAgree) {
         // The determinant is (first - second) (u - v): multiply it out.
         const int expected = ((first > second) - (first < second)) * ((u > v) - (u < v));
         EXPECT_EQ(uv_directions(p, t).handedness, expected) << "seed 6, case " << i;
-        // From each corner the same.
+        // From each vertex the same.
         EXPECT_EQ(uv_directions(p, {t[1], t[2], t[0]}).handedness, expected) << "case " << i;
         EXPECT_EQ(uv_directions(p, {t[2], t[0], t[1]}).handedness, expected) << "case " << i;
         const dvec2 d1 = dvec2(t[1]) - dvec2(t[0]), d2 = dvec2(t[2]) - dvec2(t[0]);
@@ -258,13 +259,13 @@ TEST(NormalMaps, Eq8_4_HandednessIsExactWhereProductsAgree) {
 TEST(NormalMaps, Eq8_5_WorkedExample) {
     const vec3 n(0.6f, 0.8f, 0);
     EXPECT_TRUE(are_near(across(along_x, n), {0.64f, -0.48f, 0}));
-    const TangentFrame frame = tangent_frame(along_x, n, 1);
+    const TangentFrame frame = tangent_frame(along_x, n, 1.0f);
     EXPECT_TRUE(are_near(frame.tangent, {0.8f, -0.6f, 0}));
     EXPECT_TRUE(are_near(frame.bitangent, -along_z));
-    EXPECT_TRUE(are_near(tangent_frame(along_x, n, -1).bitangent, along_z));
+    EXPECT_TRUE(are_near(tangent_frame(along_x, n, -1.0f).bitangent, along_z));
 }
 
-TEST(NormalMaps, Eq8_5_WhatLeadsAlongTheNormalIsTakenAway) {
+TEST(NormalMaps, Eq8_5_TheComponentAlongTheNormalIsRemoved) {
     for (const float handedness : {1.0f, -1.0f}) {
         const TangentFrame frame = tangent_frame({0.8f, 0, 0.6f}, along_z, handedness);
         EXPECT_TRUE(are_near(frame.tangent, along_x));
@@ -278,7 +279,7 @@ TEST(NormalMaps, Eq8_5_WhatLeadsAlongTheNormalIsTakenAway) {
             EXPECT_TRUE(is_orthonormal(other)) << length;
         }
     }
-    const TangentFrame steep = tangent_frame({0x1p-10f, 0, 1}, along_z, 1);
+    const TangentFrame steep = tangent_frame({0x1p-10f, 0, 1}, along_z, 1.0f);
     EXPECT_EQ(steep.tangent, along_x);
 }
 
@@ -295,38 +296,39 @@ TEST(NormalMaps, Eq8_5_FramesAreOrthonormal) {
     }
 }
 
-TEST(NormalMaps, Eq8_5_WhereNothingIsLeftAnAxisIsTaken) {
-    // That to which the normal leans least; of equals the first.
-    EXPECT_EQ(any_across(along_x), along_y);
-    EXPECT_EQ(any_across(along_y), along_x);
-    EXPECT_EQ(any_across(along_z), along_x);
-    EXPECT_TRUE(are_near(any_across({0.6f, 0, -0.8f}), along_y));
-    EXPECT_TRUE(are_near(any_across({0.48f, -0.64f, 0.6f}), {0.877f, 0.350f, -0.328f}, 0.0005f));
+TEST(NormalMaps, Eq8_5_WhereNothingRemainsAnAxisIsTaken) {
+    // The axis of the normal's smallest component; the first one of equals.
+    EXPECT_EQ(any_orthogonal(along_x), along_y);
+    EXPECT_EQ(any_orthogonal(along_y), along_x);
+    EXPECT_EQ(any_orthogonal(along_z), along_x);
+    EXPECT_TRUE(are_near(any_orthogonal(vec3(0.6f, 0, -0.8f)), along_y));
+    EXPECT_TRUE(
+        are_near(any_orthogonal(vec3(0.48f, -0.64f, 0.6f)), {0.877f, 0.350f, -0.328f}, 0.0005f));
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
     double least_degrees = 90;
     for (int i = 0; i < 100'000; ++i) {
         const vec3 n = unit_or({normal(random), normal(random), normal(random)}, along_x);
-        const vec3 size = glm::abs(n), found = any_across(n);
+        const vec3 size = glm::abs(n), found = any_orthogonal(n);
         EXPECT_NEAR(glm::dot(found, n), 0, 1e-6f) << "seed 7, case " << i;
         EXPECT_NEAR(glm::length(found), 1, 1e-6f) << "seed 7, case " << i;
         const float least = std::min({size.x, size.y, size.z});
         least_degrees = std::min(least_degrees, glm::degrees(std::acos(double{least})));
-        // It leads along that axis as far as it can: by the sine of the angle to n.
+        // Its component along that axis is the largest possible: the sine of the angle to n.
         EXPECT_NEAR(std::max({found.x, found.y, found.z}), std::sqrt(1 - least * least), 1e-6f)
             << "seed 7, case " << i;
     }
     EXPECT_NEAR(least_degrees, 54.7, 0.3);
     // So little of the tangent may be left, and no less.
     for (const float sign : {1.0f, -1.0f}) {
-        EXPECT_EQ(unit_across({0, sign * 0x1p-19f, 1}, along_z), sign * along_y);
-        EXPECT_EQ(unit_across({0, sign * 0x1p-21f, 1}, along_z), along_x);
+        EXPECT_EQ(unit_orthogonal({0, sign * 0x1p-19f, 1}, along_z), sign * along_y);
+        EXPECT_EQ(unit_orthogonal({0, sign * 0x1p-21f, 1}, along_z), along_x);
     }
 }
 
 TEST(NormalMaps, Eq8_6_WorkedExample) {
     // On the floor, around the origin: 90 degrees with u along x, 45 degrees with u along
-    // (0.8, 0, -0.6). The uv of the second triangle: as far as its corners lie along that, and
+    // (0.8, 0, -0.6). The uv of the second triangle: as far as its vertices lie along that, and
     // across it.
     const vec3 first_end = along_x, second_end(0, 0, -1);
     const vec3 third_end = unit_or({-1, 0, -1}, along_x);
@@ -349,41 +351,41 @@ TEST(NormalMaps, Eq8_6_WorkedExample) {
     EXPECT_NEAR(degrees_between(patch.frame(0, 0).tangent, {0.8f, 0, -0.6f}), 24.8, 0.05);
 }
 
-TEST(NormalMaps, Eq8_6_TangentsOfAPipeLeadAround) {
+TEST(NormalMaps, Eq8_6_TangentsOfAPipePointAround) {
     for (const std::uint32_t strips : {4u, 16u, 64u}) {
         const Patch pipe = half_pipe(strips);
         const std::vector<vec4> tangents = pipe.tangents();
         for (const Triangle& triangle : pipe.mesh.triangles)
-            for (const Corner& corner : triangle.corners) {
-                const vec3 out = pipe.mesh.normals[corner.normal];
+            for (const Vertex& vertex : triangle.vertices) {
+                const vec3 out = pipe.mesh.normals[vertex.normal];
                 const vec3 around(out.z, 0, -out.x);
-                // At the two ends there is a face on one side alone; across the normal, its tangent
-                // leads around all the same.
-                EXPECT_TRUE(are_near(vec3(tangents[corner.normal]), around))
-                    << strips << " strips, corner " << corner.position;
-                EXPECT_EQ(tangents[corner.normal].w, 1);
+                // At the two ends there is a face on one side only; orthogonal to the normal, its
+                // tangent points around all the same.
+                EXPECT_TRUE(are_near(vec3(tangents[vertex.normal]), around))
+                    << strips << " strips, vertex " << vertex.position;
+                EXPECT_EQ(tangents[vertex.normal].w, 1);
             }
     }
 }
 
 TEST(NormalMaps, Eq8_6_AnglesCountAndNotTheNumberOfTriangles) {
     // Two squares in a plane meet at the origin's right and left; u turns by 60 degrees from one to
-    // the other. The left one is cut through the corner or not: it counts with 90 degrees anyway.
+    // the other. The left one is cut through the vertex or not: it counts with 90 degrees anyway.
     const float c = 0.5f, s = std::sqrt(0.75f);
-    for (const bool through_the_corner : {false, true}) {
-        // uv of the left square: such that u grows along (c, s); it is 0 at the shared corners.
+    for (const bool through_the_vertex : {false, true}) {
+        // uv of the left square: such that u grows along (c, s); it is 0 at the shared vertices.
         std::vector<vec3> positions{vec3(0), along_x, {1, 1, 0}, along_y, {-1, 1, 0}, {-1, 0, 0}};
         std::vector<vec2> uvs{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {-c + s, s + c}, {-c, s}};
-        // The corner on the left that is shared has the uv of the other's: the origin.
+        // The vertex on the left that is shared has the uv of the other's: the origin.
         positions.push_back(along_y), uvs.push_back({s, c});
         std::vector<std::array<std::uint32_t, 3>> faces{{0, 1, 3}, {1, 2, 3}};
-        if (through_the_corner)
+        if (through_the_vertex)
             faces.insert(faces.end(), {{0, 6, 4}, {0, 4, 5}});
         else
             faces.insert(faces.end(), {{0, 6, 5}, {6, 4, 5}});
         const Patch patch(positions, uvs, faces);
         EXPECT_NEAR(degrees_between(patch.frame(2, 0).tangent, along_x), 30, 1e-4)
-            << through_the_corner;
+            << through_the_vertex;
         // By itself the left square has its own: 60 degrees.
         EXPECT_NEAR(degrees_between(patch.frame(2, 1).tangent, along_x), 60, 1e-4);
         EXPECT_NEAR(degrees_between(patch.frame(0, 1).tangent, along_x), 0, 1e-4);
@@ -408,11 +410,11 @@ TEST(NormalMaps, HardCase_NoAreaInTheTexture) {
         EXPECT_EQ(found.tangent, vec3(0));
         EXPECT_EQ(found.bitangent, vec3(0));
         const Patch patch({p.begin(), p.end()}, {uvs.begin(), uvs.end()}, {{0, 1, 2}});
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const TangentFrame frame = patch.frame(0, corner);
+        for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+            const TangentFrame frame = patch.frame(0, vertex);
             EXPECT_TRUE(is_orthonormal(frame));
             EXPECT_EQ(frame.normal, along_z);
-            EXPECT_EQ(frame.tangent, along_x);  // the axis to which the normal leans least
+            EXPECT_EQ(frame.tangent, along_x);  // the axis of the normal's smallest component
             EXPECT_EQ(frame.bitangent, along_y);
         }
     }
@@ -433,18 +435,18 @@ TEST(NormalMaps, HardCase_NoAreaOnTheSurface) {
                                          {vec3(0), vec3(infinity), vec3(1, 0, 0)}}) {
         EXPECT_EQ(uv_directions(p, uvs).handedness, 1);  // that is the texture's alone
         const Patch patch({p.begin(), p.end()}, {uvs.begin(), uvs.end()}, {{0, 1, 2}});
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            EXPECT_TRUE(is_orthonormal(patch.frame(0, corner)));
+        for (std::size_t vertex = 0; vertex < 3; ++vertex)
+            EXPECT_TRUE(is_orthonormal(patch.frame(0, vertex)));
     }
-    // With a corner that is nowhere, nothing leads there; the texture has its hand all the same.
-    for (const float nowhere : {infinity, -infinity, std::nanf("")})
-        for (const std::size_t corner : {0u, 1u, 2u}) {
+    // With a vertex that is not finite there are no directions; the handedness remains.
+    for (const float not_finite : {infinity, -infinity, std::nanf("")})
+        for (const std::size_t vertex : {0u, 1u, 2u}) {
             std::array<vec3, 3> p{vec3(0), along_x, along_y};
-            p[corner].z = nowhere;
+            p[vertex].z = not_finite;
             const UvDirections found = uv_directions(p, {uvs[0], uvs[2], uvs[1]});
-            EXPECT_EQ(found.tangent, vec3(0)) << nowhere << " at corner " << corner;
-            EXPECT_EQ(found.bitangent, vec3(0)) << nowhere << " at corner " << corner;
-            EXPECT_EQ(found.handedness, -1) << nowhere << " at corner " << corner;
+            EXPECT_EQ(found.tangent, vec3(0)) << not_finite << " at vertex " << vertex;
+            EXPECT_EQ(found.bitangent, vec3(0)) << not_finite << " at vertex " << vertex;
+            EXPECT_EQ(found.handedness, -1) << not_finite << " at vertex " << vertex;
         }
 }
 
@@ -455,8 +457,8 @@ TEST(NormalMaps, HardCase_MirroredTexturesMeetInASeam) {
                       {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {1, 1}},
                       {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {3, 5, 4}});
     for (std::size_t triangle = 0; triangle < 4; ++triangle)
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const TangentFrame frame = patch.frame(triangle, corner);
+        for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+            const TangentFrame frame = patch.frame(triangle, vertex);
             const bool is_mirrored = triangle >= 2;
             EXPECT_TRUE(is_orthonormal(frame));
             EXPECT_EQ(frame.tangent, is_mirrored ? -along_x : along_x);
@@ -493,20 +495,20 @@ TEST(NormalMaps, HardCase_TangentAlongTheNormal) {
     for (const vec3 n : {along_x, along_y, along_z, -along_z, vec3(0.6f, 0, 0.8f),
                          unit_or(vec3(1), along_x), unit_or(vec3(-3, 1, 2), along_x)})
         for (const float length : {-1e30f, -1.0f, 0.0f, 1e-30f, 1.0f, 1e30f}) {
-            const TangentFrame frame = tangent_frame(length * n, n, 1);
+            const TangentFrame frame = tangent_frame(length * n, n, 1.0f);
             EXPECT_TRUE(is_orthonormal(frame));
-            EXPECT_EQ(frame.tangent, any_across(frame.normal))
+            EXPECT_EQ(frame.tangent, any_orthogonal(frame.normal))
                 << testing::PrintToString(n) << length;
             EXPECT_LT(glm::length(frame.normal - n), roundings);
         }
-    // Normals of a file may stand so that the surface's tangent leads along them.
+    // A file may have normals that are parallel to the surface's tangent.
     const Patch patch({vec3(0), along_x, along_y}, {vec2(0), {1, 0}, {0, 1}}, {{0, 1, 2}},
                       {along_x, -along_x, along_z});
-    for (std::size_t corner = 0; corner < 3; ++corner)
-        EXPECT_TRUE(is_orthonormal(patch.frame(0, corner))) << corner;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex)
+        EXPECT_TRUE(is_orthonormal(patch.frame(0, vertex))) << vertex;
     EXPECT_EQ(patch.frame(0, 0).tangent, along_y);
     EXPECT_EQ(patch.frame(0, 2).tangent, along_x);
-    // A mirrored one keeps its hand there.
+    // A mirrored one keeps its handedness.
     const Patch mirrored({vec3(0), along_x, along_y}, {vec2(0), {-1, 0}, {0, 1}}, {{0, 1, 2}},
                          {along_x, along_x, along_x});
     for (const vec4 tangent : mirrored.tangents()) EXPECT_EQ(tangent, vec4(along_y, -1));
@@ -516,13 +518,13 @@ TEST(NormalMaps, HardCase_ZeroNormal) {
     look_up("Eq. 8.5");
     const float infinity = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
     for (const vec3 n : {vec3(0), vec3(no_number), vec3(infinity, 0, 0), vec3(0, -infinity, 1)}) {
-        const TangentFrame frame = tangent_frame({1, 2, 0}, n, -1);
+        const TangentFrame frame = tangent_frame({1, 2, 0}, n, -1.0f);
         EXPECT_TRUE(is_orthonormal(frame));
         EXPECT_EQ(frame.normal, along_y);
         EXPECT_TRUE(are_near(frame.tangent, along_x));
         EXPECT_TRUE(are_near(frame.bitangent, along_z));
     }
-    // Of a file: the corner takes that of its face.
+    // Of a file: the vertex takes that of its face.
     const Patch patch({vec3(0), along_x, along_y}, {vec2(0), {1, 0}, {0, 1}}, {{0, 1, 2}},
                       {vec3(0), vec3(0), vec3(0)});
     EXPECT_EQ(patch.frame(0, 0).normal, along_z);
@@ -531,7 +533,7 @@ TEST(NormalMaps, HardCase_ZeroNormal) {
 
 TEST(NormalMaps, HardCase_OrderDoesNotMatter) {
     look_up("Eq. 8.6, no order");
-    // A closed fan of crumpled triangles around a corner, some of them mirrored, some without area.
+    // A closed fan of crumpled triangles around a vertex, some of them mirrored, some without area.
     std::mt19937 random(5);
     std::uniform_real_distribution<float> any(-1, 1);
     constexpr std::uint32_t rim = 24;
@@ -549,19 +551,19 @@ TEST(NormalMaps, HardCase_OrderDoesNotMatter) {
     uvs[7] = uvs[8];
     const Patch expected(positions, uvs, faces, normals);
     const std::vector<vec4> tangents = expected.tangents();
-    const auto tangent_of = [](const Patch& patch, const std::vector<vec4>& all, vec3 place,
+    const auto tangent_of = [](const Patch& patch, const std::vector<vec4>& all, vec3 at,
                                vec3 face_middle) {
         for (const Triangle& triangle : patch.mesh.triangles) {
-            vec3 low = patch.mesh.positions[triangle.corners[0].position], high = low;
-            for (const Corner& corner : triangle.corners) {
-                low = glm::min(low, patch.mesh.positions[corner.position]);
-                high = glm::max(high, patch.mesh.positions[corner.position]);
+            vec3 low = patch.mesh.positions[triangle.vertices[0].position], high = low;
+            for (const Vertex& vertex : triangle.vertices) {
+                low = glm::min(low, patch.mesh.positions[vertex.position]);
+                high = glm::max(high, patch.mesh.positions[vertex.position]);
             }
             if (low + high != face_middle) continue;
-            for (const Corner& corner : triangle.corners)
-                if (patch.mesh.positions[corner.position] == place) return all[corner.normal];
+            for (const Vertex& vertex : triangle.vertices)
+                if (patch.mesh.positions[vertex.position] == at) return all[vertex.normal];
         }
-        ADD_FAILURE() << "no such corner";
+        ADD_FAILURE() << "no such vertex";
         return vec4(0);
     };
     const auto middle_of = [&](const std::array<std::uint32_t, 3>& face) {
@@ -571,20 +573,20 @@ TEST(NormalMaps, HardCase_OrderDoesNotMatter) {
         return low + high;
     };
     for (int shuffle = 0; shuffle < 200; ++shuffle) {
-        // Vertices in another order, faces too, and each may begin with any of its corners.
-        std::vector<std::uint32_t> new_place(positions.size());
-        for (std::uint32_t i = 0; i < new_place.size(); ++i) new_place[i] = i;
-        std::shuffle(new_place.begin(), new_place.end(), random);
+        // Vertices in another order, faces too, and each may begin with any of its vertices.
+        std::vector<std::uint32_t> new_index(positions.size());
+        for (std::uint32_t i = 0; i < new_index.size(); ++i) new_index[i] = i;
+        std::shuffle(new_index.begin(), new_index.end(), random);
         std::vector<vec3> other_positions(positions.size()), other_normals(positions.size());
         std::vector<vec2> other_uvs(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            other_positions[new_place[i]] = positions[i];
-            other_normals[new_place[i]] = normals[i];
-            other_uvs[new_place[i]] = uvs[i];
+            other_positions[new_index[i]] = positions[i];
+            other_normals[new_index[i]] = normals[i];
+            other_uvs[new_index[i]] = uvs[i];
         }
         auto other_faces = faces;
         for (auto& face : other_faces) {
-            for (std::uint32_t& i : face) i = new_place[i];
+            for (std::uint32_t& i : face) i = new_index[i];
             std::rotate(face.begin(), face.begin() + random() % 3, face.end());
         }
         std::shuffle(other_faces.begin(), other_faces.end(), random);
@@ -601,8 +603,8 @@ TEST(NormalMaps, HardCase_OrderDoesNotMatter) {
     }
 }
 
-TEST(NormalMaps, Eq8_6_FansOfLeaningFaces) {
-    // Faces that lean against the corner's normal, with textures of their own each: by the formula.
+TEST(NormalMaps, Eq8_6_FansOfSlantedFaces) {
+    // Faces at an angle to the vertex's normal, each with its own texture: by the formula.
     std::mt19937 random(8);
     std::uniform_real_distribution<float> any(-1, 1);
     const auto unit = [](dvec3 v) { return v / std::sqrt(glm::dot(v, v)); };
@@ -630,7 +632,7 @@ TEST(NormalMaps, Eq8_6_FansOfLeaningFaces) {
         if (glm::length(sum) < 0.5) continue;  // they nearly cancel
         const Patch patch(positions, uvs, faces, normals);
         for (std::size_t k = 0; k < count; ++k) {
-            const vec4 found = patch.tangents()[patch.mesh.triangles[k].corners[0].normal];
+            const vec4 found = patch.tangents()[patch.mesh.triangles[k].vertices[0].normal];
             // Some roundings of each of five terms up to pi, over the length of their sum.
             EXPECT_TRUE(are_near(vec3(found), vec3(unit(sum)), 5e-5f)) << "seed 8, case " << i;
             EXPECT_EQ(found.w, 1);
@@ -638,9 +640,9 @@ TEST(NormalMaps, Eq8_6_FansOfLeaningFaces) {
     }
 }
 
-TEST(NormalMaps, HardCase_ZeroIsOnePlaceWhateverItsSign) {
+TEST(NormalMaps, HardCase_NegativeZeroIsTheSamePosition) {
     look_up("Eq. 8.6, -0 is 0");
-    // The square of two triangles, of which the second has its own corners, with -0 for 0.
+    // The square of two triangles, of which the second has its own vertices, with -0 for 0.
     const float c = 0.6f, s = 0.8f;  // its texture is turned
     const Patch patch(
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0f, -0.0f, -0.0f}, {1, 1, -0.0f}, {-0.0f, 1, -0.0f}},
@@ -654,10 +656,10 @@ TEST(NormalMaps, HardCase_ZeroIsOnePlaceWhateverItsSign) {
     EXPECT_GT(degrees_between(patch.frame(0, 0).tangent, along_x), 10) << "a mean of two";
 }
 
-TEST(NormalMaps, HardCase_AnyCornerMayComeFirst) {
+TEST(NormalMaps, HardCase_AnyVertexMayComeFirst) {
     look_up("Eq. 8.6, no order");
     // Needles, in space and in the texture: what is left of Eq. 8.3's difference is mostly
-    // rounding, and another corner to start from would round otherwise.
+    // rounding, and another vertex to start from would round otherwise.
     std::mt19937 random(9);
     std::uniform_real_distribution<float> any(-1, 1);
     for (int i = 0; i < 5000; ++i) {
@@ -667,15 +669,15 @@ TEST(NormalMaps, HardCase_AnyCornerMayComeFirst) {
         };
         const vec3 p = some(1e-3f), q = some(1);
         const vec2 t(some(1e-3f)), u(some(1));
-        const std::vector<vec3> places{p, q, p + share * (q - p) + some(1e-6f)};
+        const std::vector<vec3> positions{p, q, p + share * (q - p) + some(1e-6f)};
         const std::vector<vec2> uvs{t, u, t + share * (u - t) + vec2(some(1e-6f))};
         const std::vector<vec3> normals(3, vec3(0.1f, 0.2f, 1));
-        const Patch first(places, uvs, {{0, 1, 2}}, normals);
-        const Patch second(places, uvs, {{1, 2, 0}}, normals);
-        const Patch third(places, uvs, {{2, 0, 1}}, normals);
+        const Patch first(positions, uvs, {{0, 1, 2}}, normals);
+        const Patch second(positions, uvs, {{1, 2, 0}}, normals);
+        const Patch third(positions, uvs, {{2, 0, 1}}, normals);
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto tangent_of = [&](const Patch& patch, std::size_t corner) {
-                return patch.tangents()[patch.mesh.triangles[0].corners[corner].normal];
+            const auto tangent_of = [&](const Patch& patch, std::size_t vertex) {
+                return patch.tangents()[patch.mesh.triangles[0].vertices[vertex].normal];
             };
             const vec4 expected = tangent_of(first, k);
             ASSERT_EQ(tangent_of(second, (k + 2) % 3), expected) << "seed 9, case " << i;
@@ -686,20 +688,20 @@ TEST(NormalMaps, HardCase_AnyCornerMayComeFirst) {
 
 TEST(NormalMaps, HardCase_TangentsThatCancel) {
     look_up("Eq. 8.6");
-    // Two triangles on one place and uv, with textures turned against each other.
+    // Two triangles with one position and uv in common, and opposite textures.
     const Patch patch({vec3(0), along_x, along_y, -along_x, -along_y},
                       {vec2(0), {1, 0}, {0, 1}, {1, 0}, {0, 1}}, {{0, 1, 2}, {0, 3, 4}});
     for (std::size_t triangle = 0; triangle < 2; ++triangle) {
         const TangentFrame frame = patch.frame(triangle, 0);
         EXPECT_TRUE(is_orthonormal(frame));
-        EXPECT_EQ(frame.tangent, any_across(frame.normal));
+        EXPECT_EQ(frame.tangent, any_orthogonal(frame.normal));
     }
 }
 
-TEST(NormalMaps, HardCase_ModelsThatAreTurnedAndStretched) {
+TEST(NormalMaps, HardCase_TransformedModels) {
     look_up("Eq. 4.15, and what goes with it");
     // What is found on the stretched model is what the matrices make of what was found before it:
-    // tangents go with the points, normals with the matrix of cofactors.
+    // tangents transform like points, normals by the cofactor matrix.
     // The roof of the worked example.
     const mat3 twice_as_wide(2, 0, 0, 0, 1, 0, 0, 0, 1);
     EXPECT_EQ(twice_as_wide * vec3(1, -1, 0), vec3(2, -1, 0));
@@ -718,11 +720,12 @@ TEST(NormalMaps, HardCase_ModelsThatAreTurnedAndStretched) {
         const vec3 stretched_out = unit_or(glm::cross(q[1] - q[0], q[2] - q[0]), along_x);
         EXPECT_TRUE(are_near(stretched_out, unit_or(normal_matrix(m) * out, along_x), 1e-6f));
         EXPECT_GT(glm::length(stretched_out - unit_or(m * out, along_x)), 0.1f)
-            << "normals do not go with the points";
+            << "normals do not transform like points";
         const TangentFrame frame = tangent_frame(m * before.tangent, normal_matrix(m) * out, 1.0f);
         EXPECT_TRUE(is_orthonormal(frame));
         EXPECT_TRUE(are_near(frame.tangent, after.tangent, 1e-6f)) << "already across";
-        // Outwards is -C N if M mirrors, and the handedness changes: B still leads where v grows.
+        // Outwards is -C N if M mirrors, and the handedness changes: B still points to where v
+        // grows.
         const vec3 outwards = mirror * (normal_matrix(m) * out);
         const float h = mirror * static_cast<float>(before.handedness);
         const TangentFrame outside = tangent_frame(m * before.tangent, outwards, h);

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
-// How exact frames and tilted normals are, against long double; and numbers of all kinds.
+// The accuracy of tangent frames and perturbed normals, against long double; and special numbers.
+#include <algorithm>
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <memory>
 #include <random>
-#include <utility>
-#include <vector>
+#include <span>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
-#include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
+#include "06_phong/effects.hpp"
+#include "06_phong/normals.hpp"
+#include "06_phong/surface.hpp"
+#include "08_normal_maps/normal_mapping.hpp"
 #include "support/look_up.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
@@ -126,13 +130,13 @@ TEST(NormalMaps, Eq8_5_FramesAsExactAsTheDocumentationSays) {
     EXPECT_GT(judged, exact_cases / 2);
 }
 
-TEST(NormalMaps, Eq8_7_TiltedNormalsAsExactAsFloatsAllow) {
+TEST(NormalMaps, Eq8_7_PerturbedNormalsAsExactAsFloatsAllow) {
     LogUniform any(3);
     for (int i = 0; i < exact_cases; ++i) {
         const TangentFrame frame =
             tangent_frame(any.direction(), any.direction(), any.below(2) ? 1.0f : -1.0f);
         const vec3 in_map = any.three();
-        const vec3 found = tilted(frame, in_map, frame.normal);
+        const vec3 found = perturbed(frame, in_map, frame.normal);
         for (int axis = 0; axis < 3; ++axis) {
             Sum sum;
             sum.add(real{in_map.x} * frame.tangent[axis]);
@@ -148,22 +152,35 @@ TEST(NormalMaps, Eq8_7_TiltedNormalsAsExactAsFloatsAllow) {
 
 namespace {
 
-/// A scene of one triangle, to be given any numbers, under one texture of normals.
-struct Bumpy {
-    struct Options {
-        TextureOptions texture;
-        LightOptions shading;
-        NormalMapVariant normal_map;
-    };
+/// A triangle to be given any numbers, with a normal map and a highlight.
+struct NormalMappedTriangle {
+    Scene scene = scene_of_one_triangle();
+    NormalMaps maps;
 
-    Options options;
-    BumpyScene scene;
+    explicit NormalMappedTriangle(const Image<vec4>& normals)
+        : maps{{std::make_shared<Texture>(make_texture(normals, Wrap::repeat))},
+               {MapSpace::tangent}} {}
 
-    explicit Bumpy(const Image<vec4>& normals) : scene(scene_of_one_triangle(), options) {
-        scene.normal_textures[0] = std::make_shared<Texture>(make_texture(normals, Wrap::repeat));
-    }
     Mesh& mesh() { return scene.meshes[0]; }
-    std::array<vec2, 3> uvs() { return {mesh().uvs[0], mesh().uvs[1], mesh().uvs[2]}; }
+    const std::array<vec2, 3>& uvs() const { return uvs_; }
+
+    void set_uvs(const std::array<vec2, 3>& uvs) {
+        uvs_ = uvs;
+        mesh().uvs = {uvs[0], uvs[1], uvs[2]};
+    }
+
+    /// To be called again after any change.
+    void make_tangents() {
+        mesh().tangents = vertex_tangents(mesh(), [&](const Triangle&) { return uvs_; });
+    }
+
+    ProjectedTriangle seen(bool is_back) const {
+        return not_on_screen(scene.meshes[0], scene.meshes[0].triangles[0], is_back);
+    }
+    TriangleSurface surface(bool is_back) const {
+        return triangle_surface(scene, textures_, plan_effects(scene, textures_, maps, false)[0],
+                                seen(is_back));
+    }
 
   private:
     static Scene scene_of_one_triangle() {
@@ -172,10 +189,12 @@ struct Bumpy {
         scene.materials[0].specular = vec3(1);
         scene.materials[0].shininess = 5;
         scene.meshes.push_back(mesh_of({vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)}, {{0, 1, 2}}));
-        scene.meshes[0].uvs = {vec2(0), vec2(1, 0), vec2(0, 1)};
-        for (std::uint32_t i = 0; i < 3; ++i) scene.meshes[0].triangles[0].corners[i].uv = i;
+        for (std::uint32_t i = 0; i < 3; ++i) scene.meshes[0].triangles[0].vertices[i].uv = i;
         return scene;
     }
+
+    SurfaceTextures textures_{MaterialTextures(1), MaterialTextures(1)};
+    std::array<vec2, 3> uvs_{};
 };
 
 }  // namespace
@@ -205,54 +224,50 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfFrames) {
 TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
     look_up("Eq. 8.7");
     SpecialNumbers mix(5);
-    // Normals as no file holds them: of any length, and pointing into the surface.
+    // Normals as no file has them: of any length, and pointing into the surface.
     Image<vec4> normals({4, 4});
     for (vec4& n : normals.pixels()) n = vec4(glm::clamp(mix.place(), -1e8f, 1e8f), 1);
-    Bumpy bumpy(normals);
+    NormalMappedTriangle mapped(normals);
     const std::array lights{sun(unit_or({1, 2, 3}, vec3(0, 1, 0))),
                             Light{LightKind::point, vec3(1), vec3(0), vec3(2, 1, 0)}};
     int lit = 0;
     for (int i = 0; i < special_cases / 8; ++i) {
-        Mesh& mesh = bumpy.mesh();
+        Mesh& mesh = mapped.mesh();
         mesh.positions = {mix.place(), mix.place(), mix.place()};
         mesh.normals = {mix.any_three(), mix.any_three(), mix.any_three()};
-        for (vec2& uv : mesh.uvs) uv = mix.any_two();
+        mapped.set_uvs({mix.any_two(), mix.any_two(), mix.any_two()});
         for (std::uint32_t k = 0; k < 3; ++k)
-            mesh.triangles[0].corners[k].normal = mix.below(16) == 0 ? no_index : k;
+            mesh.triangles[0].vertices[k].normal = mix.below(16) == 0 ? no_index : k;
         complete_normals(mesh);
         NormalMapVariant variant;
         variant.frame = static_cast<FrameOf>(mix.below(3));
         variant.orthonormal = static_cast<Orthonormal>(mix.below(2));
         variant.channels = static_cast<Channels>(mix.below(2));
-        bumpy.scene.normal_spaces[0] = static_cast<MapSpace>(mix.below(2));
-        bumpy.scene.materials[0].normal_map.bump_multiplier = mix.any();
-        bumpy.scene.materials[0].bump_map.bump_multiplier = mix.any();
-        bumpy.scene.tangents[0] =
-            vertex_tangents(mesh, [&](const Triangle&) { return bumpy.uvs(); });
-        for (const vec4 tangent : bumpy.scene.tangents[0])
+        mapped.maps.spaces[0] = static_cast<MapSpace>(mix.below(2));
+        mapped.scene.materials[0].normal_map.bump_multiplier = mix.any();
+        mapped.scene.materials[0].bump_map.bump_multiplier = mix.any();
+        mapped.make_tangents();
+        for (const vec4 tangent : mesh.tangents)
             ASSERT_NEAR(glm::length(vec3(tangent)), 1, 1e-6) << "seed 5, case " << i;
 
-        const Triangle& triangle = mesh.triangles[0];
         const bool is_back = mix.below(2) == 0;
-        const TriangleSurface surface(bumpy.scene, mesh, triangle);
-        const TriangleRelief relief(variant, bumpy.scene, mesh, triangle, is_back);
-        const TriangleLight light({}, lights, mix.place(), mesh, triangle, is_back, surface);
-        ManyWeights weights;
-        while (weights.count < 8) {
+        const TriangleSurface surface = mapped.surface(is_back);
+        const TriangleNormalMap map =
+            triangle_normal_map(variant, mapped.scene, mapped.maps, mapped.seen(is_back));
+        const vec3 eye = mix.place();
+        const auto filter = static_cast<Filter>(mix.below(3));
+        for (int k = 0; k < 8; ++k) {
             const float x = static_cast<float>(mix.below(5)) / 4;
             const float y = (1 - x) * static_cast<float>(mix.below(5)) / 4;
-            weights.set(weights.count++, {{x, y, 1 - x - y}, mix.any_three(), mix.any_three()});
-        }
-        BumpyPoints points;
-        NoCounters none;
-        light.add(weights, points, none);
-        relief.add(weights, static_cast<Filter>(mix.below(3)), points, none);
-        relief.tilt(points);
-        light.compute(points);
-        for (std::size_t point = 0; point < points.count; ++point) {
-            const ReflectedLight found = points.light(point);
+            const FragmentBarycentrics at{{x, y, 1 - x - y}, mix.any_three(), mix.any_three()};
+            NoCounters none;
+            const vec3 normal = normal_mapped(
+                map, variant, at, interpolate(surface.normals_world, at.here), filter, none);
+            const SurfacePoint<float> point = surface_point(surface, at.here, normal, eye, none);
+            const ReflectedLight found =
+                reflected_light(std::span(lights), point, highlight_of(surface));
             ASSERT_TRUE(is_finite(found.diffuse) && is_finite(found.specular))
-                << "seed 5, case " << i << ", point " << point;
+                << "seed 5, case " << i << ", point " << k;
             ASSERT_GE(std::min(found.diffuse.x, found.specular.x), 0) << "seed 5, case " << i;
             ASSERT_LE(std::max(found.diffuse.x, found.specular.x), 2.001f) << "seed 5, case " << i;
             lit += found.diffuse.x > 0;
@@ -261,57 +276,49 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
     EXPECT_GT(lit, special_cases / 10);
 }
 
-TEST(NormalMaps, HardCase_ManyPointsAtOnceAreTiltedAsOne) {
-    look_up("Eq. 8.5 and 8.7");
+TEST(NormalMaps, Eq8_7_AFragmentsNormalTakesTheStepsOfTheText) {
+    // Which tangents, which side and which handedness: the same bits as by hand.
     std::mt19937 random(6);
     std::uniform_real_distribution<float> any(-1, 1);
     const auto some = [&] { return vec3(any(random), any(random), any(random)); };
     Image<vec4> normals({8, 8});
     for (vec4& n : normals.pixels()) n = vec4(some() + vec3(0, 0, 1.5f), 1);
     normals[{3, 3}] = normals[{3, 4}] = {0, 0, 1, 1};
-    Bumpy bumpy(normals);
+    NormalMappedTriangle mapped(normals);
     for (int i = 0; i < 2000; ++i) {
-        Mesh& mesh = bumpy.mesh();
+        Mesh& mesh = mapped.mesh();
         mesh.positions = {some(), some(), some()};
         mesh.normals = {some(), some(), some()};
-        for (std::uint32_t k = 0; k < 3; ++k) mesh.triangles[0].corners[k].normal = k;
-        for (vec2& uv : mesh.uvs) uv = vec2(some());
+        for (std::uint32_t k = 0; k < 3; ++k) mesh.triangles[0].vertices[k].normal = k;
+        mapped.set_uvs({vec2(some()), vec2(some()), vec2(some())});
         complete_normals(mesh);
-        bumpy.scene.tangents[0] =
-            vertex_tangents(mesh, [&](const Triangle&) { return bumpy.uvs(); });
+        mapped.make_tangents();
         NormalMapVariant variant;
         if (i % 2) variant.frame = FrameOf::pixel;
-        const TriangleRelief relief(variant, bumpy.scene, mesh, mesh.triangles[0], i % 3 == 0);
-        const TriangleSurface surface(bumpy.scene, mesh, mesh.triangles[0]);
-        const TriangleLight light({}, {}, vec3(0), mesh, mesh.triangles[0], i % 3 == 0, surface);
-        NoCounters none;
-        ManyWeights weights;
-        while (weights.count < 20) {
-            const float x = 0.05f * static_cast<float>(weights.count), y = (1 - x) * 0.3f;
-            weights.set(weights.count++, {{x, y, 1 - x - y}, vec3(0), vec3(0)});
+        const bool is_back = i % 3 == 0;
+        const float side = is_back ? -1.0f : 1.0f;
+        const TriangleNormalMap map =
+            triangle_normal_map(variant, mapped.scene, mapped.maps, mapped.seen(is_back));
+        const UvDirections of_face =
+            uv_directions({mesh.positions[0], mesh.positions[1], mesh.positions[2]}, mapped.uvs());
+        std::array<vec3, 3> tangents, vertex_normals;
+        for (std::size_t v = 0; v < 3; ++v) {
+            tangents[v] = i % 2 ? of_face.tangent : vec3(mesh.tangents[v]);
+            vertex_normals[v] = side * mesh.normals[v];
         }
-        BumpyPoints together;
-        light.add(weights, together, none);
-        relief.add(weights, Filter::nearest, together, none);
-        std::vector<vec3> alone;  // by the plain steps
-        for (std::size_t k = 0; k < together.count; ++k) {
-            const vec3 mixed = together.normal_world[k];
-            const float side = i % 3 == 0 ? -1.0f : 1.0f;
-            const UvDirections of_face = uv_directions(
-                {mesh.positions[0], mesh.positions[1], mesh.positions[2]}, bumpy.uvs());
-            const auto& tangents = bumpy.scene.tangents[0];
-            std::array<vec3, 3> corners;
-            for (std::size_t c = 0; c < 3; ++c)
-                corners[c] = i % 2 ? of_face.tangent : vec3(tangents[c]);
-            const vec3 tangent = interpolate(corners, weights.here[k]);
+        for (int k = 0; k < 20; ++k) {
+            const float x = 0.05f * static_cast<float>(k), y = (1 - x) * 0.3f;
+            const FragmentBarycentrics at{{x, y, 1 - x - y}, vec3(0), vec3(0)};
+            const vec3 normal = interpolate(vertex_normals, at.here);
+            NoCounters none;
+            const vec3 found = normal_mapped(map, variant, at, normal, Filter::nearest, none);
+
+            const vec3 tangent = interpolate(tangents, at.here);
             const TangentFrame frame = tangent_frame(
-                side * tangent, mixed, side * static_cast<float>(of_face.handedness < 0 ? -1 : 1));
-            alone.push_back(tilted(frame, together.in_map[k], mixed));
+                side * tangent, normal, side * static_cast<float>(of_face.handedness < 0 ? -1 : 1));
+            const vec3 in_map = sample_normal(*mapped.maps.textures[0], Filter::nearest,
+                                              fragment_uv(mapped.uvs(), at));
+            ASSERT_EQ(found, perturbed(frame, in_map, normal)) << "seed 6, case " << i << ", " << k;
         }
-        relief.tilt(together);
-        for (std::size_t k = 0; k < alone.size(); ++k)
-            ASSERT_EQ(together.normal_world[k], alone[k])
-                << "seed 6, case " << i << ", " << k
-                << "; TriangleRelief takes the steps that unit_across() documents";
     }
 }

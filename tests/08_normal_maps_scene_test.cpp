@@ -1,46 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Which materials call for normal maps, what files may say of them, and the lesson's pictures.
+// Materials that call for normal maps, the statements of MTL, and the lesson's pictures.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/lit_points.hpp"
-#include "06_phong/lit_scene.hpp"
-#include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/image_io.hpp"
-#include "common/lesson_app.hpp"
+#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
-#include "common/obj.hpp"
+#include "common/model/obj.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
+#include "support/lessons.hpp"
 #include "support/look_up.hpp"
 #include "support/picture_difference.hpp"
+#include "support/pictures.hpp"
 #include "support/printers.hpp"
-
-namespace lesson {
-#define main main_of_lesson
-#include "08_normal_maps/main.cpp"
-#undef main
-}  // namespace lesson
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -48,33 +28,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path models = fs::path(RASTERBOOK_ASSETS) / "models";
 const std::string textures = (fs::path(RASTERBOOK_ASSETS) / "textures").string() + "/";
 
-lesson::Options small_picture() {
-    lesson::Options options;
+lesson_08::Options small_picture() {
+    lesson_08::Options options;
     options.size = {320, 180};
     return options;
 }
 
-Image<vec3> picture_of(const Scene& scene, const lesson::Options& options) {
+Drawn drawn_scene(const Scene& scene, const lesson_08::Options& options) {
+    return drawn(options, lesson_08::make_assets(scene, options),
+                 [](auto&... arguments) { return lesson_08::render(arguments...); });
+}
+
+Image<vec3> picture_of(const Scene& scene, const lesson_08::Options& options) {
     NoCounters none;
-    return lesson::render(options, BumpyScene(scene, options), none);
-}
-
-std::uint64_t count(const Counters& counters, Counter counter) {
-    return counters.values[static_cast<std::size_t>(counter)];
-}
-
-Counters counters_of(const Scene& scene, const lesson::Options& options) {
-    Counters counters;
-    lesson::render(options, BumpyScene(scene, options), counters);
-    return counters;
-}
-
-bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+    return lesson_08::render(options, lesson_08::make_assets(scene, options), none);
 }
 
 bool is_finite(const Image<vec3>& picture) {
@@ -105,14 +74,14 @@ const std::string square =
 
 /// Its material in a folder that stays for the test, beside what `write_pictures` puts there.
 Scene square_of(const std::string& material, const std::string& obj = square) {
-    const fs::path folder = fresh_folder("bumpy_square");
+    const fs::path folder = fresh_folder("normal_mapped_square");
     written(folder / "m.mtl", "newmtl m\nKd 0.8 0.8 0.8\n" + material);
     return load_obj(written(folder / "m.obj", obj));
 }
 
 /// Looks at the square from the front, and a little from the side.
-lesson::Options before_the_square() {
-    lesson::Options options = small_picture();
+lesson_08::Options before_the_square() {
+    lesson_08::Options options = small_picture();
     options.size = {160, 90};
     options.orbit.yaw_degrees = -20;
     return options;
@@ -139,45 +108,43 @@ TEST(NormalMaps, HardCase_NoFrameWithoutAMap) {
         bool has_maps;
     };
     for (const auto& [name, scene, has_maps] :
-         {Row{"scene", load_obj(models / "scene.obj"), false},
-          Row{"teapot", load_obj(models / "teapot.obj"), false},
-          Row{"scene_bumpy", load_obj(models / "scene_bumpy.obj"), true},
-          Row{"crate_bump", load_obj(models / "crate_bump.obj"), true},
-          Row{"none", square_of(""), false}, Row{"norm", square_of(norm), true},
-          Row{"bump", square_of(bump), true},
+         {Row{"scene", loaded("scene.obj"), false}, Row{"teapot", loaded("teapot.obj"), false},
+          Row{"scene_bumpy", loaded("scene_bumpy.obj"), true},
+          Row{"crate_bump", loaded("crate_bump.obj"), true}, Row{"none", square_of(""), false},
+          Row{"norm", square_of(norm), true}, Row{"bump", square_of(bump), true},
           Row{"unlit norm", square_of("illum 0\n" + norm), false},
           Row{"unlit bump", square_of("illum 0\n" + bump), false},
           Row{"diffuse norm", square_of("illum 1\n" + norm), true}}) {
-        lesson::Options options = small_picture();
+        lesson_08::Options options = small_picture();
         options.size /= 2;
         for (const FrameOf frame : all_frames) {
             options.normal_map.frame = frame;
-            const BumpyScene bumpy(scene, options);
-            for (std::size_t i = 0; i < bumpy.meshes.size(); ++i) {
+            const NormalMapAssets assets = lesson_08::make_assets(scene, options);
+            for (const Mesh& mesh : assets.scene.meshes) {
                 const bool calls_for_one =
-                    std::ranges::any_of(bumpy.meshes[i].triangles, [&](const Triangle& triangle) {
-                        return bumpy.normal_textures[triangle.material] != nullptr;
+                    std::ranges::any_of(mesh.triangles, [&](const Triangle& triangle) {
+                        return assets.normal_maps.textures[triangle.material] != nullptr;
                     });
-                EXPECT_EQ(bumpy.tangents[i].empty(), !calls_for_one || frame != FrameOf::vertex)
-                    << name << ", mesh " << i;
+                EXPECT_EQ(mesh.tangents.empty(), !calls_for_one || frame != FrameOf::vertex)
+                    << name << ", mesh " << mesh.name;
             }
-            const Counters counters = counters_of(scene, options);
-            EXPECT_EQ(count(counters, Counter::normal_map_samples) > 0, has_maps) << name;
-            EXPECT_EQ(count(counters, Counter::meshes_with_tangents) > 0,
+            const Drawn with = drawn_scene(scene, options);
+            EXPECT_EQ(with.count(Counter::normal_map_samples) > 0, has_maps) << name;
+            EXPECT_EQ(with.count(Counter::meshes_with_tangents) > 0,
                       has_maps && frame == FrameOf::vertex)
                 << name;
-            EXPECT_LE(count(counters, Counter::normal_map_samples),
-                      count(counters, Counter::fragments_lit));
+            EXPECT_LE(with.count(Counter::normal_map_samples), with.count(Counter::fragments_lit));
         }
         options.normal_map = {};
         options.normal_map.space = MapSpace::none;
-        EXPECT_EQ(count(counters_of(scene, options), Counter::normal_map_samples), 0u) << name;
-        EXPECT_EQ(count(counters_of(scene, options), Counter::meshes_with_tangents), 0u) << name;
+        const Drawn without = drawn_scene(scene, options);
+        EXPECT_EQ(without.count(Counter::normal_map_samples), 0u) << name;
+        EXPECT_EQ(without.count(Counter::meshes_with_tangents), 0u) << name;
 
         options.normal_map.space = MapSpace::tangent;
         options.shading.all_effects = true;
-        const Counters all = counters_of(scene, options);
-        EXPECT_EQ(count(all, Counter::normal_map_samples), count(all, Counter::fragments_lit))
+        const Drawn all = drawn_scene(scene, options);
+        EXPECT_EQ(all.count(Counter::normal_map_samples), all.count(Counter::fragments_lit))
             << name;
     }
 }
@@ -189,12 +156,12 @@ TEST(NormalMaps, HardCase_OnlyMeshesWithMapsHaveTangents) {
         "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
         "g first\nusemtl m\nf 1/1 2/2 3/3\ng second\nusemtl plain\nf 1/1 3/3 4/4\n";
     const Scene scene = square_of("norm " + textures + "brick_normal.png\nnewmtl plain\n", two);
-    lesson::Options options = before_the_square();
+    lesson_08::Options options = before_the_square();
     ASSERT_EQ(scene.meshes.size(), 2u);
-    const BumpyScene bumpy(scene, options);
-    EXPECT_EQ(bumpy.tangents[0].size(), 3u);
-    EXPECT_EQ(bumpy.tangents[1].size(), 0u);
-    EXPECT_EQ(count(counters_of(scene, options), Counter::meshes_with_tangents), 1u);
+    const NormalMapAssets assets = lesson_08::make_assets(scene, options);
+    EXPECT_EQ(assets.scene.meshes[0].tangents.size(), 3u);
+    EXPECT_EQ(assets.scene.meshes[1].tangents.size(), 0u);
+    EXPECT_EQ(drawn_scene(scene, options).count(Counter::meshes_with_tangents), 1u);
 }
 
 TEST(NormalMaps, HardCase_AFlatMapChangesNothing) {
@@ -204,7 +171,7 @@ TEST(NormalMaps, HardCase_AFlatMapChangesNothing) {
     const std::string shiny = "Ks 0.5 0.5 0.5\nNs 20\n";
     for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
         for (const FrameOf frame : all_frames) {
-            lesson::Options options = before_the_square();
+            lesson_08::Options options = before_the_square();
             options.texture.filter = filter;
             options.normal_map.frame = frame;
             options.shading.two_sided = true;
@@ -225,10 +192,10 @@ TEST(NormalMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
     look_up("Eq. 8.7, where x = y = 0");
     for (const char* model :
          {"scene.obj", "teapot.obj", "crate.obj", "scene_bumpy.obj", "crate_bump.obj"}) {
-        const Scene scene = load_obj(models / model);
+        const Scene scene = loaded(model);
         for (const FrameOf frame : all_frames)
             for (const MapSpace space : {MapSpace::tangent, MapSpace::object, MapSpace::none}) {
-                lesson::Options options = small_picture();
+                lesson_08::Options options = small_picture();
                 options.normal_map.frame = frame;
                 options.normal_map.space = space;
                 options.shading.two_sided = frame == FrameOf::pixel;
@@ -240,14 +207,14 @@ TEST(NormalMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
     }
 }
 
-TEST(NormalMaps, HardCase_ALeaningMapIsALeaningSurface) {
+TEST(NormalMaps, HardCase_AMapOfOneNormalIsASlantedSurface) {
     look_up("Eq. 8.7");
-    // All of the map leans by the same angle to the right, or up. By the light of the sun and
-    // without highlights, the square looks as one with such normals of its own.
+    // The whole map has one normal, that points to the right, or up. Without highlights, the square
+    // looks like one whose vertices have that normal.
     const float c = component_from_code(222), s = component_from_code(213);  // .74 and .67
     const std::string right = "norm " + plain_picture("right.png", {213, 128, 222}) + "\n";
     const std::string up = "norm " + plain_picture("up.png", {128, 213, 222}) + "\n";
-    const auto leaning = [&](vec3 normal) {
+    const auto slanted_square = [&](vec3 normal) {
         const std::string n = std::to_string(normal.x) + " " + std::to_string(normal.y) + " " +
                               std::to_string(normal.z);
         return square_of("", "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn " + n +
@@ -256,58 +223,58 @@ TEST(NormalMaps, HardCase_ALeaningMapIsALeaningSurface) {
     for (const LightKind kind : {LightKind::directional, LightKind::point})
         for (const FrameOf frame : all_frames)
             for (const Filter filter : {Filter::nearest, Filter::trilinear}) {
-                lesson::Options options = before_the_square();
+                lesson_08::Options options = before_the_square();
                 options.shading.key_light = kind;
                 options.normal_map.frame = frame;
                 options.texture.filter = filter;
                 EXPECT_EQ(share_that_differs(picture_of(square_of(right), options),
-                                             picture_of(leaning({s, 0, c}), options)),
+                                             picture_of(slanted_square({s, 0, c}), options)),
                           0);
                 EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
-                                             picture_of(leaning({0, s, c}), options)),
+                                             picture_of(slanted_square({0, s, c}), options)),
                           0);
                 EXPECT_GT(share_that_differs(picture_of(square_of(up), options),
-                                             picture_of(leaning({0, -s, c}), options)),
+                                             picture_of(slanted_square({0, -s, c}), options)),
                           0.1);
                 // Green down, and a map that is mirrored by its -s.
                 options.normal_map.green = Green::down;
                 EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
-                                             picture_of(leaning({0, -s, c}), options)),
+                                             picture_of(slanted_square({0, -s, c}), options)),
                           0);
                 options.normal_map.green = Green::up;
                 std::string mirrored = right;
                 mirrored.insert(5, "-s -1 1 1 ");
                 EXPECT_EQ(share_that_differs(picture_of(square_of(mirrored), options),
-                                             picture_of(leaning({-s, 0, c}), options)),
+                                             picture_of(slanted_square({-s, 0, c}), options)),
                           0);
                 // Twice as steep.
                 std::string steep = right;
                 steep.insert(5, "-bm 2 ");
                 EXPECT_EQ(share_that_differs(picture_of(square_of(steep), options),
-                                             picture_of(leaning({2 * s, 0, c}), options)),
+                                             picture_of(slanted_square({2 * s, 0, c}), options)),
                           0);
-                // In the model's space the numbers are those of the axes.
+                // In object space the components are along the axes.
                 options.normal_map.space = MapSpace::object;
                 EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
-                                             picture_of(leaning({0, s, c}), options)),
+                                             picture_of(slanted_square({0, s, c}), options)),
                           0);
             }
 }
 
-TEST(NormalMaps, HardCase_MapsInTheModelsSpaceNeedNoFrame) {
+TEST(NormalMaps, HardCase_ObjectSpaceMapsNeedNoFrame) {
     look_up("maps in object space");
-    // On the floor, looking up: in the model's space (0, 1, 0) is flat.
+    // A floor that faces up: in object space (0, 1, 0) is flat.
     const std::string floor =
         "mtllib m.mtl\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
         "usemtl m\nf 1/1 2/2 3/3 4/4\n";
     const std::string flat = "norm " + plain_picture("flat_up.png", {128, 255, 128}) + "\n";
-    lesson::Options options = before_the_square();
+    lesson_08::Options options = before_the_square();
     options.normal_map.space = MapSpace::object;
     const Image<vec3> plain = picture_of(square_of("", floor), options);
     EXPECT_EQ(share_that_differs(picture_of(square_of(flat, floor), options), plain), 0);
-    EXPECT_EQ(count(counters_of(square_of(flat, floor), options), Counter::meshes_with_tangents),
+    EXPECT_EQ(drawn_scene(square_of(flat, floor), options).count(Counter::meshes_with_tangents),
               0u);
-    // How steep relief is in its frame says nothing here.
+    // -bm scales in the tangent frame: it does not count here.
     const std::string slanted = plain_picture("slanted_up.png", {190, 230, 128}) + "\n";
     EXPECT_EQ(picture_of(square_of("norm -bm 3 " + slanted, floor), options),
               picture_of(square_of("norm " + slanted, floor), options));
@@ -327,7 +294,7 @@ TEST(NormalMaps, HardCase_BacksOfFaces) {
         "mtllib m.mtl\nv 1 -1 0\nv -1 -1 0\nv -1 1 0\nv 1 1 0\n"
         "vt 1 0\nvt 0 0\nvt 0 1\nvt 1 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n";
     for (const FrameOf frame : all_frames) {
-        lesson::Options options = before_the_square();
+        lesson_08::Options options = before_the_square();
         options.normal_map.frame = frame;
         options.orbit.yaw_degrees = 160;
         const Image<vec3> front = picture_of(square_of("norm -bm -1 " + map, from_behind), options);
@@ -340,9 +307,9 @@ TEST(NormalMaps, HardCase_BacksOfFaces) {
     }
 }
 
-TEST(NormalMaps, HardCase_WhatMapBumpMayHold) {
+TEST(NormalMaps, HardCase_NormalsOrHeightsInMapBump) {
     look_up("Eq. 8.9");
-    const lesson::Options options = before_the_square();
+    const lesson_08::Options options = before_the_square();
     const std::string normals = textures + "brick_normal.png\n";
     const std::string heights = "map_Bump -bm 0.014 " + textures + "brick_height.png\n";
     const Image<vec3> as_norm = picture_of(square_of("norm " + normals), options);
@@ -354,14 +321,14 @@ TEST(NormalMaps, HardCase_WhatMapBumpMayHold) {
     const Image<vec3> as_heights = picture_of(square_of(heights), options);
     EXPECT_NE(as_heights, as_norm);
     EXPECT_NE(as_heights, picture_of(square_of(""), options));
-    // Both come from one relief.
-    double difference = 0, relief = 0;
+    // Both come from the same surface.
+    double difference = 0, effect = 0;
     const Image<vec3> plain = picture_of(square_of(""), options);
     for (std::size_t i = 0; i < plain.pixels().size(); ++i) {
         difference += std::abs(as_heights.pixels()[i].x - as_norm.pixels()[i].x);
-        relief += std::abs(as_norm.pixels()[i].x - plain.pixels()[i].x);
+        effect += std::abs(as_norm.pixels()[i].x - plain.pixels()[i].x);
     }
-    EXPECT_LT(difference, 0.1 * relief);
+    EXPECT_LT(difference, 0.1 * effect);
 }
 
 TEST(NormalMaps, HardCase_MissingAndBrokenMaps) {
@@ -398,7 +365,7 @@ TEST(NormalMaps, HardCase_MissingAndBrokenMaps) {
         }
 }
 
-TEST(NormalMaps, HardCase_UvsOfTheModelThatSayNothing) {
+TEST(NormalMaps, HardCase_DegenerateUvs) {
     look_up("Eq. 8.5, where nothing is left");
     const std::string begin = "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
     const std::string map = "Ks 1 1 1\nNs 5\nnorm " + textures + "hammered_normal.png\n";
@@ -412,7 +379,7 @@ TEST(NormalMaps, HardCase_UvsOfTheModelThatSayNothing) {
             for (const char* steepness : {"", "-bm 1e37 ", "-bm 0 ", "-bm 1e-40 "}) {
                 std::string material = map;
                 material.insert(material.find("norm ") + 5, steepness);
-                lesson::Options options = before_the_square();
+                lesson_08::Options options = before_the_square();
                 options.normal_map.frame = frame;
                 const Image<vec3> picture = picture_of(
                     square_of(material, begin + uvs + "usemtl m\n" +
@@ -425,8 +392,8 @@ TEST(NormalMaps, HardCase_UvsOfTheModelThatSayNothing) {
 
 TEST(NormalMaps, HardCase_ModelsOfAllSizes) {
     look_up("Eq. 8.3");
-    const Scene scene = load_obj(models / "scene_bumpy.obj");
-    lesson::Options options = small_picture();
+    const Scene scene = loaded("scene_bumpy.obj");
+    lesson_08::Options options = small_picture();
     options.size = {160, 90};
     for (const FrameOf frame : all_frames) {
         options.normal_map.frame = frame;
@@ -458,7 +425,7 @@ TEST(NormalMaps, PictureOfGreenDown) {
     EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps_green_down", {"--green", "down"}));
 }
 
-TEST(NormalMaps, PictureOfMapsInTheModelsSpace) {
+TEST(NormalMaps, PictureOfObjectSpaceMaps) {
     EXPECT_TRUE(
         equals_golden("08_normal_maps", "08_normal_maps_object", {"--normal-map", "object"}));
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Normals in pictures: codes, heights, channels, and the surface that they tilt.
+// Normals in textures: UNORM codes, heights, channels, and the surface normals they perturb.
+#include <algorithm>
 #include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <random>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "08_normal_maps/normal_map.hpp"
-#include "common/image_io.hpp"
+#include "common/image/image_io.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
 
@@ -24,7 +26,7 @@ constexpr vec3 out_of_the_surface(0, 0, 1);
 /// A few roundings of numbers up to 1.
 constexpr float roundings = 4 * FLT_EPSILON;
 
-/// No frame that is parallel to the axes, so that nothing is right by chance.
+/// Not parallel to the axes, so that nothing is right by chance.
 TangentFrame some_frame(float handedness = 1) {
     return tangent_frame({1, 2, -1}, {0.5f, 0.25f, 2}, handedness);
 }
@@ -37,7 +39,7 @@ double degrees_between(vec3 a, vec3 b) {
 constexpr std::array all_filters = {Filter::nearest, Filter::bilinear, Filter::trilinear};
 constexpr std::array all_wraps = {Wrap::repeat, Wrap::mirror, Wrap::clamp};
 
-/// A picture of heights from what is at each texel's centre; x right and y up, 0 to 1.
+/// A height map, from a function of the texels' centres; x right and y up, 0 to 1.
 template <typename Height>
 Image<u8vec4> heights(ivec2 size, Height&& height) {
     Image<u8vec4> picture(size);
@@ -91,22 +93,22 @@ TEST(NormalMaps, Eq8_1_GreenUpAndGreenDown) {
 TEST(NormalMaps, Eq8_7_WorkedExample) {
     for (const float handedness : {1.0f, -1.0f}) {
         const TangentFrame frame = tangent_frame({1, 0, 0}, {0.6f, 0.8f, 0}, handedness);
-        const vec3 tilt = tilted(frame, {0.36f, 0.48f, 0.8f}, frame.normal);
-        EXPECT_NEAR(tilt.x, 0.768f, roundings);
-        EXPECT_NEAR(tilt.y, 0.424f, roundings);
-        EXPECT_NEAR(tilt.z, -0.48f * handedness, roundings);
+        const vec3 normal = perturbed(frame, {0.36f, 0.48f, 0.8f}, frame.normal);
+        EXPECT_NEAR(normal.x, 0.768f, roundings);
+        EXPECT_NEAR(normal.y, 0.424f, roundings);
+        EXPECT_NEAR(normal.z, -0.48f * handedness, roundings);
     }
 }
 
 TEST(NormalMaps, Eq8_7_TheMapsNormalInTheFrame) {
     // In the frame of the axes they are the map's own numbers.
     const TangentFrame axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    EXPECT_EQ(tilted(axes, {0.6f, 0, 0.8f}, axes.normal), vec3(0.6f, 0, 0.8f));
+    EXPECT_EQ(perturbed(axes, {0.6f, 0, 0.8f}, axes.normal), vec3(0.6f, 0, 0.8f));
     // A floor, u to the right and v away from us: right in the map is x, up is -z, out is y.
-    const TangentFrame floor = tangent_frame({1, 0, 0}, {0, 1, 0}, 1);
+    const TangentFrame floor = tangent_frame({1, 0, 0}, {0, 1, 0}, 1.0f);
     EXPECT_EQ(floor.bitangent, vec3(0, 0, -1));
-    EXPECT_EQ(tilted(floor, {0.6f, 0, 0.8f}, floor.normal), vec3(0.6f, 0.8f, 0));
-    EXPECT_EQ(tilted(floor, {0, 0.6f, 0.8f}, floor.normal), vec3(0, 0.8f, -0.6f));
+    EXPECT_EQ(perturbed(floor, {0.6f, 0, 0.8f}, floor.normal), vec3(0.6f, 0.8f, 0));
+    EXPECT_EQ(perturbed(floor, {0, 0.6f, 0.8f}, floor.normal), vec3(0, 0.8f, -0.6f));
     // Each direction counts by itself, and lengths and angles stay.
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-1, 1);
@@ -114,19 +116,19 @@ TEST(NormalMaps, Eq8_7_TheMapsNormalInTheFrame) {
         const TangentFrame frame = some_frame(handedness);
         for (int i = 0; i < 1000; ++i) {
             const vec3 a(any(random), any(random), any(random));
-            const vec3 tilt = tilted(frame, a, frame.normal);
-            EXPECT_NEAR(glm::dot(tilt, frame.tangent), a.x, roundings) << "seed 1, case " << i;
-            EXPECT_NEAR(glm::dot(tilt, frame.bitangent), a.y, roundings) << "seed 1, case " << i;
-            EXPECT_NEAR(glm::dot(tilt, frame.normal), a.z, roundings) << "seed 1, case " << i;
+            const vec3 normal = perturbed(frame, a, frame.normal);
+            EXPECT_NEAR(glm::dot(normal, frame.tangent), a.x, roundings) << "seed 1, case " << i;
+            EXPECT_NEAR(glm::dot(normal, frame.bitangent), a.y, roundings) << "seed 1, case " << i;
+            EXPECT_NEAR(glm::dot(normal, frame.normal), a.z, roundings) << "seed 1, case " << i;
         }
     }
 }
 
-TEST(NormalMaps, HardCase_TheFlatTexelTiltsNothing) {
+TEST(NormalMaps, HardCase_TheFlatTexelPerturbsNothing) {
     look_up("Eq. 8.1, the flat texel");
     const Image<u8vec4> codes({4, 4}, {128, 128, 255, 255});
     const TangentFrame frame = some_frame();
-    const vec3 mixed = 0.97f * frame.normal;  // as between corners: not of length 1
+    const vec3 interpolated = 0.97f * frame.normal;  // not of length 1
     for (const Green green : {Green::up, Green::down})
         for (const Wrap wrap : all_wraps) {
             const Texture texture = make_texture(normals_from_codes(codes, green), wrap);
@@ -135,7 +137,8 @@ TEST(NormalMaps, HardCase_TheFlatTexelTiltsNothing) {
                     const FragmentUv at{uv, vec2(0.9f, 0.1f), vec2(0.2f, 0.3f)};
                     const vec3 normal = sample_normal(texture, filter, at);
                     EXPECT_EQ(normal, out_of_the_surface);
-                    EXPECT_EQ(tilted(frame, normal, mixed), mixed) << "to the last bit";
+                    EXPECT_EQ(perturbed(frame, normal, interpolated), interpolated)
+                        << "to the last bit";
                 }
         }
     // What the usual decoding makes of it.
@@ -145,7 +148,7 @@ TEST(NormalMaps, HardCase_TheFlatTexelTiltsNothing) {
 
 TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
     look_up("Eq. 8.1, green");
-    // The same relief, stored either way, and read as it is stored.
+    // The same surface, stored either way, and read as it is stored.
     const Image<u8vec4> up =
         read_image(std::filesystem::path(RASTERBOOK_ASSETS) / "textures/hammered_normal.png");
     Image<u8vec4> down = up;
@@ -203,7 +206,7 @@ TEST(NormalMaps, Eq8_9_SlopesOfHeights) {
             EXPECT_EQ((normals[{x, y}].z), 1);
             EXPECT_EQ((normals[{x, y}].w), 1);
         }
-    // A step up to the right leans to the left, one upwards leans down.
+    // A step up to the right has a normal that points to the left, one upwards points down.
     EXPECT_LT((normals[{5, 5}].x), 0);
     EXPECT_LT((normals[{5, 5}].y), 0);
 }
@@ -222,29 +225,30 @@ TEST(NormalMaps, Eq8_9_HeightsBeyondTheBorder) {
     EXPECT_EQ(row(Wrap::repeat), (std::array{0.0f, 2.0f, 0.0f, -2.0f}));
     EXPECT_EQ(row(Wrap::clamp), (std::array{2.0f, 2.0f, 0.0f, 0.0f}));
     EXPECT_EQ(row(Wrap::mirror), (std::array{2.0f, 2.0f, 0.0f, 0.0f}));
-    // The same from below to above; rows run down.
+    // The same from bottom to top; rows run down.
     Image<u8vec4> low({4, 4}, {0, 0, 0, 255});
     for (int x = 0; x < 4; ++x) low[{x, 3}] = {255, 255, 255, 255};
     const Image<vec4> normals = normals_from_heights(low, Wrap::clamp);
     for (int y = 0; y < 4; ++y) EXPECT_EQ((normals[{1, y}].y), y >= 2 ? 2 : 0) << y;
 }
 
-TEST(NormalMaps, Eq8_9_HeightsHaveTheNormalsOfTheSameRelief) {
-    // The generator made both maps from one relief, the heights rounded to 255 steps.
+TEST(NormalMaps, Eq8_9_HeightMapsAndNormalMapsAgree) {
+    // The generator made both maps from the same surface, the heights rounded to 255 steps.
     const std::filesystem::path textures = std::filesystem::path(RASTERBOOK_ASSETS) / "textures";
     const Image<vec4> normals =
         normals_from_codes(read_image(textures / "brick_normal.png"), Green::up);
     const Image<vec4> from_heights =
         normals_from_heights(read_image(textures / "brick_height.png"), Wrap::repeat);
-    constexpr float relief = 0.014f;  // as crate_bump.mtl says: -bm
+    constexpr float bump_multiplier = 0.014f;  // as crate_bump.mtl says: -bm
     // A difference of two codes is off by at most one step in all: .8 degrees; a component of the
     // normal map by half a step.
-    const double most = std::atan(std::sqrt(2.0) * relief * 512 / 2 / 255) * 180 / 3.14159 + 0.4;
+    const double most =
+        std::atan(std::sqrt(2.0) * bump_multiplier * 512 / 2 / 255) * 180 / 3.14159 + 0.4;
     double greatest = 0, sum = 0;
     for (std::size_t i = 0; i < normals.pixels().size(); ++i) {
         const vec4 n = from_heights.pixels()[i];
-        const double off =
-            degrees_between(vec3(normals.pixels()[i]), {relief * n.x, relief * n.y, n.z});
+        const double off = degrees_between(vec3(normals.pixels()[i]),
+                                           {bump_multiplier * n.x, bump_multiplier * n.y, n.z});
         greatest = std::max(greatest, off), sum += off;
     }
     EXPECT_LT(greatest, most);
@@ -264,8 +268,7 @@ TEST(NormalMaps, HardCase_HeightsThatAreAllEqualAreFlat) {
 
 TEST(NormalMaps, HardCase_MirroredCopiesOfAMap) {
     look_up("Eq. 8.7, mirrored copies");
-    // A ramp of normals that all lean to the right and up: in a mirrored copy they lean to the
-    // left.
+    // The normals all point to the right and up: in a mirrored copy they point to the left.
     Texture texture = make_texture(Image<vec4>({8, 8}, vec4(0.6f, 0.48f, 0.64f, 1)), Wrap::mirror);
     const auto at = [&](vec2 uv) {
         return sample_normal(texture, Filter::bilinear, {uv, vec2(0), vec2(0)});

@@ -2,12 +2,11 @@
 // What keeps a lit surface from shadowing itself, and what that costs.
 #include <algorithm>
 #include <array>
-#include <cfloat>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <random>
-#include <string>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -70,7 +69,7 @@ struct TiltedPlane {
 
 /// Points of a mesh with the triangles on which they lie, as fragments have them.
 struct PointOn {
-    Corners corners;
+    Vertices vertices;
     vec3 point;
 };
 
@@ -79,19 +78,20 @@ std::vector<PointOn> points_on(const Mesh& mesh, std::mt19937& random, int of_ea
     std::vector<PointOn> points;
     for (const Triangle& triangle : mesh.triangles)
         for (int i = 0; i < of_each; ++i) {
-            const Corners corners = corners_in(mesh, triangle);
+            const Vertices vertices = vertices_in(mesh, triangle);
             float b = any(random), c = any(random);
             if (b + c > 1) b = 1 - b, c = 1 - c;
-            points.push_back({corners, (1 - b - c) * corners[0] + b * corners[1] + c * corners[2]});
+            points.push_back(
+                {vertices, (1 - b - c) * vertices[0] + b * vertices[1] + c * vertices[2]});
         }
     return points;
 }
 
 /// Of a plane z_ndc = (a x_ndc + b y_ndc) / 2 in a map of so many texels over the cube from -1
 /// to 1.
-Corners plane_in_cube(float a, float b) {
-    const auto corner = [&](float x, float y) { return vec3(x, y, 0.5f * (a * x + b * y)); };
-    return {corner(-1, -1), corner(1, -1), corner(0, 1)};
+Vertices plane_in_cube(float a, float b) {
+    const auto vertex = [&](float x, float y) { return vec3(x, y, 0.5f * (a * x + b * y)); };
+    return {vertex(-1, -1), vertex(1, -1), vertex(0, 1)};
 }
 
 ShadowMap map_of_cube(int size) { return {mat4(1), false, size, {vec3(-1), vec3(1)}}; }
@@ -111,18 +111,19 @@ TEST(ShadowMaps, Eq9_8_SlopesOfAPlaneInAPerspective) {
         const LightMaps maps(plane.light, std::span(&plane.mesh, 1), 64);
         ASSERT_EQ(maps.maps.size(), 1u);
         const ShadowMap& map = maps.maps[0];
-        const Corners corners = corners_in(plane.mesh, plane.mesh.triangles[7]);
-        const Receiver at = receiver(map, Bias::plane, 0, corners, maps.toward(corners[0]));
-        // In long double: places of the three corners, and the plane through those.
-        std::array<lvec3, 3> place;
+        const Vertices vertices = vertices_in(plane.mesh, plane.mesh.triangles[7]);
+        const Receiver at = receiver(map, Bias::plane, 0, vertices, maps.toward(vertices[0]));
+        // In long double: the positions of the three vertices in the map, and the plane through
+        // them.
+        std::array<lvec3, 3> in_map;
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::mat<4, 4, real> m(map.texels_from_world);
-            const lvec4 homogeneous = m * lvec4(lvec3(corners[k]), 1);
-            place[k] = lvec3(homogeneous) / homogeneous.w;
+            const lvec4 homogeneous = m * lvec4(lvec3(vertices[k]), 1);
+            in_map[k] = lvec3(homogeneous) / homogeneous.w;
         }
-        const lvec3 normal = glm::cross(place[1] - place[0], place[2] - place[0]);
+        const lvec3 normal = glm::cross(in_map[1] - in_map[0], in_map[2] - in_map[0]);
         const real x = -normal.x / normal.z, y = -normal.y / normal.z;
-        // 3e-6: steep planes are found from corners in float.
+        // 3e-6: steep planes are found from vertices in float.
         ASSERT_TRUE(is_near(at.slope.x, x, 3e-6L * (std::abs(x) + std::abs(y)))) << "seed 1, " << i;
         ASSERT_TRUE(is_near(at.slope.y, y, 3e-6L * (std::abs(x) + std::abs(y)))) << "seed 1, " << i;
     }
@@ -163,7 +164,7 @@ TEST(ShadowMaps, Eq9_10_HardCase_LitPlanesAtSlopesFrom0To50HaveNoShadow) {
                 for (const PointOn& p : points_on(plane.mesh, random, 8))
                     for (const Bias bias : fitted)
                         for (const int radius : {0, 1, 2, 3}) {
-                            ASSERT_EQ(maps.share(bias, radius, p.corners, p.point), 1)
+                            ASSERT_EQ(maps.visibility(bias, radius, p.vertices, p.point), 1)
                                 << "seed 2: size " << size << ", light " << int(kind) << ", tilt "
                                 << tilt << ", bias " << int(bias) << ", radius " << radius;
                             ++asked;
@@ -173,28 +174,23 @@ TEST(ShadowMaps, Eq9_10_HardCase_LitPlanesAtSlopesFrom0To50HaveNoShadow) {
 }
 
 TEST(ShadowMaps, Eq9_10_LessThanTheDerivedBiasIsTooLittle) {
-    // What a plane needs at worst comes close to what is derived: nothing is given away.
+    // In the worst case, a plane needs nearly all of the derived bias: none of it is wasted.
     std::mt19937 random(3);
     for (const LightKind kind : {LightKind::directional, LightKind::spot})
         for (const int radius : {0, 1, 3}) {
             const TiltedPlane plane(random, kind, 3, vec3(0));
             const LightMaps maps(plane.light, std::span(&plane.mesh, 1), 128);
-            int dark_of_less = 0, dark_without = 0;
+            int dark_with_less = 0, dark_without = 0;
             for (const PointOn& p : points_on(plane.mesh, random, 400)) {
                 const ShadowMap& map = maps.map_for(p.point);
-                Receiver at = receiver(map, Bias::slope, radius, p.corners, maps.toward(p.point));
-                const auto share = [&] {
-                    return radius == 0   ? lit_share<0>(map, at, p.point)
-                           : radius == 1 ? lit_share<1>(map, at, p.point)
-                                         : lit_share<3>(map, at, p.point);
-                };
-                EXPECT_EQ(share(), 1);
+                Receiver at = receiver(map, Bias::slope, radius, p.vertices, maps.toward(p.point));
+                EXPECT_EQ(pcf_visibility(map, radius, at, p.point), 1);
                 at.bias *= 0.9f, at.bias_per_w = 0;
-                dark_of_less += share() < 1;
+                dark_with_less += pcf_visibility(map, radius, at, p.point) < 1;
                 at.bias = 0;
-                dark_without += share() < 1;
+                dark_without += pcf_visibility(map, radius, at, p.point) < 1;
             }
-            EXPECT_GT(dark_of_less, 20) << "light " << int(kind) << ", radius " << radius;
+            EXPECT_GT(dark_with_less, 20) << "light " << int(kind) << ", radius " << radius;
             EXPECT_GT(dark_without, 9000) << "light " << int(kind) << ", radius " << radius;
         }
 }
@@ -218,19 +214,19 @@ TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
     constexpr float gap = 0.1f * 1.5f / size;
     for (int y = 200; y < 300; ++y)
         for (int x = 200; x < 300; ++x)
-            with_plate.depths.test_and_write(ivec2(x, y) + most_pcf_radius,
+            with_plate.depths.test_and_write(ivec2(x, y) + max_pcf_radius,
                                              depth_of_plane({x, y}) - gap);
     for (const float side : {-0.45f, 0.0f, 0.45f}) {
-        const vec2 place = vec2(250.5f + side, 250.5f - side) * (2.0f / size) - 1.0f;
-        const vec3 point(place.x, -place.y, 0.5f * (place.x + 2 * place.y));
-        EXPECT_EQ(lit_share<3>(with_plate, at, point), 0) << side;
+        const vec2 in_map = vec2(250.5f + side, 250.5f - side) * (2.0f / size) - 1.0f;
+        const vec3 point(in_map.x, -in_map.y, 0.5f * (in_map.x + 2 * in_map.y));
+        EXPECT_EQ(pcf_visibility<3>(with_plate, at, point), 0) << side;
         const Receiver sloped = receiver(map, Bias::slope, 0, plane_in_cube(1, -2), to_the_light);
-        EXPECT_EQ(lit_share<0>(with_plate, sloped, point), 1) << side;
+        EXPECT_EQ(pcf_visibility<0>(with_plate, sloped, point), 1) << side;
     }
 }
 
 TEST(ShadowMaps, Eq9_12_TheOffsetAlongTheNormal) {
-    // The sun's texels are 2/512 wide: a plane that leans by 3 : 4 along x moves by
+    // The map's texels are 2/512 wide: a point of a plane that is tilted by 3 : 4 along x moves by
     // (r + 1/2) 2/512 3/5, and nothing is taken off its depth.
     constexpr int size = 512;
     const ShadowMap map = map_of_cube(size);
@@ -241,7 +237,7 @@ TEST(ShadowMaps, Eq9_12_TheOffsetAlongTheNormal) {
     EXPECT_LE(glm::length(offset), (1.5 + beyond_ideal) * 2 / size * 0.6);
     EXPECT_NEAR(glm::dot(glm::normalize(offset), dvec3(0.6, 0, -0.8)), 1, 1e-6);  // to the light
     // Even edge-on it is no longer than that of two sides of a texel.
-    const Corners edge_on = {vec3(0), vec3(1, 1, 0), vec3(0, 0, 1)};
+    const Vertices edge_on = {vec3(0), vec3(1, 1, 0), vec3(0, 0, 1)};
     const Receiver steep = receiver(map, Bias::normal, 1, edge_on, {1, -1, -1e-3f});
     EXPECT_LE(glm::length(steep.offset + steep.offset_times_w), 1.51 * std::sqrt(2) * 2 / size);
 }
@@ -255,16 +251,16 @@ TEST(ShadowMaps, Eq9_12_InAPerspectiveTheMovedPointIsNearerByTheBias) {
         const ShadowMap& map = maps.maps[0];
         const PointOn p = points_on(plane.mesh, random, 1)[7];
         const vec3 toward = maps.toward(p.point);
-        const Receiver moved = receiver(map, Bias::normal, 1, p.corners, toward);
-        const Receiver sloped = receiver(map, Bias::slope, 1, p.corners, toward);
+        const Receiver moved = receiver(map, Bias::normal, 1, p.vertices, toward);
+        const Receiver sloped = receiver(map, Bias::slope, 1, p.vertices, toward);
         if (sloped.bias > 1) continue;  // edge-on
-        const Receiver at = receiver(map, Bias::plane, 1, p.corners, toward);
+        const Receiver at = receiver(map, Bias::plane, 1, p.vertices, toward);
         const dmat4 m(map.texels_from_world);
         const dvec4 here = m * dvec4(p.point, 1);
         const dvec3 offset = dvec3(moved.offset) + here.w * dvec3(moved.offset_times_w);
         const dvec4 there = m * dvec4(dvec3(p.point) + offset, 1);
-        const dvec2 way = dvec2(there) / there.w - dvec2(here) / here.w;
-        const double of_plane = here.z / here.w + glm::dot(dvec2(at.slope), way);
+        const dvec2 shift = dvec2(there) / there.w - dvec2(here) / here.w;
+        const double of_plane = here.z / here.w + glm::dot(dvec2(at.slope), shift);
         const double bias = sloped.bias + sloped.bias_per_w / there.w;
         // 1e-3: points in float lie beside their plane; the term that stands in 1 - K g is more.
         EXPECT_NEAR((of_plane - there.z / there.w) / bias, 1, 1e-3) << "seed 5, " << i;
@@ -272,8 +268,8 @@ TEST(ShadowMaps, Eq9_12_InAPerspectiveTheMovedPointIsNearerByTheBias) {
 }
 
 TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
-    // In a small map of a wide view an offset grows along its own way as much as it is long, or
-    // more: K g of 1 and above.
+    // In a small map of a wide view, an offset needs to grow along its own direction by as much as
+    // its length or more: K g of 1 and above.
     std::mt19937 random(6);
     std::uniform_real_distribution<float> any(-1, 1);
     const auto any_vector = [&] {
@@ -286,7 +282,7 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
         for (const LightKind kind : {LightKind::spot, LightKind::point})
             for (int i = 0; i < 250; ++i) {
                 vec3 middle = 3.0f * any_vector();
-                middle.z = -std::abs(middle.z) - 0.2f;  // in front of the spot
+                middle.z = -std::abs(middle.z) - 0.2f;  // in front of the spotlight
                 vec3 normal = unit_or(any_vector(), vec3(0, 1, 0));
                 if (glm::dot(normal, middle) > 0) normal = -normal;  // the light is at 0
                 const vec3 along = unit_or(glm::cross(normal, any_vector()), vec3(1, 0, 0));
@@ -300,14 +296,14 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
                 // Other things around widen the map to all of the light's view.
                 const LightMaps maps(light, std::span(&mesh, 1), size, {vec3(-4), vec3(4)});
                 for (const PointOn& p : points_on(mesh, random, 15)) {
-                    const vec3 way = glm::normalize(p.point);
+                    const vec3 from_light = glm::normalize(p.point);
                     if (kind == LightKind::spot &&
-                        glm::dot(way, light.direction_world) <= light.cos_none)
+                        glm::dot(from_light, light.direction_world) <= light.cos_none)
                         continue;
-                    if (!(glm::dot(normal, way) < 0)) continue;
+                    if (!(glm::dot(normal, from_light) < 0)) continue;
                     for (const Bias bias : fitted)
                         for (const int radius : {0, 1, 2, 3}) {
-                            ASSERT_EQ(maps.share(bias, radius, p.corners, p.point), 1)
+                            ASSERT_EQ(maps.visibility(bias, radius, p.vertices, p.point), 1)
                                 << "seed 6: size " << size << ", light " << int(kind) << ", plane "
                                 << i << ", bias " << int(bias) << ", radius " << radius;
                             ++asked;
@@ -326,7 +322,7 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
                                      normal.z * real(m[2].w));
                     if (std::abs(kg - 1) < 1e-4L) continue;  // normals in float
                     const Receiver at =
-                        receiver(map, Bias::normal, 3, p.corners, maps.toward(p.point));
+                        receiver(map, Bias::normal, 3, p.vertices, maps.toward(p.point));
                     ASSERT_EQ(at.bias > 1, kg > 1) << "seed 6: size " << size << ", K g " << kg;
                     beyond += kg > 1, close += kg > 0.8L && kg < 1;
                 }
@@ -339,7 +335,7 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
 TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
     look_up("Eq. 9.8");
     struct Row {
-        Corners corners;
+        Vertices vertices;
         bool is_edge_on;
     };
     std::vector<Row> triangles = {
@@ -355,21 +351,21 @@ TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
         for (const float side : {1.0f, -1.0f})
             triangles.push_back({{vec3(0), vec3(1, 0, 0), vec3(0, lean * side, 1)}, true});
     ShadowMap map = map_of_cube(64);
-    for (int i = 0; i < 64; ++i) map.depths.test_and_write(ivec2(i) + most_pcf_radius, 0.3f);
-    for (const auto& [corners, is_edge_on] : triangles)
+    for (int i = 0; i < 64; ++i) map.depths.test_and_write(ivec2(i) + max_pcf_radius, 0.3f);
+    for (const auto& [vertices, is_edge_on] : triangles)
         for (const Bias bias : {Bias::none, Bias::constant, Bias::slope, Bias::plane, Bias::normal})
             for (const vec3 outward : {to_the_light, vec3(0, 1, -1), vec3(0)}) {
-                const Receiver at = receiver(map, bias, 3, corners, outward);
+                const Receiver at = receiver(map, bias, 3, vertices, outward);
                 for (const float number :
                      {at.slope.x, at.slope.y, at.bias, at.bias_per_w, at.offset.x, at.offset.y,
                       at.offset.z, at.offset_times_w.x, at.offset_times_w.y, at.offset_times_w.z})
                     EXPECT_TRUE(std::abs(number) <= 3) << int(bias) << ": " << number;
                 for (const float depth : {0.0f, 0.3f, 1.0f}) {
-                    const float share = lit_share<3>(map, at, {0, 0, 2 * depth - 1});
-                    EXPECT_TRUE(share >= 0 && share <= 1) << share;
+                    const float visibility = pcf_visibility<3>(map, at, {0, 0, 2 * depth - 1});
+                    EXPECT_TRUE(visibility >= 0 && visibility <= 1) << visibility;
                 }
                 if (is_edge_on && (bias == Bias::slope || bias == Bias::plane)) {
-                    EXPECT_EQ(lit_share<3>(map, at, {0, 0, 1}), 1) << "edge-on is lit";
+                    EXPECT_EQ(pcf_visibility<3>(map, at, {0, 0, 1}), 1) << "edge-on is lit";
                 }
             }
 }
@@ -378,19 +374,20 @@ TEST(ShadowMaps, HardCase_ATriangleTurnedAwayIsLeftToItsNormals) {
     look_up("Eq. 9.8");
     ShadowMap map = map_of_cube(8);
     for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x) map.depths.test_and_write(ivec2(x, y) + most_pcf_radius, 0.0f);
+        for (int x = 0; x < 8; ++x) map.depths.test_and_write(ivec2(x, y) + max_pcf_radius, 0.0f);
     const vec3 point(0.1f, 0.1f, 0.5f);
     for (const Bias bias : fitted) {
-        const auto share = [&](vec3 outward) {
-            return lit_share<1>(map, receiver(map, bias, 1, plane_in_cube(1, 1), outward), point);
+        const auto visibility = [&](vec3 outward) {
+            return pcf_visibility<1>(map, receiver(map, bias, 1, plane_in_cube(1, 1), outward),
+                                     point);
         };
-        EXPECT_EQ(share(to_the_light), 0);
-        EXPECT_EQ(share(-to_the_light), 1);
+        EXPECT_EQ(visibility(to_the_light), 0);
+        EXPECT_EQ(visibility(-to_the_light), 1);
     }
 }
 
 TEST(ShadowMaps, Eq9_14_AThinWallLeaksAtItsFootNoMoreThanTheBias) {
-    // A wall of height 1 across x = 0 on a floor at 0; the sun shines from -x.
+    // A wall of height 1 across x = 0 on a floor at 0; the light comes from -x.
     const Mesh floor =
         mesh_of({{-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}}, {{0, 2, 1}, {0, 3, 2}});
     const Mesh wall =
@@ -403,13 +400,13 @@ TEST(ShadowMaps, Eq9_14_AThinWallLeaksAtItsFootNoMoreThanTheBias) {
                 const Light light = sun(vec3(-std::cos(e), std::sin(e), 0));
                 const LightMaps maps(light, meshes, size);
                 const ShadowMap& map = maps.maps[0];
-                const Corners corners = corners_in(floor, floor.triangles[0]);
+                const Vertices vertices = vertices_in(floor, floor.triangles[0]);
                 const dmat4 rows = glm::transpose(dmat4(map.texels_from_world));
                 const double depth_a_unit = glm::length(dvec3(rows[2]));
                 const double texel =
                     1 / std::min(glm::length(dvec3(rows[0])), glm::length(dvec3(rows[1])));
                 for (const Bias bias : fitted) {
-                    const Receiver at = receiver(map, bias, radius, corners, {0, 1, 0});
+                    const Receiver at = receiver(map, bias, radius, vertices, {0, 1, 0});
                     // In world: what is taken off along the ray; a shift along the floor's normal
                     // lifts the point by as much as it is.
                     const double along_ray =
@@ -422,7 +419,8 @@ TEST(ShadowMaps, Eq9_14_AThinWallLeaksAtItsFootNoMoreThanTheBias) {
                     double leak = 0;
                     for (double x = 1e-4; x < end_of_shadow; x += texel / 7)
                         for (const float z : {-0.73f, 0.11f, 1.01f})
-                            if (maps.share(bias, radius, corners, vec3(x, 0, z)) > 0) leak = x;
+                            if (maps.visibility(bias, radius, vertices, vec3(x, 0, z)) > 0)
+                                leak = x;
                     EXPECT_LE(leak, bound) << elevation_degrees << " degrees, size " << size
                                            << ", radius " << radius << ", bias " << int(bias);
                     if (bias == Bias::slope && radius > 0) {
@@ -445,29 +443,29 @@ TEST(ShadowMaps, HardCase_AThinSlabOnTheFloorHasItsShadowFromTwiceTheBiasOn) {
                                                  {{0, 2, 1}, {0, 3, 2}})};
             };
             const Light light = sun(vec3(-std::cos(e), std::sin(e), 0));
-            const Corners corners = corners_in(floor, floor.triangles[0]);
+            const Vertices vertices = vertices_in(floor, floor.triangles[0]);
             const LightMaps low(light, with_slab(0.01f), size);  // its map is much the same
-            const Receiver at = receiver(low.maps[0], bias, radius, corners, {0, 1, 0});
+            const Receiver at = receiver(low.maps[0], bias, radius, vertices, {0, 1, 0});
             const dmat4 rows = glm::transpose(dmat4(low.maps[0].texels_from_world));
             const double height =
                 (at.bias + at.bias_per_w) / glm::length(dvec3(rows[2])) * std::sin(e) +
                 glm::length(dvec3(at.offset + at.offset_times_w));
             const auto h = static_cast<float>(heights * height);
             const LightMaps maps(light, with_slab(h), size);
-            // Under the slab. Its own depth changes within the look-up, too, by as much as the bias
-            // allows for; compared at the texels' centres, it does not.
-            const float share = maps.share(bias, radius, corners, {-0.513f, 0, 0.271f});
+            // Under the slab. Its own depth changes within the PCF kernel, too, by as much as the
+            // bias allows for; compared at the texels' centres, it does not.
+            const float visibility = maps.visibility(bias, radius, vertices, {-0.513f, 0, 0.271f});
             if (heights > 1) {
-                EXPECT_EQ(share, 0) << int(bias);
+                EXPECT_EQ(visibility, 0) << int(bias);
             } else if (bias == Bias::slope) {
-                EXPECT_GT(share, 0.3f) << int(bias);
+                EXPECT_GT(visibility, 0.3f) << int(bias);
             }
         }
 }
 
 TEST(ShadowMaps, Eq9_15_RoundingsStayBelowWhatIsAllowedForThem) {
     std::mt19937 random(4);
-    std::uniform_real_distribution<float> any(-1, 1), share(0, 1);
+    std::uniform_real_distribution<float> any(-1, 1);
     double greatest = 0;
     for (int i = 0; i < 60; ++i) {
         const LightKind kind = kinds[static_cast<std::size_t>(i) % 3];

@@ -1,70 +1,51 @@
 // SPDX-License-Identifier: MIT
-// What calls for shadows, shadows of scenes against rays, numbers of all kinds, and the pictures.
+// Which materials call for shadows, shadows of scenes against rays, special numbers, and the
+// pictures.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <random>
-#include <string>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-#include "common/obj.hpp"
+#include "06_phong/effects.hpp"
+#include "09_shadow_maps/light_view.hpp"
+#include "09_shadow_maps/shadow_map.hpp"
+#include "09_shadow_maps/shadows.hpp"
 #include "support/golden.hpp"
+#include "support/lessons.hpp"
 #include "support/light_maps.hpp"
 #include "support/look_up.hpp"
 #include "support/one_triangle.hpp"
+#include "support/pictures.hpp"
 #include "support/printers.hpp"
 #include "support/shadow_points.hpp"
 
-namespace lesson {
-#define main main_of_lesson
-#include "09_shadow_maps/main.cpp"
-#undef main
-}  // namespace lesson
-
 using namespace rasterbook;
 using namespace rasterbook::test;
-namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path models = fs::path(RASTERBOOK_ASSETS) / "models";
 constexpr std::array kinds = {LightKind::directional, LightKind::point, LightKind::spot};
 
-lesson::Options small_picture() {
-    lesson::Options options;
+lesson_09::Options small_picture() {
+    lesson_09::Options options;
     options.size = {320, 180};
     options.shadow.size = 256;
     return options;
 }
 
-std::uint64_t count(const Counters& counters, Counter counter) {
-    return counters.values[static_cast<std::size_t>(counter)];
-}
-
-bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+/// A picture of the lesson.
+Drawn drawn(const Scene& scene, const lesson_09::Options& options) {
+    return test::drawn(options, lesson_09::make_assets(scene, options),
+                       [](auto&... arguments) { return lesson_09::render(arguments...); });
 }
 
 bool is_finite(const Image<vec3>& picture) {
@@ -72,8 +53,6 @@ bool is_finite(const Image<vec3>& picture) {
         return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
     });
 }
-
-Scene loaded(const char* name) { return load_obj(models / name); }
 
 /// The scene with a change of all of its materials.
 template <typename Change>
@@ -104,83 +83,87 @@ Mesh closed_box(vec3 low, vec3 high) {
                                {1, 7, 5}});
 }
 
-Light lamp_at(vec3 position) { return {LightKind::point, vec3(1), vec3(0, 1, 0), position}; }
+Light point_light(vec3 position) { return {LightKind::point, vec3(1), vec3(0, 1, 0), position}; }
+
+/// The shadow maps of two lights, of which the first casts shadows, and what they say of points of
+/// a scene's first triangle.
+class FirstTriangle {
+  public:
+    FirstTriangle(const Scene& scene, const Light& light, const ShadowVariant& variant)
+        : shadow_maps_(draw_shadow_maps(variant, false, scene, shadow_bounds(scene),
+                                        std::array{light, sun({0, 1, 0})}, counters_)),
+          receiver_(triangle_receiver(vertices_in(scene.meshes[0], scene.meshes[0].triangles[0]))) {
+    }
+
+    float visibility(std::size_t light, vec3 position, vec3 normal) {
+        return light_visibility(shadow_maps_, light, receiver_, position, normal, counters_);
+    }
+    std::uint64_t count(Counter counter) const {
+        return counters_.values[static_cast<std::size_t>(counter)];
+    }
+
+  private:
+    Counters counters_;
+    ShadowMaps shadow_maps_;
+    TriangleReceiver receiver_;
+};
 
 }  // namespace
 
 TEST(ShadowMaps, Eq9_16_LightFadesOutWhereASurfaceTurnsAway) {
-    // A floor in the sun; the normals of its points say how they stand to it.
-    lesson::Options options = small_picture();
+    // A floor in light from above; the normals of its points say how they are turned to it.
     Scene scene;
     scene.meshes.push_back(quad({-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}));
     scene.materials.resize(1);
-    const ShadowedScene shadowed(scene, options);
-    const std::array lights = {sun({0, 1, 0}), sun({0, 1, 0})};
-    Counters counters;
-    const Shadows shadows(options.shadow, false, shadowed, lights, counters);
-    TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
-    LitPoints points;
-    const std::array cosines = {1.0f, 0.5f, 0.1f, 0.05f, 0.01f, 0.0f, -0.01f, -1.0f};
-    for (const float cosine : cosines) {
-        const vec3 normal(std::sqrt(1 - cosine * cosine), cosine, 0);
-        points.position_world.set(points.count, {-0.5f, 0, 0.3f});
-        points.normal_world.set(points.count, 3.0f * normal);  // of any length
-        ++points.count;
+    FirstTriangle floor(scene, sun({0, 1, 0}), small_picture().shadow);
+    for (const float cosine : {1.0f, 0.5f, 0.1f, 0.05f, 0.01f, 0.0f, -0.01f, -1.0f}) {
+        const vec3 position(-0.5f, 0, 0.3f);
+        const vec3 normal =
+            3.0f * vec3(std::sqrt(1 - cosine * cosine), cosine, 0);  // of any length
+        EXPECT_NEAR(floor.visibility(0, position, normal), std::clamp(cosine / 0.1f, 0.0f, 1.0f),
+                    1e-6f)
+            << cosine;
+        EXPECT_EQ(floor.visibility(1, position, normal), 1) << "the sky casts no shadows";
     }
-    shadow.look_up(points, counters);
-    for (std::size_t i = 0; i < cosines.size(); ++i) {
-        EXPECT_NEAR(shadow(0, i), std::clamp(cosines[i] / 0.1f, 0.0f, 1.0f), 1e-6f) << cosines[i];
-        EXPECT_EQ(shadow(1, i), 1) << "the sky has no shadows";
-    }
-    EXPECT_EQ(count(counters, Counter::shadow_lookups), 5u) << "only of those that face the sun";
+    EXPECT_EQ(floor.count(Counter::shadow_tests), 5u) << "only of those that face the light";
 }
 
-TEST(ShadowMaps, Eq9_16_LightFadesAlikeInAllOfALampsFaces) {
-    // The one caster is seen through the lamp's +x; the glass floor below has no map.
-    lesson::Options options = small_picture();
-    options.shading.key_light = LightKind::point;
+TEST(ShadowMaps, Eq9_16_LightFadesAlikeInAllFacesOfAPointLight) {
+    // The one caster is seen through the light's +x; the glass floor below has no map.
     Scene scene;
     scene.meshes.push_back(quad({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}));
     scene.meshes.push_back(quad({2, 0.6f, 0}, {2, 0.6f, 1}, {2, 0.8f, 1}, {2, 0.8f, 0}));
     scene.materials.resize(2);
     scene.materials[0].opacity = 0.5f;
     for (Triangle& triangle : scene.meshes[1].triangles) triangle.material = 1;
-    const ShadowedScene shadowed(scene, options);
-    const std::array lights = {lamp_at({0, 1, 0}), sun({0, 1, 0})};
-    Counters counters;
-    const Shadows shadows(options.shadow, false, shadowed, lights, counters);
-    EXPECT_EQ(count(counters, Counter::shadow_passes), 1u);
-    TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
-    LitPoints points;
-    for (const vec3 position : {vec3(0.9f, 0, -0.1f), vec3(1.1f, 0, -0.1f)})
-        for (const float cosine : {0.5f, 0.05f}) {
-            const vec3 toward = glm::normalize(lights[0].position_world - position);
-            const vec3 across = glm::normalize(glm::cross(toward, vec3(0, 0, 1)));
-            points.position_world.set(points.count, position);
-            points.normal_world.set(points.count,
+    const Light light = point_light({0, 1, 0});
+    FirstTriangle floor(scene, light, small_picture().shadow);
+    EXPECT_EQ(floor.count(Counter::shadow_passes), 1u);
+    for (const vec3 position : {vec3(0.9f, 0, -0.1f), vec3(1.1f, 0, -0.1f)}) {
+        const vec3 toward = glm::normalize(light.position_world - position);
+        const vec3 across = glm::normalize(glm::cross(toward, vec3(0, 0, 1)));
+        const auto visibility = [&](float cosine) {
+            return floor.visibility(0, position,
                                     cosine * toward + std::sqrt(1 - cosine * cosine) * across);
-            ++points.count;
-        }
-    shadow.look_up(points, counters);
-    EXPECT_EQ(count(counters, Counter::shadow_lookups), 2u);
-    for (const std::size_t face : {0u, 2u}) {
-        EXPECT_EQ(shadow(0, face), 1);
-        EXPECT_NEAR(shadow(0, face + 1), 0.5f, 1e-5f);  // a cosine of float in twentieths
+        };
+        EXPECT_EQ(visibility(0.5f), 1);
+        EXPECT_NEAR(visibility(0.05f), 0.5f, 1e-5f);  // a cosine of float in twentieths
     }
+    EXPECT_EQ(floor.count(Counter::shadow_tests), 2u);
 }
 
-TEST(ShadowMaps, Eq9_16_ReliefDoesNotChangeWhoIsAsked) {
+TEST(ShadowMaps, Eq9_16_NormalMapsDoNotChangeWhichShadowTestsAreMade) {
     // On the pot's dark side bumps lean towards the light, on its bright side away from it.
     for (const LightKind kind : kinds) {
-        Counters bumpy, flat;
-        lesson::Options options = small_picture();
+        lesson_09::Options options = small_picture();
         options.shading.key_light = kind;
-        lesson::render(options, ShadowedScene(loaded("scene_bumpy.obj"), options), bumpy);
+        const Scene scene = loaded("scene_bumpy.obj");
+        const Drawn bumpy = drawn(scene, options);
         options.normal_map.space = MapSpace::none;
-        lesson::render(options, ShadowedScene(loaded("scene_bumpy.obj"), options), flat);
-        EXPECT_GT(count(bumpy, Counter::normal_map_samples), 1000u);
-        EXPECT_EQ(count(flat, Counter::normal_map_samples), 0u);
-        EXPECT_EQ(count(bumpy, Counter::shadow_lookups), count(flat, Counter::shadow_lookups))
+        const Drawn flat = drawn(scene, options);
+        EXPECT_GT(bumpy.count(Counter::normal_map_samples), 1000u);
+        EXPECT_EQ(flat.count(Counter::normal_map_samples), 0u);
+        EXPECT_EQ(bumpy.count(Counter::shadow_tests), flat.count(Counter::shadow_tests))
             << "light " << int(kind);
     }
 }
@@ -201,26 +184,23 @@ TEST(ShadowMaps, HardCase_OnlyWhatCallsForShadowsGetsThem) {
           Row{"unlit", with_materials(loaded("scene.obj"), unlit), false, false},
           Row{"glass", with_materials(loaded("scene.obj"), glass), false, true}})
         for (const LightKind kind : kinds) {
-            lesson::Options options = small_picture();
+            lesson_09::Options options = small_picture();
             options.shading.key_light = kind;
-            Counters counters, all;
-            lesson::render(options, ShadowedScene(scene, options), counters);
-            EXPECT_EQ(count(counters, Counter::shadow_passes) > 0, has_shadows) << name;
-            EXPECT_EQ(count(counters, Counter::shadow_fragments) > 0, has_shadows) << name;
-            EXPECT_EQ(count(counters, Counter::shadow_lookups) > 0, has_shadows) << name;
-            EXPECT_LE(count(counters, Counter::shadow_passes), kind == LightKind::point ? 6u : 1u);
-            EXPECT_LE(count(counters, Counter::shadow_lookups),
-                      count(counters, Counter::fragments_lit));
+            const Drawn planned = drawn(scene, options);
+            EXPECT_EQ(planned.count(Counter::shadow_passes) > 0, has_shadows) << name;
+            EXPECT_EQ(planned.count(Counter::shadow_fragments) > 0, has_shadows) << name;
+            EXPECT_EQ(planned.count(Counter::shadow_tests) > 0, has_shadows) << name;
+            EXPECT_LE(planned.count(Counter::shadow_passes), kind == LightKind::point ? 6u : 1u);
+            EXPECT_LE(planned.count(Counter::shadow_tests), planned.count(Counter::fragments_lit));
 
             options.shading.all_effects = true;
-            lesson::render(options, ShadowedScene(scene, options), all);
-            EXPECT_GE(count(all, Counter::shadow_passes), 2u) << name;
-            EXPECT_EQ(count(all, Counter::shadow_fragments),
-                      count(counters, Counter::shadow_fragments))
+            const Drawn all = drawn(scene, options);
+            EXPECT_GE(all.count(Counter::shadow_passes), 2u) << name;
+            EXPECT_EQ(all.count(Counter::shadow_fragments),
+                      planned.count(Counter::shadow_fragments))
                 << name << ": nothing is drawn into a map that nothing calls for";
-            EXPECT_EQ(
-                count(all, Counter::shadow_lookups) > count(counters, Counter::shadow_lookups),
-                has_light)
+            EXPECT_EQ(all.count(Counter::shadow_tests) > planned.count(Counter::shadow_tests),
+                      has_light)
                 << name;
         }
 }
@@ -229,114 +209,85 @@ TEST(ShadowMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
     look_up("Eq. 9.3");
     const auto glass = [](Material& m) { m.opacity = 0.5f; };
     const auto some_unlit = [](Material& m) { m.illumination = m.name == "brick" ? 0 : 2; };
-    NoCounters none;
     for (const Scene& scene : {loaded("scene_bumpy.obj"), loaded("scene.obj"), loaded("crate.obj"),
                                with_materials(loaded("scene.obj"), glass),
                                with_materials(loaded("scene_bumpy.obj"), some_unlit)})
         for (const LightKind kind : kinds) {
-            lesson::Options options = small_picture();
+            lesson_09::Options options = small_picture();
             options.shading.key_light = kind;
-            const Image<vec3> picture =
-                lesson::render(options, ShadowedScene(scene, options), none);
+            const Drawn planned = drawn(scene, options);
             options.shading.all_effects = true;
-            const Image<vec3> with_all =
-                lesson::render(options, ShadowedScene(scene, options), none);
-            EXPECT_TRUE(are_the_same_bits(picture, with_all)) << "light " << int(kind);
+            const Drawn all = drawn(scene, options);
+            EXPECT_TRUE(are_the_same_bits(planned.picture, all.picture)) << "light " << int(kind);
         }
 }
 
-TEST(ShadowMaps, HardCase_UnlitAndClearMaterialsThrowNoShadow) {
+TEST(ShadowMaps, HardCase_UnlitAndTransparentMaterialsCastNoShadow) {
     look_up("Eq. 9.3");
-    // A plate above a floor; the point below it is looked up. The map reaches up to the plate in
-    // any case, as opaque ones are above two corners.
+    // A plate above a floor, and a shadow test below it. The map reaches up to the plate in any
+    // case, as there are opaque plates above two corners.
     for (const auto& [illumination, opacity, is_dark] :
          {std::tuple{2, 1.0f, true}, {1, 1.0f, true}, {0, 1.0f, false}, {2, 0.5f, false}}) {
-        lesson::Options options = small_picture();
         Scene scene;
         scene.meshes.push_back(quad({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}));
         scene.meshes.push_back(quad({-1, 1, -1}, {-1, 1, 1}, {1, 1, 1}, {1, 1, -1}));
         scene.materials.resize(2);
         for (Triangle& triangle : scene.meshes[1].triangles) triangle.material = 1;
         scene.materials[1].illumination = illumination, scene.materials[1].opacity = opacity;
-        const ShadowedScene two(scene, options);
-        EXPECT_EQ(two.casters.max.y, is_dark ? 1 : 0) << illumination << ", " << opacity;
-        EXPECT_EQ(two.receivers.max.y, illumination > 0 ? 1 : 0) << "glass gets shadows";
+        const ShadowBounds bounds = shadow_bounds(scene);
+        EXPECT_EQ(bounds.casters.max.y, is_dark ? 1 : 0) << illumination << ", " << opacity;
+        EXPECT_EQ(bounds.receivers.max.y, illumination > 0 ? 1 : 0) << "glass gets shadows";
         for (const float x : {-3.0f, 2.8f})
             scene.meshes.push_back(
                 quad({x, 2, x}, {x, 2, x + 0.2f}, {x + 0.2f, 2, x + 0.2f}, {x + 0.2f, 2, x}));
-        const ShadowedScene shadowed(scene, options);
-        const std::array lights = {sun({0, 1, 0}), sun({0, 1, 0})};
-        NoCounters none;
-        const Shadows shadows(options.shadow, false, shadowed, lights, none);
-        TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
-        LitPoints points;
-        points.position_world.set(0, {-0.3f, 0, 0.2f}), points.normal_world.set(0, {0, 1, 0});
-        points.position_world.set(1, {-2, 0, 2}), points.normal_world.set(1, {0, 1, 0});
-        points.count = 2;
-        shadow.look_up(points, none);
-        EXPECT_EQ(shadow(0, 0), is_dark ? 0 : 1) << illumination << ", " << opacity;
-        EXPECT_EQ(shadow(0, 1), 1);
+        FirstTriangle floor(scene, sun({0, 1, 0}), small_picture().shadow);
+        EXPECT_EQ(floor.visibility(0, {-0.3f, 0, 0.2f}, {0, 1, 0}), is_dark ? 0 : 1)
+            << illumination << ", " << opacity;
+        EXPECT_EQ(floor.visibility(0, {-2, 0, 2}, {0, 1, 0}), 1);
     }
 }
 
 TEST(ShadowMaps, HardCase_ATriangleSeenInSeveralMapsHasABiasInEach) {
     look_up("Eq. 9.5");
-    lesson::Options options = small_picture();
     Scene scene;
     scene.meshes.push_back(quad({-4, 0, -4}, {-4, 0, 4}, {4, 0, 4}, {4, 0, -4}));
     scene.materials.resize(1);
-    const ShadowedScene shadowed(scene, options);
-    const std::array lights = {lamp_at({0.3f, 1, 0.2f}), sun({0, 1, 0})};
-    NoCounters none;
-    const Shadows shadows(options.shadow, false, shadowed, lights, none);
-    TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
-    LitPoints points;
-    for (int i = 0; i < 60; ++i) {  // from the first map across two more
-        points.position_world.set(points.count, {3.9f - 0.13f * static_cast<float>(i), 0, 0.1f});
-        points.normal_world.set(points.count, {0, 1, 0});
-        ++points.count;
-    }
-    shadow.look_up(points, none);
-    for (std::size_t i = 0; i < points.count; ++i) EXPECT_EQ(shadow(0, i), 1) << i;
+    FirstTriangle floor(scene, point_light({0.3f, 1, 0.2f}), small_picture().shadow);
+    for (int i = 0; i < 60; ++i)  // from the first map across two more
+        EXPECT_EQ(floor.visibility(0, {3.9f - 0.13f * static_cast<float>(i), 0, 0.1f}, {0, 1, 0}),
+                  1)
+            << i;
 }
 
-TEST(ShadowMaps, HardCase_TheOrderInWhichPointsAskChangesNothing) {
+TEST(ShadowMaps, HardCase_TheOrderOfShadowTestsChangesNothing) {
     look_up("Eq. 9.8");
-    // A floor in the shadow of a plate, with normals that lie on both sides of it: one leads to the
-    // side that lies in shadow, the other to the back, which is turned away from the light.
-    lesson::Options options = small_picture();
+    // A floor in the shadow of a plate, with normals on both sides of it: one points to the side
+    // that lies in shadow, the other to the back, which is turned away from the light.
     Scene scene;
     scene.meshes.push_back(quad({-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}));
     scene.meshes.push_back(quad({-2, 1, -2}, {-2, 1, 2}, {2, 1, 2}, {2, 1, -2}));
     scene.materials.resize(1);
-    const ShadowedScene shadowed(scene, options);
-    const std::array lights = {sun(glm::normalize(vec3(1, 1, 0))), sun({0, 1, 0})};
-    NoCounters none;
     for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal}) {
-        options.shadow.bias = bias;
-        const Shadows shadows(options.shadow, false, shadowed, lights, none);
-        const auto shares = [&](vec3 first, vec3 second) {
-            TriangleShadows shadow(shadows, shadowed.meshes[0], shadowed.meshes[0].triangles[0]);
-            LitPoints points;
-            for (const vec3 normal : {first, second}) {
-                points.position_world.set(points.count, {-1.2f, 0, 0.1f});
-                points.normal_world.set(points.count++, normal);
-            }
-            shadow.look_up(points, none);
-            return std::pair(shadow(0, 0), shadow(0, 1));
+        ShadowVariant variant = small_picture().shadow;
+        variant.bias = bias;
+        const auto in_order = [&](vec3 first, vec3 second) {
+            FirstTriangle floor(scene, sun(glm::normalize(vec3(1, 1, 0))), variant);
+            const vec3 position(-1.2f, 0, 0.1f);
+            const float of_first = floor.visibility(0, position, first);
+            return std::pair(of_first, floor.visibility(0, position, second));
         };
         const vec3 up(0.8f, 0.6f, 0), down(0.8f, -0.6f, 0);
-        EXPECT_EQ(shares(up, down), std::pair(0.0f, 1.0f)) << "bias " << int(bias);
-        EXPECT_EQ(shares(down, up), std::pair(1.0f, 0.0f)) << "bias " << int(bias);
+        EXPECT_EQ(in_order(up, down), std::pair(0.0f, 1.0f)) << "bias " << int(bias);
+        EXPECT_EQ(in_order(down, up), std::pair(1.0f, 0.0f)) << "bias " << int(bias);
     }
 }
 
 TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {
     look_up("Eq. 9.7");
-    lesson::Options options;
-    const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
+    lesson_09::Options options;
+    const Scene scene = lesson_09::make_assets(loaded("scene_bumpy.obj"), options).scene;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
-    const std::vector<SeenPoint> points = seen_points(scene.meshes, camera, {160, 90});
+    const std::vector<SeenPoint> points = seen_points(scene, camera, {160, 90});
     ASSERT_GT(points.size(), 5000u);
     const double size = scene.bounds().radius();
     constexpr int texels = 1024, radius = 1;
@@ -352,7 +303,7 @@ TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {
             const float cosine = glm::dot(p.normal, toward);
             // Where light grazes, triangles shadow each other as a smooth surface would not.
             if (cosine < 0.25f) continue;
-            // Three texels on the surface; those of the lamp are up to 2/1024 of the way wide.
+            // Three texels on the surface; a point light's are up to 2/1024 of the distance wide.
             const double texel = 2.5 * size / texels;
             if (!rays.is_far_from_edges(p.position, p.normal, 3 * texel / cosine)) continue;
             const auto distance = rays.distance_to_caster(p.position);
@@ -360,10 +311,10 @@ TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {
             ++judged, dark += distance.has_value();
             for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal})
                 wrong[static_cast<std::size_t>(bias)] +=
-                    maps.share(bias, radius, p.corners, p.position) != (distance ? 0 : 1);
+                    maps.visibility(bias, radius, p.vertices, p.position) != (distance ? 0 : 1);
         }
         // Where a surface is hollow, as between the body and the spout, a triangle's plane lies
-        // behind its neighbours: of a thousand look-ups one or two are a ninth too dark.
+        // behind its neighbours: of a thousand shadow tests one or two are a ninth too dark.
         for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal})
             EXPECT_LE(wrong[static_cast<std::size_t>(bias)], judged / 500)
                 << "of " << judged << ", light " << int(kind) << ", bias " << int(bias);
@@ -374,30 +325,30 @@ TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {
 
 TEST(ShadowMaps, HardCase_SixMapsHaveNoSeams) {
     look_up("Eq. 9.5");
-    // A lamp in a room, and a ball-like cloud of small plates around it: where the plates' shadows
-    // cross from one map into another, they go on.
+    // A point light in a room, and a plate beside it: where the plate's shadow crosses from one map
+    // into another, it goes on.
     const Mesh room = closed_box({-4, -3, -5}, {5, 4, 3});
-    Mesh plates = quad({0.5f, 0.5f, -1}, {0.5f, 0.7f, 1}, {0.7f, 0.5f, 1}, {0.7f, 0.5f, -1});
-    const Light lamp = lamp_at({0.1f, 0.2f, -0.3f});
-    const std::array with_plates = {room, plates};
-    const LightMaps empty(lamp, std::span(&room, 1), 256), maps(lamp, with_plates, 256);
-    const LightRays rays(lamp, RayCaster::of(with_plates, [](std::size_t) { return true; }), 8);
+    const Mesh plate = quad({0.5f, 0.5f, -1}, {0.5f, 0.7f, 1}, {0.7f, 0.5f, 1}, {0.7f, 0.5f, -1});
+    const Light light = point_light({0.1f, 0.2f, -0.3f});
+    const std::array with_plate = {room, plate};
+    const LightMaps empty(light, std::span(&room, 1), 256), maps(light, with_plate, 256);
+    const LightRays rays(light, RayCaster::of(with_plate, [](std::size_t) { return true; }), 8);
     const RayCaster walls = RayCaster::of(std::span(&room, 1), [](std::size_t) { return true; });
     std::mt19937 random(5);
     std::uniform_real_distribution<float> any(-1, 1);
     int judged = 0, dark = 0;
     for (int i = 0; i < 40000; ++i) {
-        // Near the border of two faces: two components of the way are nearly as large.
-        vec3 way(any(random), any(random), any(random));
+        // Near the border of two faces: two components of the direction are nearly as large.
+        vec3 direction(any(random), any(random), any(random));
         const int a = i % 3, b = (a + 1) % 3, c = (a + 2) % 3;
-        way[a] = i & 4 ? 1.0f : -1.0f;
-        way[b] = (i & 8 ? 1.0f : -1.0f) * (1 + 0.03f * way[b]);
-        way[c] *= 0.9f;
+        direction[a] = i & 4 ? 1.0f : -1.0f;
+        direction[b] = (i & 8 ? 1.0f : -1.0f) * (1 + 0.03f * direction[b]);
+        direction[c] *= 0.9f;
         for (const RayTriangle& t : walls.triangles()) {
-            const auto distance = distance_to({dvec3(lamp.position_world), dvec3(way)}, t);
+            const auto distance = distance_to({dvec3(light.position_world), dvec3(direction)}, t);
             if (!distance) continue;
-            const Corners corners = {vec3(t[0]), vec3(t[1]), vec3(t[2])};
-            const vec3 point = lamp.position_world + static_cast<float>(*distance) * way;
+            const Vertices vertices = {vec3(t[0]), vec3(t[1]), vec3(t[2])};
+            const vec3 point = light.position_world + static_cast<float>(*distance) * direction;
             const dvec3 normal = glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]));
             // Where walls meet, the other one stands in front of this one's plane.
             const vec3 to_walls =
@@ -408,11 +359,12 @@ TEST(ShadowMaps, HardCase_SixMapsHaveNoSeams) {
                 break;
             for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal})
                 for (const int radius : {0, 3})
-                    ASSERT_EQ(empty.share(bias, radius, corners, point), 1) << "seed 5, ray " << i;
+                    ASSERT_EQ(empty.visibility(bias, radius, vertices, point), 1)
+                        << "seed 5, ray " << i;
             if (!rays.is_far_from_edges(point, normal, 0.35)) break;
             const bool is_lit = rays.is_lit(point);
             ++judged, dark += !is_lit;
-            ASSERT_EQ(maps.share(Bias::plane, 1, corners, point), is_lit ? 1 : 0)
+            ASSERT_EQ(maps.visibility(Bias::plane, 1, vertices, point), is_lit ? 1 : 0)
                 << "seed 5, ray " << i;
             break;
         }
@@ -423,27 +375,28 @@ TEST(ShadowMaps, HardCase_SixMapsHaveNoSeams) {
 
 TEST(ShadowMaps, HardCase_ALightInsideAMesh) {
     look_up("Eq. 9.5");
-    // A lamp and a spot in a closed box, in a room: the box is lit inside, the room is dark.
+    // A point light and a spotlight in a closed box, in a room: the box is lit inside, the room is
+    // dark.
     const Mesh room = closed_box(vec3(-4), vec3(4)), chest = closed_box(vec3(-1), vec3(1));
     const std::array meshes = {room, chest};
-    Light spot = lamp_at({0.2f, 0.1f, -0.3f});
+    Light spot = point_light({0.2f, 0.1f, -0.3f});
     spot.kind = LightKind::spot, spot.direction_world = {0, -1, 0}, spot.cos_none = 0.6f;
     std::mt19937 random(6);
     std::uniform_real_distribution<float> any(-0.95f, 0.95f);
-    for (const Light& light : {lamp_at({0.2f, 0.1f, -0.3f}), spot}) {
+    for (const Light& light : {point_light({0.2f, 0.1f, -0.3f}), spot}) {
         const LightMaps maps(light, meshes, 256);
         for (int i = 0; i < 1000; ++i) {
             const vec3 under(any(random), -1, any(random));
-            const Corners floor_of_chest = {vec3(-1, -1, -1), vec3(1, -1, -1), vec3(1, -1, 1)};
-            const Corners floor_of_room = {vec3(-4, -4, -4), vec3(4, -4, -4), vec3(4, -4, 4)};
+            const Vertices floor_of_chest = {vec3(-1, -1, -1), vec3(1, -1, -1), vec3(1, -1, 1)};
+            const Vertices floor_of_room = {vec3(-4, -4, -4), vec3(4, -4, -4), vec3(4, -4, 4)};
             for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal}) {
-                ASSERT_EQ(maps.share(bias, 1, floor_of_chest, under), 1) << i;
-                // On the way on through the chest's floor.
+                ASSERT_EQ(maps.visibility(bias, 1, floor_of_chest, under), 1) << i;
+                // Farther along the same ray, through the chest's floor.
                 const vec3 beyond = light.position_world + (4 + light.position_world.y) /
                                                                (1 + light.position_world.y) *
                                                                (under - light.position_world);
                 if (std::max(std::abs(beyond.x), std::abs(beyond.z)) > 3.9f) continue;
-                ASSERT_EQ(maps.share(bias, 1, floor_of_room, beyond), 0) << i;
+                ASSERT_EQ(maps.visibility(bias, 1, floor_of_room, beyond), 0) << i;
             }
         }
     }
@@ -478,9 +431,11 @@ TEST(ShadowMaps, HardCase_SpecialNumbersAtTheEntry) {
         if (maps.maps.empty()) continue;
         for (const Bias bias :
              {Bias::none, Bias::constant, Bias::slope, Bias::plane, Bias::normal}) {
-            const float share = maps.share(bias, static_cast<int>(random() % 4),
-                                           corners_in(mesh, mesh.triangles[0]), any_vector(all));
-            ASSERT_TRUE(share >= 0 && share <= 1) << "seed 7, case " << i << ": " << share;
+            const float visibility =
+                maps.visibility(bias, static_cast<int>(random() % 4),
+                                vertices_in(mesh, mesh.triangles[0]), any_vector(all));
+            ASSERT_TRUE(visibility >= 0 && visibility <= 1)
+                << "seed 7, case " << i << ": " << visibility;
         }
     }
     EXPECT_GT(with_maps, 1000);
@@ -488,9 +443,8 @@ TEST(ShadowMaps, HardCase_SpecialNumbersAtTheEntry) {
 
 TEST(ShadowMaps, HardCase_ModelsOfAllSizes) {
     look_up("Eq. 9.6");
-    NoCounters none;
     for (const LightKind kind : kinds) {
-        lesson::Options options = small_picture();
+        lesson_09::Options options = small_picture();
         options.shading.key_light = kind;
         const auto picture_of = [&](float scale) {
             Scene scene = loaded("scene.obj");
@@ -498,11 +452,11 @@ TEST(ShadowMaps, HardCase_ModelsOfAllSizes) {
                 mesh.bounds = {};
                 for (vec3& position : mesh.positions) mesh.bounds.add(position *= scale);
             }
-            return lesson::render(options, ShadowedScene(scene, options), none);
+            return drawn(scene, options).picture;
         };
         const Image<vec3> picture = picture_of(1);
         ASSERT_TRUE(is_finite(picture));
-        // By powers of two, not a digit is lost; at the ends of float some are.
+        // A power of two loses no digits; near the ends of the range of float, some are lost.
         EXPECT_TRUE(are_the_same_bits(picture, picture_of(0x1p20f))) << int(kind);
         EXPECT_TRUE(are_the_same_bits(picture, picture_of(0x1p-20f))) << int(kind);
         for (const float scale : {1e-30f, 1e-20f, 1e15f}) {
@@ -518,16 +472,16 @@ TEST(ShadowMaps, HardCase_ModelsOfAllSizes) {
     }
 }
 
-TEST(ShadowMaps, PictureOfTheSceneInTheSun) {
+TEST(ShadowMaps, PictureOfADirectionalLight) {
     EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps"));
 }
 
-TEST(ShadowMaps, PictureOfASpot) {
+TEST(ShadowMaps, PictureOfASpotlight) {
     EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_spot", {"--light", "spot"}));
 }
 
-TEST(ShadowMaps, PictureOfALamp) {
-    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_lamp", {"--light", "lamp"}));
+TEST(ShadowMaps, PictureOfAPointLight) {
+    EXPECT_TRUE(equals_golden("09_shadow_maps", "09_shadow_maps_point", {"--light", "point"}));
 }
 
 TEST(ShadowMaps, PictureOfAcne) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How lights see the scene, and what a look-up finds.
+// How lights see the scene, and what a shadow test finds.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -22,18 +22,18 @@ namespace {
 
 Bounds box(vec3 low, vec3 high) { return {low, high}; }
 
-Light sun_at(vec3 toward) {
+Light directional_light(vec3 toward) {
     return {LightKind::directional, vec3(1), unit_or(toward, vec3(0, 1, 0))};
 }
 
-Light spot_at(vec3 position, vec3 target, float half_angle_degrees) {
+Light spotlight(vec3 position, vec3 target, float half_angle_degrees) {
     Light light{LightKind::spot, vec3(1), unit_or(target - position, vec3(0, -1, 0)), position};
     light.cos_none = std::cos(glm::radians(half_angle_degrees));
     light.cos_full = 1;
     return light;
 }
 
-Light lamp_at(vec3 position) { return {LightKind::point, vec3(1), vec3(0, 1, 0), position}; }
+Light point_light(vec3 position) { return {LightKind::point, vec3(1), vec3(0, 1, 0), position}; }
 
 dvec3 ndc(const mat4& clip_from_world, dvec3 point) {
     const dvec4 clip = dmat4(clip_from_world) * dvec4(point, 1);
@@ -69,7 +69,7 @@ vec3 at_texel(float column, float row, float depth) {
 }
 
 void put(ShadowMap& map, ivec2 texel, float depth) {
-    map.depths.test_and_write(texel + most_pcf_radius, depth);
+    map.depths.test_and_write(texel + max_pcf_radius, depth);
 }
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -77,19 +77,19 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-TEST(ShadowMaps, Eq9_1_WhatLiesOnOneRayOfTheSunLiesOnOnePlaceOfItsMap) {
+TEST(ShadowMaps, Eq9_1_PointsOnOneRayOfADirectionalLightShareATexel) {
     Anywhere anywhere(1);
     const Bounds casters = box({-1, 0, -2}, {2, 3, 1}), receivers = box({-6, -1, -6}, {6, 0.5f, 6});
     for (int i = 0; i < 300; ++i) {
         vec3 toward = anywhere.direction();
         toward.y = std::abs(toward.y) + 0.1f;
-        const Light sun = sun_at(toward);
-        const LightViews views = light_views(sun, casters, receivers, 256);
+        const Light light = directional_light(toward);
+        const LightViews views = light_views(light, casters, receivers, 256);
         ASSERT_EQ(views.count, 1u) << "seed 1, case " << i;
         ASSERT_FALSE(views.is_perspective);
         const dvec3 point = anywhere.in(casters);
         const dvec3 here = ndc(views.clip_from_world[0], point);
-        const dvec3 nearer = ndc(views.clip_from_world[0], point + dvec3(sun.direction_world));
+        const dvec3 nearer = ndc(views.clip_from_world[0], point + dvec3(light.direction_world));
         ASSERT_NEAR(here.x, nearer.x, float_tolerance) << "seed 1, case " << i;
         ASSERT_NEAR(here.y, nearer.y, float_tolerance) << "seed 1, case " << i;
         ASSERT_LT(nearer.z, here.z) << "seed 1, case " << i;
@@ -123,12 +123,14 @@ TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
     Anywhere anywhere(2);
     const Bounds some = box({-1, 0, -2}, {2, 3, 1}), all_around = box(vec3(-50), vec3(50));
     for (int i = 0; i < 100; ++i) {
-        const LightViews views = light_views(sun_at(anywhere.direction()), some, all_around, size);
+        const LightViews views =
+            light_views(directional_light(anywhere.direction()), some, all_around, size);
         dvec3 low(infinity), high(-infinity);
         for (int corner = 0; corner < 8; ++corner) {
-            const dvec3 place = ndc(views.clip_from_world[0],
-                                    {corner & 1 ? 2 : -1, corner & 2 ? 3 : 0, corner & 4 ? 1 : -2});
-            low = glm::min(low, place), high = glm::max(high, place);
+            const dvec3 in_ndc =
+                ndc(views.clip_from_world[0],
+                    {corner & 1 ? 2 : -1, corner & 2 ? 3 : 0, corner & 4 ? 1 : -2});
+            low = glm::min(low, in_ndc), high = glm::max(high, in_ndc);
         }
         // Inside, and no more than the half percent beside it that rounding is allowed.
         for (int axis = 0; axis < 3; ++axis) {
@@ -140,14 +142,15 @@ TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
 }
 
 TEST(ShadowMaps, Eq9_3_UnderALargeRoofAllOfASmallFloorIsDark) {
-    // The map's border is the floor's; the roof goes on, and every look-up there has to find it.
+    // The map ends where the floor does; the roof goes on, and every shadow test there has to find
+    // it.
     const Mesh roof =
         mesh_of({{-30, 1, -30}, {-30, 1, 30}, {30, 1, 30}, {30, 1, -30}}, {{0, 1, 2}, {0, 2, 3}});
     const Bounds floor = box({-1, 0, -1}, {1, 0, 1});
     NoCounters none;
-    const Light lights[] = {sun_at({0, 1, 0}), sun_at({0.3f, 1, -0.5f}),
-                            spot_at({0.2f, 4, 0.1f}, {0, 0, 0}, 60),
-                            spot_at({0.2f, 4, 0.1f}, {0, 0, 0}, 10)};  // less than the floor
+    const Light lights[] = {directional_light({0, 1, 0}), directional_light({0.3f, 1, -0.5f}),
+                            spotlight({0.2f, 4, 0.1f}, {0, 0, 0}, 60),
+                            spotlight({0.2f, 4, 0.1f}, {0, 0, 0}, 10)};  // less than the floor
     for (const Light& light : lights)
         for (const int size : {16, 64, 256}) {
             const LightViews views = light_views(light, roof.bounds, floor, size);
@@ -157,13 +160,13 @@ TEST(ShadowMaps, Eq9_3_UnderALargeRoofAllOfASmallFloorIsDark) {
             for (int y = -20; y <= 20; ++y)
                 for (int x = -20; x <= 20; ++x) {
                     const vec3 point = vec3(x, 0, y) / 20.0f;
-                    const vec3 way = glm::normalize(point - light.position_world);
+                    const vec3 from_light = glm::normalize(point - light.position_world);
                     if (light.kind == LightKind::spot &&
-                        glm::dot(way, light.direction_world) <= light.cos_none)
+                        glm::dot(from_light, light.direction_world) <= light.cos_none)
                         continue;  // beyond its cone
-                    ASSERT_EQ(lit_share<0>(map, {}, point), 0)
+                    ASSERT_EQ(pcf_visibility<0>(map, {}, point), 0)
                         << size << testing::PrintToString(point);
-                    ASSERT_EQ(lit_share<3>(map, {}, point), 0)
+                    ASSERT_EQ(pcf_visibility<3>(map, {}, point), 0)
                         << size << testing::PrintToString(point);
                 }
         }
@@ -175,8 +178,8 @@ TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
                        beside = box({5, -1, 5}, {6, 1, 6}),
                        endless = box(vec3(-infinity), vec3(infinity)),
                        no_numbers = box(vec3(not_a_number), vec3(not_a_number));
-    const Light lights[] = {sun_at({0, 1, 0}), spot_at({0, 3, 0}, {0, 0, 0}, 30),
-                            lamp_at({0, 3, 0})};
+    const Light lights[] = {directional_light({0, 1, 0}), spotlight({0, 3, 0}, {0, 0, 0}, 30),
+                            point_light({0, 3, 0})};
     for (const Light& light : lights) {
         const auto maps = [&](const Bounds& casters, const Bounds& receivers) {
             return light_views(light, casters, receivers, 256).count;
@@ -192,53 +195,53 @@ TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
     EXPECT_EQ(light_views(lights[0], some, above, 256).count, 0u) << "the caster is below";
     EXPECT_EQ(light_views(lights[0], some, beside, 256).count, 0u);
     EXPECT_EQ(light_views(lights[1], some, beside, 256).count, 0u) << "beside its cone";
-    EXPECT_EQ(light_views(lights[1], above, some, 256).count, 0u) << "behind the spot";
-    EXPECT_EQ(light_views(lights[1], some, above, 256).count, 0u) << "behind the spot";
+    EXPECT_EQ(light_views(lights[1], above, some, 256).count, 0u) << "behind the spotlight";
+    EXPECT_EQ(light_views(lights[1], some, above, 256).count, 0u) << "behind the spotlight";
 }
 
 TEST(ShadowMaps, HardCase_AFlatCasterEdgeOnHasAMap) {
     look_up("Eq. 9.3");
     // What casters and receivers have in common is a line, which the widened box takes in.
     const Bounds sheet = box({0, 1, -1}, {0, 2, 1}), floor = box({-3, 0, -3}, {3, 0, 3});
-    for (const Light& light : {sun_at({0, 1, 0}), spot_at({0, 5, 0}, {0, 0, 0}, 40)}) {
+    for (const Light& light : {directional_light({0, 1, 0}), spotlight({0, 5, 0}, {0, 0, 0}, 40)}) {
         const LightViews views = light_views(light, sheet, floor, 64);
         ASSERT_EQ(views.count, 1u);
-        const dvec3 place = ndc(views.clip_from_world[0], {0, 1.5, 0.5});
-        EXPECT_TRUE(std::abs(place.x) < 1 && std::abs(place.y) < 1 && std::abs(place.z) < 1)
-            << testing::PrintToString(vec3(place));
+        const dvec3 in_ndc = ndc(views.clip_from_world[0], {0, 1.5, 0.5});
+        EXPECT_TRUE(std::abs(in_ndc.x) < 1 && std::abs(in_ndc.y) < 1 && std::abs(in_ndc.z) < 1)
+            << testing::PrintToString(vec3(in_ndc));
     }
 }
 
-TEST(ShadowMaps, Eq9_4_ASpotsMapReachesToTheBorderOfItsCone) {
+TEST(ShadowMaps, Eq9_4_ASpotlightsMapReachesToTheBorderOfItsCone) {
     const Bounds all_around = box(vec3(-20), vec3(20));
     constexpr double end = 1 - 2.0 * margin_texels / 256;
     Anywhere anywhere(3);
     for (const float half_angle : {5.0f, 30.0f, 60.0f, 74.0f})
         for (int i = 0; i < 50; ++i) {
             const vec3 position = anywhere.in(box(vec3(-5), vec3(5)));
-            const Light spot = spot_at(position, position + anywhere.direction(), half_angle);
-            const LightViews views = light_views(spot, all_around, all_around, 256);
+            const Light light = spotlight(position, position + anywhere.direction(), half_angle);
+            const LightViews views = light_views(light, all_around, all_around, 256);
             ASSERT_EQ(views.count, 1u);
             ASSERT_TRUE(views.is_perspective);
             // A circle around the axis, a bit inside of the cone, and a bit outside.
-            const dvec3 axis = spot.direction_world;
+            const dvec3 axis = light.direction_world;
             const dvec3 across = glm::normalize(glm::cross(axis, dvec3(anywhere.direction())));
             const auto greatest = [&](double degrees) {
                 const double way_out = std::tan(glm::radians(degrees));
-                const dvec3 place = ndc(views.clip_from_world[0],
-                                        dvec3(position) + 3.0 * (axis + way_out * across));
-                return std::hypot(place.x, place.y);
+                const dvec3 in_ndc = ndc(views.clip_from_world[0],
+                                         dvec3(position) + 3.0 * (axis + way_out * across));
+                return std::hypot(in_ndc.x, in_ndc.y);
             };
             ASSERT_LT(greatest(half_angle - 0.1), end) << "seed 3, case " << i;
             ASSERT_GT(greatest(half_angle + 0.3), end) << "seed 3, case " << i;
         }
 }
 
-TEST(ShadowMaps, Eq9_4_ASpotsMapIsCutDownToCastersAndReceivers) {
+TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsCutDownToCastersAndReceivers) {
     // Straight down from 10 high; the caster is a plate from 4 to 5, the floor is at 0.
-    const Light spot = spot_at({0, 10, 0}, {0, 0, 0}, 45);
+    const Light light = spotlight({0, 10, 0}, {0, 0, 0}, 45);
     const LightViews views =
-        light_views(spot, box({-1, 4, -1}, {1, 5, 1}), box({-9, 0, -9}, {9, 0, 9}), 256);
+        light_views(light, box({-1, 4, -1}, {1, 5, 1}), box({-9, 0, -9}, {9, 0, 9}), 256);
     ASSERT_EQ(views.count, 1u);
     const mat4& clip = views.clip_from_world[0];
     const dvec3 corner = glm::abs(ndc(clip, {1, 5, 1}));  // the plate's top fills the map
@@ -250,35 +253,35 @@ TEST(ShadowMaps, Eq9_4_ASpotsMapIsCutDownToCastersAndReceivers) {
     EXPECT_TRUE(farthest <= 1 && farthest > 0.95) << farthest;
 }
 
-TEST(ShadowMaps, Eq9_4_ASpotsMapIsNoWiderThanItsCone) {
-    // Plate and floor lie in front of the spot, and reach far beyond its light on all sides.
-    const Light spot = spot_at({0, 10, 0}, {0, 0, 0}, 45);
+TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsNoWiderThanItsCone) {
+    // Plate and floor lie in front of the light, and reach far beyond its cone on all sides.
+    const Light light = spotlight({0, 10, 0}, {0, 0, 0}, 45);
     const LightViews views =
-        light_views(spot, box({-40, 4, -40}, {40, 5, 40}), box({-40, 0, -40}, {40, 0, 40}), 256);
+        light_views(light, box({-40, 4, -40}, {40, 5, 40}), box({-40, 0, -40}, {40, 0, 40}), 256);
     ASSERT_EQ(views.count, 1u);
     constexpr double end = 1 - 2.0 * margin_texels / 256;
     for (const dvec3 border :
          {dvec3(10, 0, 0), dvec3(-10, 0, 0), dvec3(0, 0, 10), dvec3(0, 0, -10)}) {
-        const dvec3 place = glm::abs(ndc(views.clip_from_world[0], border));
-        EXPECT_NEAR(std::max(place.x, place.y), end, 0.005);
+        const dvec3 in_ndc = glm::abs(ndc(views.clip_from_world[0], border));
+        EXPECT_NEAR(std::max(in_ndc.x, in_ndc.y), end, 0.005);
     }
 }
 
-TEST(ShadowMaps, HardCase_AWideSpotGetsSixMaps) {
+TEST(ShadowMaps, HardCase_AWideSpotlightGetsSixMaps) {
     look_up("Eq. 9.4");
     const Bounds around = box(vec3(-9), vec3(9));
     for (const float half_angle : {76.0f, 90.0f, 120.0f, 179.0f}) {
         const LightViews views =
-            light_views(spot_at({0, 3, 0}, {0, 0, 0}, half_angle), around, around, 64);
+            light_views(spotlight({0, 3, 0}, {0, 0, 0}, half_angle), around, around, 64);
         EXPECT_EQ(views.count, 6u) << half_angle;
     }
 }
 
-TEST(ShadowMaps, Eq9_5_EachWayLiesWellInsideOfItsFace) {
+TEST(ShadowMaps, Eq9_5_EachDirectionLiesWellInsideOfItsFace) {
     constexpr int size = 64;
     const vec3 position(1, 2, -3);
     const Bounds around = box(vec3(-9), vec3(9));
-    const LightViews views = light_views(lamp_at(position), around, around, size);
+    const LightViews views = light_views(point_light(position), around, around, size);
     ASSERT_EQ(views.count, 6u);
     EXPECT_EQ(cube_face({0.5f, -0.8f, 0.3f}), 3u);  // the worked example: down
     EXPECT_EQ(cube_face({2, 1, -1}), 0u);
@@ -290,35 +293,36 @@ TEST(ShadowMaps, Eq9_5_EachWayLiesWellInsideOfItsFace) {
     EXPECT_EQ(cube_face({1, 1, 3}), 4u);
     EXPECT_EQ(cube_face({1, 1, -3}), 5u);
     Anywhere anywhere(4);
-    // Beside a face's border there are as many texels as a look-up may ask.
+    // Beyond a face's border there are as many texels as the largest PCF kernel takes.
     constexpr double most = 1 - 2.0 * margin_texels / size + float_tolerance;
     double greatest = 0;
     for (int i = 0; i < 20000; ++i) {
-        const vec3 way = anywhere.direction() * anywhere.one(0.5f, 6);
-        const dvec3 place =
-            ndc(views.clip_from_world[cube_face(way)], dvec3(position) + dvec3(way));
-        ASSERT_LE(std::abs(place.x), most) << "seed 4, case " << i;
-        ASSERT_LE(std::abs(place.y), most) << "seed 4, case " << i;
-        ASSERT_LE(std::abs(place.z), 1) << "seed 4, case " << i;
-        greatest = std::max({greatest, std::abs(place.x), std::abs(place.y)});
+        const vec3 direction = anywhere.direction() * anywhere.one(0.5f, 6);
+        const dvec3 in_ndc =
+            ndc(views.clip_from_world[cube_face(direction)], dvec3(position) + dvec3(direction));
+        ASSERT_LE(std::abs(in_ndc.x), most) << "seed 4, case " << i;
+        ASSERT_LE(std::abs(in_ndc.y), most) << "seed 4, case " << i;
+        ASSERT_LE(std::abs(in_ndc.z), 1) << "seed 4, case " << i;
+        greatest = std::max({greatest, std::abs(in_ndc.x), std::abs(in_ndc.y)});
     }
     EXPECT_GT(greatest, most - 0.01);  // and no wider than that
 }
 
 TEST(ShadowMaps, HardCase_ASmallMapSeesTheNearestCasterInItsCorners) {
     look_up("Eq. 9.5");
-    // In the smallest map the margin is half of all. A plate across the way into each corner has to
-    // be there, however little of the way leads along the axis.
+    // In the smallest map, half of the texels are margin. A plate across the line to a corner has
+    // to be in the map, however short the line's part along the axis is.
     for (const float corner : {1.99f, 1.0f, 0.5f}) {
-        const vec3 way = glm::normalize(vec3(corner, corner, -1));
-        const vec3 u = 0.02f * glm::normalize(glm::cross(way, vec3(0, 1, 0)));
-        const vec3 v = glm::cross(way, u);
+        const vec3 direction = glm::normalize(vec3(corner, corner, -1));
+        const vec3 u = 0.02f * glm::normalize(glm::cross(direction, vec3(0, 1, 0)));
+        const vec3 v = glm::cross(direction, u);
         const Bounds around = box(vec3(-9), vec3(9));
-        const Bounds plate = {glm::min(glm::min(way - u - v, way + u - v), way - u + v),
-                              glm::max(glm::max(way + u + v, way + u - v), way - u + v)};
-        const LightViews views = light_views(lamp_at({0, 0, 0}), plate, around, 16);
+        const Bounds plate = {
+            glm::min(glm::min(direction - u - v, direction + u - v), direction - u + v),
+            glm::max(glm::max(direction + u + v, direction + u - v), direction - u + v)};
+        const LightViews views = light_views(point_light({0, 0, 0}), plate, around, 16);
         ASSERT_EQ(views.count, 6u);
-        const double depth = ndc(views.clip_from_world[5], way).z;
+        const double depth = ndc(views.clip_from_world[5], direction).z;
         EXPECT_TRUE(depth >= -1 && depth <= 1) << corner << ": " << depth;
         if (corner > 1.9f) {
             EXPECT_LT(depth, -0.85) << "nor is it any farther from the border than need be";
@@ -332,9 +336,9 @@ TEST(ShadowMaps, HardCase_LightParallelToUp) {
     std::vector<Light> lights;
     for (const float tilt : {0.0f, 1e-30f, 1e-8f, 1e-6f, 1e-4f})
         for (const float side : {1.0f, -1.0f}) {
-            lights.push_back(sun_at({tilt, side, 0}));
-            lights.push_back(sun_at({0, side, -tilt}));
-            lights.push_back(spot_at({0.5f, 5 * side, 0}, {0.5f, 5 * side - side, tilt}, 60));
+            lights.push_back(directional_light({tilt, side, 0}));
+            lights.push_back(directional_light({0, side, -tilt}));
+            lights.push_back(spotlight({0.5f, 5 * side, 0}, {0.5f, 5 * side - side, tilt}, 60));
         }
     for (const Light& light : lights) {
         const LightViews views = light_views(light, casters, around, 256);
@@ -342,19 +346,20 @@ TEST(ShadowMaps, HardCase_LightParallelToUp) {
         const mat4& clip = views.clip_from_world[0];
         // The map sees the casters from inside of it, with an area.
         const dvec3 o = ndc(clip, {0, 1, 0}), x = ndc(clip, {1, 1, 0}), z = ndc(clip, {0, 1, -1});
-        for (const dvec3 place : {o, x, z})
-            EXPECT_TRUE(std::abs(place.x) <= 1 && std::abs(place.y) <= 1 && std::abs(place.z) <= 1)
-                << testing::PrintToString(vec3(place));
+        for (const dvec3 in_ndc : {o, x, z})
+            EXPECT_TRUE(std::abs(in_ndc.x) <= 1 && std::abs(in_ndc.y) <= 1 &&
+                        std::abs(in_ndc.z) <= 1)
+                << testing::PrintToString(vec3(in_ndc));
         const double area = (x.x - o.x) * (z.y - o.y) - (x.y - o.y) * (z.x - o.x);
         EXPECT_GT(std::abs(area), 0.1);
     }
 }
 
-TEST(ShadowMaps, Eq9_6_PlacesAndDepthsInTheMap) {
+TEST(ShadowMaps, Eq9_6_PositionsAndDepthsInTheMap) {
     const ShadowMap map = small_map();
-    const vec4 place = map.texels_from_world * vec4(0.25f, -0.5f, 0.5f, 1);
-    EXPECT_EQ(place, vec4(2.5f, 3, 0.75f, 1));  // the worked example
-    EXPECT_EQ(map.depths.depths().size(), ivec2(4 + 2 * most_pcf_radius));
+    const vec4 in_map = map.texels_from_world * vec4(0.25f, -0.5f, 0.5f, 1);
+    EXPECT_EQ(in_map, vec4(2.5f, 3, 0.75f, 1));  // the worked example
+    EXPECT_EQ(map.depths.depths().size(), ivec2(4 + 2 * max_pcf_radius));
     for (const float depth : map.depths.depths().pixels()) EXPECT_EQ(depth, 1);
 }
 
@@ -362,7 +367,7 @@ TEST(ShadowMaps, Eq9_7_LitIsWhatIsNotBehindTheMap) {
     ShadowMap map = small_map();
     put(map, {1, 2}, 0.5f);
     Receiver none;
-    const auto is_lit = [&](vec3 point) { return lit_share<0>(map, none, point) == 1; };
+    const auto is_lit = [&](vec3 point) { return pcf_visibility<0>(map, none, point) == 1; };
     EXPECT_TRUE(is_lit(at_texel(1, 2, 0.25f)));
     EXPECT_TRUE(is_lit(at_texel(1, 2, 0.5f)));
     EXPECT_FALSE(is_lit(at_texel(1, 2, 0.5001f)));
@@ -387,41 +392,41 @@ TEST(ShadowMaps, HardCase_OutsideOfTheMapAllIsLit) {
     ShadowMap map = small_map();
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) put(map, {x, y}, 0);
-    EXPECT_EQ(lit_share<3>(map, {}, at_texel(1, 1, 0.5f)), 33 / 49.0f);
-    EXPECT_EQ(lit_share<0>(map, {}, at_texel(0, 3, 0.5f)), 0);
+    EXPECT_EQ(pcf_visibility<3>(map, {}, at_texel(1, 1, 0.5f)), 33 / 49.0f);
+    EXPECT_EQ(pcf_visibility<0>(map, {}, at_texel(0, 3, 0.5f)), 0);
     for (const float beyond : {-0.6f, -3.0f, -1e9f, -1e38f, 3.6f, 4.0f, 1e9f, 1e38f, infinity,
                                -infinity, not_a_number}) {
-        EXPECT_EQ(lit_share<3>(map, {}, at_texel(beyond, 1, 0.5f)), 1) << beyond;
-        EXPECT_EQ(lit_share<3>(map, {}, at_texel(1, beyond, 0.5f)), 1) << beyond;
+        EXPECT_EQ(pcf_visibility<3>(map, {}, at_texel(beyond, 1, 0.5f)), 1) << beyond;
+        EXPECT_EQ(pcf_visibility<3>(map, {}, at_texel(1, beyond, 0.5f)), 1) << beyond;
     }
-    EXPECT_EQ(lit_share<3>(map, {}, vec3(not_a_number)), 1);
+    EXPECT_EQ(pcf_visibility<3>(map, {}, vec3(not_a_number)), 1);
 }
 
-TEST(ShadowMaps, HardCase_BehindASpotAllIsLit) {
+TEST(ShadowMaps, HardCase_BehindASpotlightAllIsLit) {
     look_up("Eq. 9.7");
-    const Light spot = spot_at({0, 0, 0}, {0, 0, -1}, 40);
+    const Light light = spotlight({0, 0, 0}, {0, 0, -1}, 40);
     const Bounds around = box(vec3(-5), vec3(5));
-    const LightViews views = light_views(spot, around, around, 16);
+    const LightViews views = light_views(light, around, around, 16);
     ASSERT_EQ(views.count, 1u);
     ShadowMap map(views.clip_from_world[0], true, 16, around);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) put(map, {x, y}, 0);
-    EXPECT_EQ(lit_share<0>(map, {}, {0, 0, -2}), 0);
-    EXPECT_EQ(lit_share<0>(map, {}, {0, 0, 2}), 1);
-    EXPECT_EQ(lit_share<0>(map, {}, {0, 0, 0}), 1) << "in the light itself";
-    EXPECT_EQ(lit_share<0>(map, {}, {1, 1, 0}), 1) << "beside it";
+    EXPECT_EQ(pcf_visibility<0>(map, {}, {0, 0, -2}), 0);
+    EXPECT_EQ(pcf_visibility<0>(map, {}, {0, 0, 2}), 1);
+    EXPECT_EQ(pcf_visibility<0>(map, {}, {0, 0, 0}), 1) << "in the light itself";
+    EXPECT_EQ(pcf_visibility<0>(map, {}, {1, 1, 0}), 1) << "beside it";
 }
 
-TEST(ShadowMaps, Eq9_13_TheShareOfTexelsFromWhichThereIsLight) {
+TEST(ShadowMaps, Eq9_13_TheShareOfTexelsThatAreLit) {
     ShadowMap map = small_map();
     for (const ivec2 texel : {ivec2(0, 0), ivec2(1, 1), ivec2(2, 1), ivec2(3, 3)})
         put(map, texel, 0.5f);
     const vec3 point = at_texel(1.3f, 0.8f, 0.75f);
-    EXPECT_EQ(lit_share<0>(map, {}, point), 0);
-    EXPECT_EQ(lit_share<1>(map, {}, point), 6 / 9.0f);  // the worked example
-    EXPECT_EQ(lit_share<2>(map, {}, point), 21 / 25.0f);
-    EXPECT_EQ(lit_share<3>(map, {}, point), 45 / 49.0f);
-    EXPECT_EQ(lit_share<1>(map, {}, at_texel(0, 3, 0.75f)), 1) << "at the map's corner";
+    EXPECT_EQ(pcf_visibility<0>(map, {}, point), 0);
+    EXPECT_EQ(pcf_visibility<1>(map, {}, point), 6 / 9.0f);  // the worked example
+    EXPECT_EQ(pcf_visibility<2>(map, {}, point), 21 / 25.0f);
+    EXPECT_EQ(pcf_visibility<3>(map, {}, point), 45 / 49.0f);
+    EXPECT_EQ(pcf_visibility<1>(map, {}, at_texel(0, 3, 0.75f)), 1) << "at the map's corner";
     // Comparisons, not depths, are averaged: the point in front is lit, however near the others.
-    EXPECT_EQ(lit_share<1>(map, {}, at_texel(1, 1, 0.4f)), 1);
+    EXPECT_EQ(pcf_visibility<1>(map, {}, at_texel(1, 1, 0.4f)), 1);
 }

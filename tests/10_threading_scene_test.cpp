@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Bins of triangles, the same bits whoever draws, counters, and the pictures.
+// Bins of triangles, the same bits whichever thread draws, counters, and the pictures.
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <filesystem>
 #include <functional>
-#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -17,41 +14,22 @@
 
 #include <gtest/gtest.h>
 
-// All that the lessons' main.cpp include, so that they can be included within namespaces.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/many_samples.hpp"
-#include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
+#include "04_mvp/projection.hpp"
+#include "09_shadow_maps/light_view.hpp"
+#include "09_shadow_maps/shadow_map.hpp"
+#include "09_shadow_maps/shadows.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-#include "common/obj.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
+#include "support/lessons.hpp"
 #include "support/look_up.hpp"
+#include "support/pictures.hpp"
 #include "support/pretend_pool.hpp"
 #include "support/printers.hpp"
-
-#define main main_of_lesson
-namespace lesson_09 {
-#include "09_shadow_maps/main.cpp"
-}
-namespace lesson {
-#include "10_threading/main.cpp"
-}
-#undef main
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -70,12 +48,8 @@ constexpr int repeats = 100;
 constexpr ivec2 middling_size(160, 90);
 #endif
 
-Scene loaded(const char* name) {
-    return load_obj(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name);
-}
-
-lesson::Options small_picture(ivec2 size = {64, 36}) {
-    lesson::Options options;
+lesson_10::Options small_picture(ivec2 size = {64, 36}) {
+    lesson_10::Options options;
     options.size = size;
     options.shadow.size = 64;
     options.threads.tile = 8;
@@ -83,7 +57,7 @@ lesson::Options small_picture(ivec2 size = {64, 36}) {
 }
 
 /// What lesson 09 has of the same options.
-lesson_09::Options without_threads(const lesson::Options& options) {
+lesson_09::Options without_threads(const lesson_10::Options& options) {
     lesson_09::Options same;
     static_cast<LessonOptions&>(same) = options;
     same.orbit = options.orbit, same.show_depth = options.show_depth;
@@ -92,9 +66,11 @@ lesson_09::Options without_threads(const lesson::Options& options) {
     return same;
 }
 
-bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+/// The picture that lesson 09 draws.
+template <typename CounterPolicy>
+Image<vec3> expected_of(const lesson_10::Options& options, const ShadowAssets& assets,
+                        CounterPolicy& counters) {
+    return lesson_09::render(without_threads(options), assets, counters);
 }
 
 /// Of all bits of a picture (FNV-1a).
@@ -126,21 +102,23 @@ struct OneByOnePool {
     }
 };
 
-/// The chunks' triangles of a part, in order, as their numbers in the meshes.
-std::vector<std::size_t> listed(const BinnedTriangles& triangles, std::size_t part,
+/// Which of a scene's triangles this is, counted through all meshes.
+std::size_t number_of(const ProjectedTriangle& projected, const Scene& scene) {
+    auto number = static_cast<std::size_t>(&projected.triangle - projected.mesh.triangles.data());
+    for (const Mesh& mesh : scene.meshes) {
+        if (&mesh == &projected.mesh) break;
+        number += mesh.triangles.size();
+    }
+    return number;
+}
+
+/// The numbers of a tile's triangles, in the order in which it draws them.
+std::vector<std::size_t> listed(const BinnedTriangles& triangles, std::size_t tile,
                                 const Scene& scene) {
     std::vector<std::size_t> numbers;
-    for (const Chunk& chunk : triangles.chunks)
-        for (const std::size_t i : chunk.of(part)) {
-            const ReadyTriangle& ready = chunk.triangles[i];
-            std::size_t number =
-                static_cast<std::size_t>(&ready.triangle - ready.mesh.triangles.data());
-            for (const Mesh& mesh : scene.meshes) {
-                if (&mesh == &ready.mesh) break;
-                number += mesh.triangles.size();
-            }
-            numbers.push_back(number);
-        }
+    for (const TriangleBatch& batch : triangles.batches)
+        for (const std::size_t i : batch.of(tile))
+            numbers.push_back(number_of(batch.triangles[i], scene));
     return numbers;
 }
 
@@ -152,91 +130,80 @@ std::vector<const Mesh*> pointers_to(const std::vector<Mesh>& meshes) {
 
 }  // namespace
 
-TEST(Threading, Eq10_7_EachPartListsItsTrianglesInTheScenesOrder) {
+TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
     const Scene scene = loaded("scene_bumpy.obj");
     const std::vector<const Mesh*> meshes = pointers_to(scene.meshes);
     const ivec2 size(160, 90);
     const mat4 clip_from_world = orbit_camera(Orbit(), scene.bounds()).clip_from_world(size);
     for (const Split split : splits)
-        for (const bool two_sided : {false, true}) {
-            const Parts parts(split, size, 7, 16);
+        for (const Culling culling : {Culling::back_faces, Culling::none}) {
+            const Tiling tiling(split, size, 7, 16);
             // One after the other, as earlier lessons do it.
-            std::vector<std::vector<std::size_t>> expected(parts.count());
-            std::size_t number = 0;
-            for (const Mesh& mesh : scene.meshes) {
-                const std::vector<vec4> positions = transform(clip_from_world, mesh.positions);
-                for (const Triangle& triangle : mesh.triangles) {
-                    for (const ClippedTriangle& clipped :
-                         clip_triangle(corners_of(triangle, positions))) {
-                        const ScreenTriangle on_screen =
-                            snap_triangle(screen_from_clip(clipped[0].position_clip, size),
-                                          screen_from_clip(clipped[1].position_clip, size),
-                                          screen_from_clip(clipped[2].position_clip, size));
-                        if (two_sided ? on_screen.twice_area == 0 : on_screen.twice_area <= 0)
-                            continue;
-                        parts.for_each_in(box_around(on_screen), [&](std::size_t part) {
-                            expected[part].push_back(number);
-                        });
-                    }
-                    ++number;
-                }
-            }
-            ASSERT_GT(number, 2 * least_in_chunk) << "several chunks";
+            std::vector<std::vector<std::size_t>> expected(tiling.count());
+            Counters serial;
+            for_each_visible_triangle(
+                scene, clip_from_world, size, culling, serial,
+                [&](const ProjectedTriangle& projected) {
+                    if (projected.on_screen.twice_area == 0) return;
+                    tiling.for_each_in(box_around(projected.on_screen), [&](std::size_t tile) {
+                        expected[tile].push_back(number_of(projected, scene));
+                    });
+                });
+            std::size_t count = 0;
+            for (const Mesh& mesh : scene.meshes) count += mesh.triangles.size();
+            ASSERT_GT(count, 2 * min_batch) << "several batches";
             for (const std::size_t workers : {1u, 2u, 7u, 61u}) {
                 ShuffledPool pool(workers, 5);
                 WorkerCounters<Counters> counters(workers);
-                const BinnedTriangles triangles(
-                    pool, meshes, clip_from_world, parts, two_sided,
-                    [](std::size_t) { return true; }, counters);
-                EXPECT_EQ(triangles.chunks.size(), chunks_of(number));
-                for (std::size_t part = 0; part < parts.count(); ++part)
-                    ASSERT_EQ(listed(triangles, part, scene), expected[part])
-                        << "split " << int(split) << ", part " << part;
+                const BinnedTriangles triangles(pool, meshes, clip_from_world, tiling, culling,
+                                                counters);
+                EXPECT_EQ(triangles.batches.size(), batches_of(count));
+                for (std::size_t tile = 0; tile < tiling.count(); ++tile)
+                    ASSERT_EQ(listed(triangles, tile, scene), expected[tile])
+                        << "split " << int(split) << ", tile " << tile;
                 Counters sum;
                 counters.add_to(sum);
-                EXPECT_EQ(sum.values[std::size_t(Counter::triangles_in)], number);
+                EXPECT_EQ(sum.values[std::size_t(Counter::triangles_in)], count);
             }
         }
 }
 
 TEST(Threading, HardCase_NothingToDraw) {
     look_up("Eq. 10.7");
-    const Parts parts(Split::tiles, {64, 64}, 3, 16);
+    const Tiling tiling(Split::tiles, {64, 64}, 3, 16);
     ThreadPool pool(3);
     WorkerCounters<NoCounters> counters(3);
-    const auto all = [](std::size_t) { return true; };
-    const BinnedTriangles none(pool, {}, mat4(1), parts, true, all, counters);
-    EXPECT_TRUE(none.chunks.empty());
+    const BinnedTriangles none(pool, {}, mat4(1), tiling, Culling::none, counters);
+    EXPECT_TRUE(none.batches.empty());
     // A mesh without triangles, one that is not taken, and one that nothing is left of.
     std::vector<Mesh> meshes(3);
     meshes[1].positions = {vec3(0), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0)};
-    meshes[1].triangles = {{{Corner{0}, Corner{1}, Corner{2}}, 1}};
+    meshes[1].triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 1}};
     meshes[2].positions = {vec3(NAN), vec3(5, 5, 0), vec3(0.1f, 0.1f, 0)};
-    meshes[2].triangles = {{{Corner{0}, Corner{1}, Corner{2}}, 0},
-                           {{Corner{1}, Corner{1}, Corner{1}}, 0},
-                           {{Corner{2}, Corner{2}, Corner{2}}, 0}};
-    const std::vector<const Mesh*> pointers = pointers_to(meshes);
+    meshes[2].triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0},
+                           {{Vertex{1}, Vertex{1}, Vertex{1}}, 0},
+                           {{Vertex{2}, Vertex{2}, Vertex{2}}, 0}};
     const BinnedTriangles empty(
-        pool, pointers, mat4(1), parts, true, [](std::size_t material) { return material == 0; },
-        counters);
-    ASSERT_EQ(empty.chunks.size(), 1u);
-    EXPECT_TRUE(empty.chunks[0].triangles.empty());
-    for (std::size_t part = 0; part < parts.count(); ++part)
-        EXPECT_TRUE(empty.chunks[0].of(part).empty());
+        pool, pointers_to(meshes), mat4(1), tiling, Culling::none,
+        [](std::size_t material) { return material == 0; }, counters);
+    ASSERT_EQ(empty.batches.size(), 1u);
+    EXPECT_TRUE(empty.batches[0].triangles.empty());
+    for (std::size_t tile = 0; tile < tiling.count(); ++tile)
+        EXPECT_TRUE(empty.batches[0].of(tile).empty());
 }
 
 TEST(Threading, Eq10_7_HardCase_AnyThreadsAndSplitGiveTheSameBitsAHundredTimes) {
-    lesson::Options options = small_picture();
-    const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
+    lesson_10::Options options = small_picture();
+    const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
     NoCounters none;
-    const Image<vec3> expected = lesson_09::render(without_threads(options), scene, none);
+    const Image<vec3> expected = expected_of(options, assets, none);
     const std::uint64_t hash = hash_of(expected);
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         for (const Split split : splits) {
             options.threads.split = split;
             for (int i = 0; i < repeats; ++i)
-                ASSERT_EQ(hash_of(lesson::render(options, scene, pool, none)), hash)
+                ASSERT_EQ(hash_of(lesson_10::render(options, assets, pool, none)), hash)
                     << threads << " threads, split " << int(split) << ", the " << i + 1
                     << "th time";
         }
@@ -244,17 +211,17 @@ TEST(Threading, Eq10_7_HardCase_AnyThreadsAndSplitGiveTheSameBitsAHundredTimes) 
 }
 
 TEST(Threading, Eq10_7_HardCase_AnyOrderOfTheTasksGivesTheSameBits) {
-    lesson::Options options = small_picture(middling_size);
+    lesson_10::Options options = small_picture(middling_size);
     NoCounters none;
     for (const LightKind kind : kinds) {
         options.shading.key_light = kind;
-        const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
-        const Image<vec3> expected = lesson_09::render(without_threads(options), scene, none);
+        const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
+        const Image<vec3> expected = expected_of(options, assets, none);
         for (std::uint32_t seed = 0; seed < 12; ++seed) {
             ShuffledPool pool(1 + seed % 5 * 3, seed);
             options.threads.split = splits[seed % 3];
             options.threads.tile = seed % 2 ? 32 : 5;
-            ASSERT_TRUE(are_the_same_bits(lesson::render(options, scene, pool, none), expected))
+            ASSERT_TRUE(are_the_same_bits(lesson_10::render(options, assets, pool, none), expected))
                 << "light " << int(kind) << ", seed " << seed;
         }
     }
@@ -262,7 +229,7 @@ TEST(Threading, Eq10_7_HardCase_AnyOrderOfTheTasksGivesTheSameBits) {
 
 TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
     look_up("Eq. 10.7");
-    std::vector<lesson::Options> knobs(12, small_picture(middling_size));
+    std::vector<lesson_10::Options> knobs(12, small_picture(middling_size));
     knobs[1].shading.two_sided = true;
     knobs[2].shading.all_effects = true;
     knobs[3].show_depth = true;
@@ -276,17 +243,16 @@ TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
     knobs[11].orbit.pitch_degrees = -90;  // from below
     ThreadPool pool(3);
     for (std::size_t k = 0; k < knobs.size(); ++k) {
-        lesson::Options& options = knobs[k];
-        const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
+        lesson_10::Options& options = knobs[k];
+        const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
         Counters expected_counts;
-        const Image<vec3> expected =
-            lesson_09::render(without_threads(options), scene, expected_counts);
+        const Image<vec3> expected = expected_of(options, assets, expected_counts);
         for (const Split split : splits)
             for (const int tile : {7, 64}) {
                 if (tile == 64 && repeats < 100) continue;
                 options.threads.split = split, options.threads.tile = tile;
                 Counters counts;
-                const Image<vec3> picture = lesson::render(options, scene, pool, counts);
+                const Image<vec3> picture = lesson_10::render(options, assets, pool, counts);
                 EXPECT_TRUE(are_the_same_bits(picture, expected))
                     << "knobs " << k << ", split " << int(split) << ", tile " << tile;
                 for (std::size_t i = 0; i < counter_names.size(); ++i)
@@ -301,17 +267,17 @@ TEST(Threading, HardCase_PicturesOfAFewPixels) {
     look_up("Eq. 10.3");
     NoCounters none;
     for (const ivec2 size : {ivec2(1, 1), {1, 7}, {7, 1}, {2, 2}, {3, 61}}) {
-        lesson::Options options = small_picture(size);
+        lesson_10::Options options = small_picture(size);
         options.shadow.size = 16;
-        const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
-        const Image<vec3> expected = lesson_09::render(without_threads(options), scene, none);
+        const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
+        const Image<vec3> expected = expected_of(options, assets, none);
         for (const int threads : thread_counts) {
             ThreadPool pool(threads);
             for (const Split split : splits)
                 for (const int tile : {1, 64}) {
                     options.threads.split = split, options.threads.tile = tile;
                     EXPECT_TRUE(
-                        are_the_same_bits(lesson::render(options, scene, pool, none), expected))
+                        are_the_same_bits(lesson_10::render(options, assets, pool, none), expected))
                         << size.x << "x" << size.y << ", " << threads << " threads, split "
                         << int(split) << ", tile " << tile;
                 }
@@ -321,10 +287,10 @@ TEST(Threading, HardCase_PicturesOfAFewPixels) {
 
 TEST(Threading, HardCase_AWorkerThatThrowsWhileItDraws) {
     look_up("The pool");
-    lesson::Options options = small_picture();
-    const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
+    lesson_10::Options options = small_picture();
+    const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
     NoCounters none;
-    const Image<vec3> expected = lesson_09::render(without_threads(options), scene, none);
+    const Image<vec3> expected = expected_of(options, assets, none);
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         for (const Split split : splits)
@@ -333,12 +299,13 @@ TEST(Threading, HardCase_AWorkerThatThrowsWhileItDraws) {
                 ThrowingCounters::fragments_left = fragments;
                 ThrowingCounters counters;
                 try {
-                    lesson::render(options, scene, pool, counters);
+                    lesson_10::render(options, assets, pool, counters);
                     ADD_FAILURE() << "nothing arrived, " << threads << " threads";
                 } catch (const std::runtime_error& error) {
                     EXPECT_STREQ(error.what(), "a worker is tired");
                 }
-                EXPECT_TRUE(are_the_same_bits(lesson::render(options, scene, pool, none), expected))
+                EXPECT_TRUE(
+                    are_the_same_bits(lesson_10::render(options, assets, pool, none), expected))
                     << "afterwards, " << threads << " threads";
             }
     }
@@ -346,14 +313,16 @@ TEST(Threading, HardCase_AWorkerThatThrowsWhileItDraws) {
 
 TEST(Threading, HardCase_MapsHaveTheSameBitsAndNothingAroundThem) {
     look_up("Eq. 10.7");
-    // Memory in which ones and zeros stood before, and is not cleared but by the parts.
-    lesson::Options options;
+    // In memory that holds other depths before, and that only the tiles clear.
+    const Scene scene = loaded("scene_bumpy.obj");
+    const ShadowBounds bounds = shadow_bounds(scene);
+    const auto casts = [&](std::size_t material) {
+        return casts_shadows(scene.materials[material]);
+    };
     for (const LightKind kind : kinds)
         for (const int size : {16, 61}) {
-            options.shadow.size = size;
-            const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
             const Light light = raking_lights(kind, scene.bounds())[0];
-            const LightViews views = light_views(light, scene.casters, scene.receivers, size);
+            const LightViews views = light_views(light, bounds.casters, bounds.receivers, size);
             const auto map_of = [&](std::size_t i) {
                 return ShadowMap(views.clip_from_world[i], views.is_perspective, size,
                                  scene.bounds());
@@ -362,7 +331,6 @@ TEST(Threading, HardCase_MapsHaveTheSameBitsAndNothingAroundThem) {
                 for (const bool is_drawn : {true, false}) {
                     ShadowMap expected = map_of(i);
                     Counters serial;
-                    const auto casts = [&](std::size_t material) { return scene.casts(material); };
                     if (is_drawn)
                         for (const Mesh& mesh : scene.meshes)
                             draw_casters(expected, mesh, casts, serial);
@@ -373,7 +341,7 @@ TEST(Threading, HardCase_MapsHaveTheSameBitsAndNothingAroundThem) {
                             for (int x = 0; x < all.x; ++x) map.depths.test_and_write({x, y}, -1);
                         ShuffledPool pool(5, 9);
                         WorkerCounters<Counters> counters(5);
-                        draw_map(pool, map, scene, Parts(split, ivec2(size), 5, 13), is_drawn,
+                        draw_map(pool, map, scene, Tiling(split, ivec2(size), 5, 13), is_drawn,
                                  counters);
                         EXPECT_TRUE(map.depths.depths() == expected.depths.depths())
                             << "light " << int(kind) << ", size " << size << ", split "
@@ -388,25 +356,26 @@ TEST(Threading, HardCase_MapsHaveTheSameBitsAndNothingAroundThem) {
 
 TEST(Threading, HardCase_WhoDrewWhatIsShownAsItWas) {
     look_up("Eq. 10.5");
-    // Each part alone, by a worker that is known: the tint is that of its colour.
-    lesson::Options options = small_picture(middling_size);
-    const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
+    // Each tile by a worker that is known: it is tinted in that worker's colour.
+    lesson_10::Options options = small_picture(middling_size);
+    const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
     NoCounters none;
     OneByOnePool pool;
     for (const Split split : splits) {
         options.threads.split = split, options.threads.show = false;
-        Image<vec3> expected = lesson::render(options, scene, pool, none);
-        const Parts parts = options.threads.parts_of(options.size, pool.size());
-        for (std::size_t i = 0; i < parts.count(); ++i) tint(expected, parts[i], pool.worker_of(i));
+        Image<vec3> expected = lesson_10::render(options, assets, pool, none);
+        const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
+        for (std::size_t i = 0; i < tiling.count(); ++i)
+            tint(expected, tiling[i], pool.worker_of(i));
         options.threads.show = true;
-        EXPECT_TRUE(are_the_same_bits(lesson::render(options, scene, pool, none), expected));
+        EXPECT_TRUE(are_the_same_bits(lesson_10::render(options, assets, pool, none), expected));
     }
     // What was brighter is brighter still, in each colour, and none is black.
     for (std::size_t worker = 0; worker < 8; ++worker) {
         float before = 0;
         for (const float light : {0.0f, 0.01f, 0.1f, 0.3f, 1.0f, 3.0f}) {
             Image<vec3> pixels({3, 3}, vec3(light));
-            tint(pixels, Parts(Split::tiles, {3, 3}, 1, 8)[0], worker);
+            tint(pixels, Tiling(Split::tiles, {3, 3}, 1, 8)[0], worker);
             const float now = glm::dot(pixels[{1, 1}], vec3(0.2126f, 0.7152f, 0.0722f));
             EXPECT_GT(now, before) << "worker " << worker << ", light " << light;
             before = now;
@@ -432,14 +401,14 @@ TEST(Threading, PictureOfTheSceneIsLesson09sByteForByte) {
 }
 
 TEST(Threading, PictureOfWhoDrewWhat) {
-    // Threads would share it out anew each time; these do not.
-    lesson::Options options;
+    // Threads would share out the tiles anew each time; these pools do not.
+    lesson_10::Options options;
     options.size = {960, 540};
     options.threads.show = true, options.threads.tile = 64;
-    const ShadowedScene scene(loaded("scene_bumpy.obj"), options);
+    const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
     NoCounters none;
-    ShuffledPool by_chance(4, 1);
-    EXPECT_TRUE(equals_golden(lesson::render(options, scene, by_chance, none), "10_threading"));
+    ShuffledPool shuffled(4, 1);
+    EXPECT_TRUE(equals_golden(lesson_10::render(options, assets, shuffled, none), "10_threading"));
     struct {
         std::size_t size() const { return 4; }
         void run(std::size_t tasks, const std::function<void(std::size_t, std::size_t)>& task) {
@@ -447,5 +416,6 @@ TEST(Threading, PictureOfWhoDrewWhat) {
         }
     } in_turn;
     options.threads.split = Split::rows;
-    EXPECT_TRUE(equals_golden(lesson::render(options, scene, in_turn, none), "10_threading_rows"));
+    EXPECT_TRUE(
+        equals_golden(lesson_10::render(options, assets, in_turn, none), "10_threading_rows"));
 }

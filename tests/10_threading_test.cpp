@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pool, the parts of a picture, and what a schedule foretells.
+// The pool, the tiles of a picture, and what a schedule predicts.
 #include "10_threading/thread_pool.hpp"
 
 #include <algorithm>
@@ -23,8 +23,8 @@
 
 #include "10_threading/schedule.hpp"
 #include "10_threading/split.hpp"
-#include "common/counters.hpp"
-#include "common/image.hpp"
+#include "common/app/counters.hpp"
+#include "common/image/image.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
 
@@ -45,11 +45,11 @@ struct Trouble : std::runtime_error {
     std::vector<int> numbers;
 };
 
-/// So often each pixel of a picture is in a part.
-Image<int> hits_of(const Parts& parts) {
-    Image<int> hits(parts.size(), 0);
-    for (std::size_t i = 0; i < parts.count(); ++i)
-        for_each_strip(parts[i], [&](const PixelBox& strip) {
+/// How many tiles each pixel of a picture is in.
+Image<int> hits_of(const Tiling& tiling) {
+    Image<int> hits(tiling.size(), 0);
+    for (std::size_t i = 0; i < tiling.count(); ++i)
+        for_each_strip(tiling[i], [&](const PixelBox& strip) {
             for (int y = strip.first.y; y <= strip.last.y; ++y)
                 for (int x = strip.first.x; x <= strip.last.x; ++x)
                     if (hits.contains({x, y}))
@@ -60,17 +60,17 @@ Image<int> hits_of(const Parts& parts) {
     return hits;
 }
 
-/// By its definition, pixel by pixel: which part a pixel is in.
-std::size_t part_of(ivec2 pixel, Split split, ivec2 size, int workers, int tile) {
+/// By definition, pixel by pixel: which tile a pixel is in.
+std::size_t tile_of(ivec2 pixel, Split split, ivec2 size, int workers, int side) {
     const int n = std::min(workers, size.y);
     if (split == Split::interleaved) return static_cast<std::size_t>(pixel.y % n);
     if (split == Split::tiles)
-        return static_cast<std::size_t>((pixel.y / tile) * ((size.x + tile - 1) / tile) +
-                                        pixel.x / tile);
-    int part = 0;
-    for (int y = 0, in_part = 0; y < pixel.y; ++y)
-        if (++in_part == size.y / n && part < n - 1) ++part, in_part = 0;
-    return static_cast<std::size_t>(part);
+        return static_cast<std::size_t>((pixel.y / side) * ((size.x + side - 1) / side) +
+                                        pixel.x / side);
+    int tile = 0;
+    for (int y = 0, in_tile = 0; y < pixel.y; ++y)
+        if (++in_tile == size.y / n && tile < n - 1) ++tile, in_tile = 0;
+    return static_cast<std::size_t>(tile);
 }
 
 /// Any triangle around a picture: from a fraction of a pixel to far larger than it.
@@ -81,11 +81,11 @@ ScreenTriangle any_triangle(std::mt19937& random, ivec2 size) {
         return 0.5f * static_cast<float>(side) * (1 + 1.2f * any(random));
     };
     const float x = coordinate(size.x), y = coordinate(size.y);
-    const auto corner = [&] {
+    const auto vertex = [&] {
         const float dx = any(random), dy = any(random);
         return vec2(x, y) + extent * vec2(dx, dy);
     };
-    const vec2 a = corner(), b = corner(), c = corner();
+    const vec2 a = vertex(), b = vertex(), c = vertex();
     return snap_triangle(a, b, c);
 }
 
@@ -134,8 +134,8 @@ TEST(Threading, HardCase_ThreadsAreStartedOnce) {
 
 TEST(Threading, HardCase_AllThreadsTakePart) {
     look_up("The pool");
-    // Each task waits until all have begun: who does not take part lets the others wait for ever,
-    // or for these ten seconds.
+    // Each task waits until all have begun: whoever takes no part keeps the others waiting for
+    // ten seconds.
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         std::atomic<int> begun = 0;
@@ -176,7 +176,7 @@ TEST(Threading, HardCase_TenMillionShortTasks) {
 
 TEST(Threading, HardCase_JobsSeeWhatTheOnesBeforeWrote) {
     look_up("The pool");
-    // Plain numbers, written by whichever thread: each job adds to what the last one left.
+    // Plain numbers, written by any thread: each job adds to what the last one left.
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         std::vector<long> numbers(97, 0);
@@ -294,26 +294,26 @@ TEST(Threading, HardCase_CountersOfTwoWorkersAreFarApart) {
 
 TEST(Threading, Eq10_3_EvenRowsLeaveTheRestToTheLast) {
     // The worked example: 1080 rows, 7 workers.
-    const Parts parts(Split::rows, {1920, 1080}, 7, 64);
-    ASSERT_EQ(parts.count(), 7u);
+    const Tiling tiling(Split::rows, {1920, 1080}, 7, 64);
+    ASSERT_EQ(tiling.count(), 7u);
     for (std::size_t i = 0; i < 7; ++i) {
-        EXPECT_EQ(parts[i].box.first, ivec2(0, 154 * i));
-        EXPECT_EQ(parts[i].box.last, ivec2(1919, i < 6 ? 154 * i + 153 : 1079));
-        EXPECT_EQ(parts[i].row_step, 1);
+        EXPECT_EQ(tiling[i].box.first, ivec2(0, 154 * i));
+        EXPECT_EQ(tiling[i].box.last, ivec2(1919, i < 6 ? 154 * i + 153 : 1079));
+        EXPECT_EQ(tiling[i].row_step, 1);
     }
     // The largest rest: 61 workers, 121 rows; one row for each, and 61 for the last.
-    const Parts uneven(Split::rows, {10, 121}, 61, 64);
+    const Tiling uneven(Split::rows, {10, 121}, 61, 64);
     EXPECT_EQ(uneven[59].box.last.y, 59);
     EXPECT_EQ(uneven[60].box.first.y, 60);
     EXPECT_EQ(uneven[60].box.last.y, 120);
 }
 
 TEST(Threading, Eq10_4_InterleavedRowsGoRound) {
-    const Parts parts(Split::interleaved, {5, 10}, 4, 64);
-    ASSERT_EQ(parts.count(), 4u);
+    const Tiling tiling(Split::interleaved, {5, 10}, 4, 64);
+    ASSERT_EQ(tiling.count(), 4u);
     for (std::size_t i = 0; i < 4; ++i) {
         std::vector<int> rows;
-        for_each_strip(parts[i], [&](const PixelBox& strip) {
+        for_each_strip(tiling[i], [&](const PixelBox& strip) {
             EXPECT_EQ(strip.first.x, 0);
             EXPECT_EQ(strip.last, ivec2(4, strip.first.y));
             rows.push_back(strip.first.y);
@@ -325,29 +325,29 @@ TEST(Threading, Eq10_4_InterleavedRowsGoRound) {
 }
 
 TEST(Threading, Eq10_5_TilesOfTheWorkedExample) {
-    const Parts parts(Split::tiles, {1920, 1080}, 7, 64);
-    EXPECT_EQ(parts.count(), 30u * 17u);
-    EXPECT_EQ(parts[31].box.first, ivec2(64, 64));
-    EXPECT_EQ(parts[31].box.last, ivec2(127, 127));
-    EXPECT_EQ(parts[509].box.first, ivec2(1856, 1024));
-    EXPECT_EQ(parts[509].box.last, ivec2(1919, 1079)) << "the last row of tiles is 56 pixels high";
+    const Tiling tiling(Split::tiles, {1920, 1080}, 7, 64);
+    EXPECT_EQ(tiling.count(), 30u * 17u);
+    EXPECT_EQ(tiling[31].box.first, ivec2(64, 64));
+    EXPECT_EQ(tiling[31].box.last, ivec2(127, 127));
+    EXPECT_EQ(tiling[509].box.first, ivec2(1856, 1024));
+    EXPECT_EQ(tiling[509].box.last, ivec2(1919, 1079)) << "the last row of tiles is 56 pixels high";
 }
 
-TEST(Threading, HardCase_EachPixelIsInOnePart) {
+TEST(Threading, HardCase_EachPixelIsInOneTile) {
     look_up("Eq. 10.5");
     for (const ivec2 size : {ivec2(1, 1), {1, 9}, {9, 1}, {64, 64}, {65, 63}, {33, 130}, {3, 60}})
         for (const int workers : thread_counts)
             for (const Split split : splits)
-                for (const int tile : {1, 2, 8, 63, 64, 1000}) {
-                    const Parts parts(split, size, static_cast<std::size_t>(workers), tile);
-                    const Image<int> hits = hits_of(parts);
+                for (const int side : {1, 2, 8, 63, 64, 1000}) {
+                    const Tiling tiling(split, size, static_cast<std::size_t>(workers), side);
+                    const Image<int> hits = hits_of(tiling);
                     ASSERT_TRUE(std::ranges::all_of(hits.pixels(), [](int n) { return n == 1; }))
                         << size.x << "x" << size.y << ", split " << int(split) << ", " << workers
-                        << " workers, tile " << tile;
-                    for (std::size_t i = 0; i < parts.count(); ++i)
-                        for_each_strip(parts[i], [&](const PixelBox& strip) {
-                            ASSERT_EQ(part_of(strip.first, split, size, workers, tile), i);
-                            ASSERT_EQ(part_of(strip.last, split, size, workers, tile), i);
+                        << " workers, tile side " << side;
+                    for (std::size_t i = 0; i < tiling.count(); ++i)
+                        for_each_strip(tiling[i], [&](const PixelBox& strip) {
+                            ASSERT_EQ(tile_of(strip.first, split, size, workers, side), i);
+                            ASSERT_EQ(tile_of(strip.last, split, size, workers, side), i);
                         });
                 }
 }
@@ -355,22 +355,22 @@ TEST(Threading, HardCase_EachPixelIsInOnePart) {
 TEST(Threading, HardCase_MoreWorkersThanRowsOrTiles) {
     look_up("Eq. 10.3");
     for (const Split split : {Split::rows, Split::interleaved}) {
-        EXPECT_EQ(Parts(split, {100, 3}, 61, 64).count(), 3u);
-        EXPECT_EQ(Parts(split, {100, 1}, 61, 64).count(), 1u);
+        EXPECT_EQ(Tiling(split, {100, 3}, 61, 64).count(), 3u);
+        EXPECT_EQ(Tiling(split, {100, 1}, 61, 64).count(), 1u);
     }
-    EXPECT_EQ(Parts(Split::tiles, {100, 3}, 61, 64).count(), 2u);
+    EXPECT_EQ(Tiling(Split::tiles, {100, 3}, 61, 64).count(), 2u);
     for (const Split split : splits)
         for (const ivec2 size : {ivec2(0), ivec2(0, 5), ivec2(5, 0)}) {
-            const Parts none(split, size, 4, 64);
-            EXPECT_EQ(none.count(), 0u) << "no pixels, no parts";
+            const Tiling none(split, size, 4, 64);
+            EXPECT_EQ(none.count(), 0u) << "no pixels, no tiles";
             none.for_each_in({{0, 0}, {5, 5}}, [](std::size_t) { ADD_FAILURE(); });
         }
 }
 
-TEST(Threading, Eq10_6_ATriangleIsListedInJustThePartsThatItsBoxMeets) {
+TEST(Threading, Eq10_6_ATriangleIsListedInJustTheTilesThatItsBoxMeets) {
     // The worked example: a box of pixels from (100, 50) to (130, 70) meets four tiles.
     std::vector<std::size_t> met;
-    Parts(Split::tiles, {1920, 1080}, 4, 64)
+    Tiling(Split::tiles, {1920, 1080}, 4, 64)
         .for_each_in({{100, 50}, {130, 70}}, [&](std::size_t i) { met.push_back(i); });
     EXPECT_EQ(met, (std::vector<std::size_t>{1, 2, 31, 32}));
 
@@ -386,39 +386,40 @@ TEST(Threading, Eq10_6_ATriangleIsListedInJustThePartsThatItsBoxMeets) {
         });
         const Split split = splits[random() % 3];
         const int workers = thread_counts[random() % thread_counts.size()];
-        const int tile = 1 + static_cast<int>(random() % 40);
+        const int side = 1 + static_cast<int>(random() % 40);
         std::set<std::size_t> expected;
         for (int y = std::max(box.first.y, 0); y <= std::min(box.last.y, size.y - 1); ++y)
             for (int x = std::max(box.first.x, 0); x <= std::min(box.last.x, size.x - 1); ++x)
-                expected.insert(part_of({x, y}, split, size, workers, tile));
+                expected.insert(tile_of({x, y}, split, size, workers, side));
         std::set<std::size_t> actual;
-        Parts(split, size, static_cast<std::size_t>(workers), tile)
-            .for_each_in(box, [&](std::size_t part) {
-                ASSERT_TRUE(actual.insert(part).second) << "seed 1, triangle " << k << ": twice";
+        Tiling(split, size, static_cast<std::size_t>(workers), side)
+            .for_each_in(box, [&](std::size_t tile) {
+                ASSERT_TRUE(actual.insert(tile).second) << "seed 1, triangle " << k << ": twice";
             });
         ASSERT_EQ(actual, expected) << "seed 1, triangle " << k << ", split " << int(split);
     }
 }
 
-TEST(Threading, Eq10_7_PartsTogetherAreTheWholeTriangleBitForBit) {
+TEST(Threading, Eq10_7_TilesTogetherAreTheWholeTriangleBitForBit) {
     std::mt19937 random(2);
     const ivec2 size(150, 90);
     long pixels = 0;
     for (int k = 0; k < 3000; ++k) {
         const ScreenTriangle triangle = any_triangle(random, size);
         std::map<std::tuple<int, int>, vec3> whole;
-        fill_triangle(triangle, size,
-                      [&](ivec2 pixel, vec3 weights) { whole[{pixel.y, pixel.x}] = weights; });
+        fill_triangle(triangle, size, [&](ivec2 pixel, vec3 barycentrics) {
+            whole[{pixel.y, pixel.x}] = barycentrics;
+        });
         const Split split = splits[static_cast<std::size_t>(k) % 3];
         const int workers = thread_counts[random() % thread_counts.size()];
-        const int tile = 1 + static_cast<int>(random() % 80);
-        const Parts parts(split, size, static_cast<std::size_t>(workers), tile);
-        for (std::size_t i = 0; i < parts.count(); ++i)
-            fill_part(triangle, parts[i], [&](ivec2 pixel, vec3 weights) {
-                ASSERT_EQ(part_of(pixel, split, size, workers, tile), i) << "seed 2, " << k;
+        const int side = 1 + static_cast<int>(random() % 80);
+        const Tiling tiling(split, size, static_cast<std::size_t>(workers), side);
+        for (std::size_t i = 0; i < tiling.count(); ++i)
+            fill_tile(triangle, tiling[i], [&](ivec2 pixel, vec3 barycentrics) {
+                ASSERT_EQ(tile_of(pixel, split, size, workers, side), i) << "seed 2, " << k;
                 const auto found = whole.find({pixel.y, pixel.x});
                 ASSERT_TRUE(found != whole.end()) << "seed 2, triangle " << k << ": twice";
-                ASSERT_EQ(found->second, weights) << "seed 2, triangle " << k;
+                ASSERT_EQ(found->second, barycentrics) << "seed 2, triangle " << k;
                 whole.erase(found);
                 ++pixels;
             });

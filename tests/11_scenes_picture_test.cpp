@@ -2,63 +2,32 @@
 // Pictures of scenes: only what is called for, the same bits with all of it, files and cameras.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
-#include <syncstream>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-// All that the lessons' main.cpp include, so that they can be included within namespaces.
-#include <iostream>
-
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/many_samples.hpp"
-#include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
-#include "10_threading/binned_triangles.hpp"
-#include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
-#include "10_threading/threaded_shadows.hpp"
 #include "11_scenes/explain.hpp"
-#include "11_scenes/finished_scene.hpp"
-#include "11_scenes/kernels.hpp"
+#include "11_scenes/scene_assets.hpp"
 #include "11_scenes/scene_camera.hpp"
-#include "11_scenes/scene_options.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-#include "common/model_file.hpp"
+#include "common/image/backdrop.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
+#include "support/lessons.hpp"
 #include "support/look_up.hpp"
+#include "support/pictures.hpp"
 #include "support/pretend_pool.hpp"
 #include "support/printers.hpp"
-
-#define main main_of_lesson
-namespace lesson_10 {
-#include "10_threading/main.cpp"
-}
-namespace lesson {
-#include "11_scenes/main.cpp"
-}
-#undef main
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -67,40 +36,21 @@ namespace {
 
 constexpr std::array scenes = {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"};
 
-Scene loaded(const char* name) {
-    return load_model(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name);
-}
-
-lesson::Options small_picture(ivec2 size = {160, 90}) {
-    lesson::Options options;
+lesson_11::Options small_picture(ivec2 size = {160, 90}) {
+    lesson_11::Options options;
     options.size = size;
     options.shadow.size = 128;
     options.threads.tile = 16;
     return options;
 }
 
-/// A picture, and what was done to make it.
-struct Drawn {
-    Image<vec3> picture;
-    Counters counters;
-
-    std::uint64_t count(Counter counter) const {
-        return counters.values[static_cast<std::size_t>(counter)];
-    }
-};
-
-Drawn drawn(Scene scene, const lesson::Options& options) {
-    const FinishedScene finished(std::move(scene), options);
-    ThreadPool pool(2);
-    NoClock no_clock;
-    Drawn result;
-    result.picture = lesson::render(options, finished, pool, result.counters, no_clock);
-    return result;
-}
-
-bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
-    return a.size() == b.size() &&
-           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+Drawn drawn(Scene scene, const lesson_11::Options& options) {
+    return test::drawn(options, make_scene_assets(std::move(scene), options),
+                       [](const auto& of, const auto& assets, auto& counters) {
+                           ThreadPool pool(2);
+                           NoClock no_clock;
+                           return lesson_11::render(of, assets, pool, counters, no_clock);
+                       });
 }
 
 /// Work of effects.
@@ -110,9 +60,9 @@ const std::map<Effect, std::vector<Counter>> work_of = {
     {Effect::texture, {Counter::texture_samples}},
     {Effect::vertex_colors, {Counter::colored_fragments}},
     {Effect::normal_map, {Counter::normal_map_samples, Counter::meshes_with_tangents}},
-    {Effect::shadow, {Counter::shadow_passes, Counter::shadow_fragments, Counter::shadow_lookups}},
+    {Effect::shadow, {Counter::shadow_passes, Counter::shadow_fragments, Counter::shadow_tests}},
     {Effect::toon, {Counter::toon_fragments}},
-    {Effect::mask, {Counter::masked_fragments}},
+    {Effect::mask, {Counter::alpha_tested_fragments}},
     {Effect::blend, {Counter::blended_fragments}}};
 
 /// A scene of squares of side 2 around (0, 0, z), as seen by a camera far in front of them: each
@@ -134,9 +84,9 @@ class Squares {
         mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         mesh.normals = {{0, 0, 1}};
         const auto material = static_cast<std::uint32_t>(scene.materials.size());
-        const auto corner = [](std::uint32_t i) { return Corner{i, i, 0}; };
-        mesh.triangles = {{{corner(0), corner(1), corner(2)}, material},
-                          {{corner(0), corner(2), corner(3)}, material}};
+        const auto vertex = [](std::uint32_t i) { return Vertex{i, i, 0}; };
+        mesh.triangles = {{{vertex(0), vertex(1), vertex(2)}, material},
+                          {{vertex(0), vertex(2), vertex(3)}, material}};
         for (const vec3 p : mesh.positions) mesh.bounds.add(p);
         scene.meshes.push_back(mesh);
         Material& added = scene.materials.emplace_back();
@@ -157,20 +107,20 @@ class Squares {
 
 }  // namespace
 
-TEST(SceneFiles, HardCase_WhatASceneDoesNotCallForTakesNoWork) {
+TEST(SceneFiles, HardCase_UnusedEffectsTakeNoWork) {
     look_up("Eq. 11.3");
     std::map<Effect, int> off, on;
     for (const char* name : scenes) {
         SCOPED_TRACE(name);
-        const lesson::Options options = small_picture();
-        const FinishedScene scene(loaded(name), options);
+        const lesson_11::Options options = small_picture();
+        const SceneAssets assets = make_scene_assets(loaded(name), options);
         const Drawn picture = drawn(loaded(name), options);
         EXPECT_GT(picture.count(Counter::fragments_shaded), 2000u);
         for (const auto& [effect, counters] : work_of) {
             SCOPED_TRACE(effect_names[static_cast<std::size_t>(effect)]);
-            // A comic's fragments are counted among the lit ones.
-            const bool runs =
-                scene.plan.any(effect) || (effect == Effect::light && scene.plan.any(Effect::toon));
+            // Those of toon materials are counted among the lit ones.
+            const bool runs = assets.plan.any(effect) ||
+                              (effect == Effect::light && assets.plan.any(Effect::toon));
             ++(runs ? on : off)[effect];
             for (const Counter counter : counters) {
                 SCOPED_TRACE(counter_names[static_cast<std::size_t>(counter)]);
@@ -179,12 +129,12 @@ TEST(SceneFiles, HardCase_WhatASceneDoesNotCallForTakesNoWork) {
         }
         EXPECT_EQ(picture.count(Counter::outline_tests), 0u) << "an outline is a mesh here";
         std::uint64_t own_triangles = 0;
-        for (const Mesh& mesh : scene.meshes) own_triangles += mesh.triangles.size();
+        for (const Mesh& mesh : assets.scene.meshes) own_triangles += mesh.triangles.size();
         EXPECT_EQ(picture.count(Counter::triangles_in) > own_triangles,
-                  scene.plan.any(Effect::outline));
+                  assets.plan.any(Effect::outline));
         // Counted together with other textures; no scene has one.
-        EXPECT_FALSE(scene.plan.any(Effect::specular_map));
-        for (const auto& texture : scene.specular_textures) EXPECT_EQ(texture, nullptr);
+        EXPECT_FALSE(assets.plan.any(Effect::specular_map));
+        for (const auto& texture : assets.textures.specular) EXPECT_EQ(texture, nullptr);
     }
     EXPECT_EQ(work_of.size() + 2, effect_count) << "and of outlines and specular maps";
     for (const auto& [effect, counters] : work_of)
@@ -199,7 +149,7 @@ TEST(SceneFiles, HardCase_AllEffectsForcedGiveTheSameBits) {
     for (const char* name : {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb", "crate.obj",
                              "scene_bumpy.obj", "figure.obj"}) {
         SCOPED_TRACE(name);
-        lesson::Options options = small_picture();
+        lesson_11::Options options = small_picture();
         const Drawn plain = drawn(loaded(name), options);
         options.shading.all_effects = true;
         const Drawn forced = drawn(loaded(name), options);
@@ -211,7 +161,7 @@ TEST(SceneFiles, HardCase_AllEffectsForcedGiveTheSameBits) {
     }
 }
 
-TEST(SceneFiles, HardCase_AllEffectsForcedKeepHolesGlassAndPaper) {
+TEST(SceneFiles, HardCase_AllEffectsForcedKeepHolesTransparencyAndPaper) {
     look_up("Eq. 11.9");
     // All at the same depth, in each order: the first opaque one stays, and glass is not seen.
     const auto holes = [](Squares& squares) {
@@ -225,13 +175,13 @@ TEST(SceneFiles, HardCase_AllEffectsForcedKeepHolesGlassAndPaper) {
     const auto back = [](Squares& squares) {  // seen from behind
         squares.add(0, vec3(0, 0, 1)).two_sided = true;
         for (Triangle& triangle : squares.scene.meshes.back().triangles)
-            std::swap(triangle.corners[1], triangle.corners[2]);
+            std::swap(triangle.vertices[1], triangle.vertices[2]);
     };
     const auto glass = [](Squares& squares) { squares.add_glass(0, vec3(1, 1, 0), 0.5f); };
     const auto near_glass = [](Squares& squares) { squares.add_glass(1, vec3(0, 1, 1), 0.25f, 1); };
     const auto comic = [](Squares& squares) {
         squares.add(0.5f, vec3(1), 2).toon =
-            ToonLook{.outline = ToonLook::Outline::world, .outline_width = 0.1f};
+            ToonMaterial{.outline = ToonMaterial::Outline::world, .outline_width = 0.1f};
     };
     std::vector<void (*)(Squares&)> order = {holes, wall, back, glass, near_glass, comic};
     std::vector<std::size_t> index = {0, 1, 2, 3, 4, 5};
@@ -239,7 +189,7 @@ TEST(SceneFiles, HardCase_AllEffectsForcedKeepHolesGlassAndPaper) {
     do {
         Squares squares;
         for (const std::size_t i : index) order[i](squares);
-        lesson::Options options = small_picture({16, 16});
+        lesson_11::Options options = small_picture({16, 16});
         const Drawn plain = drawn(squares.scene, options);
         options.shading.all_effects = true;
         EXPECT_TRUE(are_the_same_bits(plain.picture, drawn(squares.scene, options).picture))
@@ -249,7 +199,7 @@ TEST(SceneFiles, HardCase_AllEffectsForcedKeepHolesGlassAndPaper) {
     EXPECT_EQ(cases, 720);
 }
 
-TEST(SceneFiles, HardCase_AnyThreadsAndOrderGiveTheSameBits) {
+TEST(SceneFiles, HardCase_AnyNumberOfThreadsAndAnyOrderGiveTheSameBits) {
     look_up("Eq. 11.9");
     Squares glass;  // panes that cut through each other, and are gathered in each tile's own order
     for (const float tilt : {-1.0f, 0.5f, 1.0f, 0.0f, -0.25f})
@@ -257,8 +207,8 @@ TEST(SceneFiles, HardCase_AnyThreadsAndOrderGiveTheSameBits) {
     std::vector<Scene> all = {glass.scene};
     for (const char* name : scenes) all.push_back(loaded(name));
     for (const Scene& model : all) {
-        lesson::Options options = small_picture();
-        const FinishedScene scene(model, options);
+        lesson_11::Options options = small_picture();
+        const SceneAssets assets = make_scene_assets(model, options);
         NoCounters none;
         NoClock no_clock;
         std::optional<Image<vec3>> expected;
@@ -267,19 +217,19 @@ TEST(SceneFiles, HardCase_AnyThreadsAndOrderGiveTheSameBits) {
                 options.threads.split = split;
                 options.threads.tile = 8 + threads;
                 ThreadPool pool(threads);
-                Image<vec3> picture = lesson::render(options, scene, pool, none, no_clock);
+                Image<vec3> picture = lesson_11::render(options, assets, pool, none, no_clock);
                 if (!expected)
                     expected = std::move(picture);
                 else
                     EXPECT_TRUE(are_the_same_bits(picture, *expected)) << threads;
                 ShuffledPool shuffled(static_cast<std::size_t>(threads), 7);
                 EXPECT_TRUE(are_the_same_bits(
-                    lesson::render(options, scene, shuffled, none, no_clock), *expected));
+                    lesson_11::render(options, assets, shuffled, none, no_clock), *expected));
             }
     }
 }
 
-TEST(SceneFiles, Eq11_7_ThroughAHoleIsSeenWhatLiesBehind) {
+TEST(SceneFiles, Eq11_7_WhatLiesBehindIsSeenThroughHoles) {
     for (const bool leaf_first : {true, false})
         for (const float opacity : {0.5f, 0.4999f}) {
             Squares squares;
@@ -292,7 +242,7 @@ TEST(SceneFiles, Eq11_7_ThroughAHoleIsSeenWhatLiesBehind) {
             if (!leaf_first) add_leaf();
             EXPECT_EQ(squares.middle(), opacity < 0.5f ? vec3(1, 0, 0) : vec3(0, 1, 0));
         }
-    // The opacity is that of material and corners together.
+    // The opacity is that of material and vertices together.
     Squares squares;
     squares.add(0, vec3(1, 0, 0));
     Material& leaf = squares.add(1, vec3(0, 1, 0));
@@ -302,12 +252,12 @@ TEST(SceneFiles, Eq11_7_ThroughAHoleIsSeenWhatLiesBehind) {
     leaf.alpha_cutoff = 0.45f;
     EXPECT_EQ(squares.middle(), vec3(0, 0.5f, 0)) << "and they are coloured";
     const Drawn picture = drawn(squares.scene, small_picture({8, 8}));
-    EXPECT_EQ(picture.count(Counter::masked_fragments), 64u);
+    EXPECT_EQ(picture.count(Counter::alpha_tested_fragments), 64u);
     EXPECT_EQ(picture.count(Counter::colored_fragments), 64u);
     EXPECT_EQ(picture.count(Counter::blended_fragments), 0u);
 }
 
-TEST(SceneFiles, Eq11_9_PanesThatCutThroughEachOtherAreRightInEachPixel) {
+TEST(SceneFiles, Eq11_9_IntersectingTransparentSurfacesAreRightInEachPixel) {
     const vec3 red(1, 0, 0), blue(0, 0, 1), white(1);
     for (const bool red_first : {true, false}) {
         Squares squares;
@@ -327,7 +277,7 @@ TEST(SceneFiles, Eq11_9_PanesThatCutThroughEachOtherAreRightInEachPixel) {
     }
 }
 
-TEST(SceneFiles, Eq11_10_CornersOfOneColourHaveItEverywhere) {
+TEST(SceneFiles, Eq11_10_EqualVertexColorsAreExactEverywhere) {
     Squares squares;
     squares.add(0, vec3(0.7f, 0.3f, 0.9f), 0.8f);
     const Drawn plain = drawn(squares.scene, small_picture({64, 64}));
@@ -347,12 +297,12 @@ TEST(SceneFiles, Eq11_10_CornersOfOneColourHaveItEverywhere) {
     const float half_width = 10 * std::tan(0.075f);  // of what is seen of it
     for (int x = 0; x < 16; ++x) {
         const float place = (static_cast<float>(x) + 0.5f) / 8 - 1;
-        // Corners lie within half a sub-pixel of their place, and the square is 22 pixels wide.
+        // Vertices lie within half a sub-pixel of their place, and the square is 22 pixels wide.
         EXPECT_NEAR((picture[{x, 8}].r), 0.5f + 0.5f * place * half_width, 1.0f / 256 / 20) << x;
     }
 }
 
-TEST(SceneFiles, HardCase_BacksAreSeenOfWhatHasTwoSidesAlone) {
+TEST(SceneFiles, HardCase_OnlyTwoSidedMaterialsShowTheirBackFaces) {
     look_up("Eq. 11.9");
     for (const bool is_glass : {false, true})
         for (const bool two_sided : {false, true}) {
@@ -361,14 +311,14 @@ TEST(SceneFiles, HardCase_BacksAreSeenOfWhatHasTwoSidesAlone) {
             square.two_sided = two_sided;
             if (is_glass) square.alpha = AlphaMode::blend;
             for (Triangle& triangle : squares.scene.meshes[0].triangles)
-                std::swap(triangle.corners[1], triangle.corners[2]);
+                std::swap(triangle.vertices[1], triangle.vertices[2]);
             EXPECT_EQ(squares.middle() == vec3(1, 0, 0), two_sided);
         }
 }
 
-TEST(SceneFiles, HardCase_OutlinesHaveOneSideWhateverIsForced) {
+TEST(SceneFiles, HardCase_OutlinesAreOneSidedWhateverIsForced) {
     look_up("Eq. 11.6");
-    lesson::Options options = small_picture();
+    lesson_11::Options options = small_picture();
     const Image<vec3> one_sided = drawn(loaded("toon.glb"), options).picture;
     options.shading.two_sided = true;
     EXPECT_TRUE(are_the_same_bits(drawn(loaded("toon.glb"), options).picture, one_sided))
@@ -380,14 +330,14 @@ TEST(SceneFiles, HardCase_EmptyScenesAreTheBackdrop) {
     Scene empty;
     empty.materials.resize(1);
     for (const bool all_effects : {false, true}) {
-        lesson::Options options = small_picture();
+        lesson_11::Options options = small_picture();
         options.shading.all_effects = all_effects;
         EXPECT_TRUE(is_backdrop(drawn(empty, options).picture));
         EXPECT_EQ(drawn({}, options).count(Counter::shadow_passes), 0u);
     }
 }
 
-TEST(SceneFiles, HardCase_GlassThrowsNoShadow) {
+TEST(SceneFiles, HardCase_TransparentMaterialsCastNoShadow) {
     look_up("Eq. 11.8");
     for (const bool is_glass : {false, true}) {
         Squares squares;
@@ -398,19 +348,18 @@ TEST(SceneFiles, HardCase_GlassThrowsNoShadow) {
         squares.scene.lights = {{"sun", SceneLight::Kind::directional, vec3(3), vec3(0),
                                  vec3(0, 0, -1), std::numeric_limits<float>::infinity()}};
         EXPECT_EQ(drawn(squares.scene, small_picture()).count(Counter::shadow_fragments) > 0, true);
-        const FinishedScene scene(squares.scene, small_picture());
-        EXPECT_EQ(scene.casts(2), !is_glass);
-        EXPECT_TRUE(scene.casts(1));
+        EXPECT_EQ(casts_shadows(squares.scene.materials[2]), !is_glass);
+        EXPECT_TRUE(casts_shadows(squares.scene.materials[1]));
     }
 }
 
-TEST(SceneFiles, HardCase_FilesWithoutCamerasAreSeenWhole) {
+TEST(SceneFiles, HardCase_FilesWithoutCamerasAreFittedIntoThePicture) {
     look_up("Eq. 11.11");
     Scene scene = loaded("toon.glb");
-    const auto name_of = [&](const lesson::Options& options) {
+    const auto name_of = [&](const lesson_11::Options& options) {
         return camera_of_picture(options, options.scene.camera, scene).name;
     };
-    lesson::Options options = small_picture();
+    lesson_11::Options options = small_picture();
     EXPECT_EQ(name_of(options), "0 \"front\" of the file");
     scene.cameras.clear();
     EXPECT_EQ(name_of(options), "the lesson's own, so far away that all is seen");
@@ -438,11 +387,11 @@ TEST(SceneFiles, HardCase_FilesWithoutCamerasAreSeenWhole) {
     EXPECT_EQ(name_of(options), "the lesson's own, so far away that all is seen");
 }
 
-TEST(SceneFiles, HardCase_WhatIsNotSupportedIsNamed) {
+TEST(SceneFiles, HardCase_UnsupportedFeaturesAreNamed) {
     look_up("Eq. 11.1");
     Squares squares;
     squares.add(0, vec3(1)).opacity_map.file = "holes.png";
-    const FinishedScene scene(squares.scene, small_picture());
+    const Scene scene = make_scene_assets(squares.scene, small_picture()).scene;
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_NE(scene.warnings[0].find("\"square 1\": map_d"), std::string::npos);
     const ProcessResult wrong =
@@ -454,7 +403,7 @@ TEST(SceneFiles, HardCase_WhatIsNotSupportedIsNamed) {
         "error: there is no camera 'side'; the file has 0 \"front\"; or --camera orbit|fit\n");
 }
 
-TEST(SceneFiles, HardCase_NumbersThatAreNoneAreAnErrorInOneLine) {
+TEST(SceneFiles, HardCase_InvalidNumbersAreAnErrorInOneLine) {
     look_up("Eq. 11.1");
     const auto folder = fresh_folder("not_numbers");
     std::ofstream(folder / "bad.obj") << "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -477,9 +426,9 @@ TEST(SceneFiles, HardCase_NumbersThatAreNoneAreAnErrorInOneLine) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
 }
 
-TEST(SceneFiles, HardCase_TheFinishedRendererDrawsLesson10sPicture) {
+TEST(SceneFiles, HardCase_TheFinalRendererDrawsLesson10sPicture) {
     look_up("Eq. 11.3");
-    std::vector<lesson::Options> knobs(6, small_picture());
+    std::vector<lesson_11::Options> knobs(6, small_picture());
     knobs[1].shading.key_light = LightKind::point;
     knobs[2].shading.key_light = LightKind::spot, knobs[2].shading.two_sided = true;
     knobs[3].texture.filter = Filter::nearest, knobs[3].shadow.pcf = 7;
@@ -487,7 +436,7 @@ TEST(SceneFiles, HardCase_TheFinishedRendererDrawsLesson10sPicture) {
     knobs[5].show_depth = true;
     for (const char* name : {"scene_bumpy.obj", "crate_bump.obj", "teapot.obj"})
         for (std::size_t k = 0; k < knobs.size(); ++k) {
-            const lesson::Options& options = knobs[k];
+            const lesson_11::Options& options = knobs[k];
             lesson_10::Options same;
             static_cast<LessonOptions&>(same) = options;
             same.orbit = options.orbit, same.show_depth = options.show_depth;
@@ -496,19 +445,19 @@ TEST(SceneFiles, HardCase_TheFinishedRendererDrawsLesson10sPicture) {
             ThreadPool pool(2);
             Counters counters;
             const Image<vec3> expected =
-                lesson_10::render(same, ShadowedScene(loaded(name), same), pool, counters);
+                lesson_10::render(same, lesson_10::make_assets(loaded(name), same), pool, counters);
             const Drawn actual = drawn(loaded(name), options);
             EXPECT_TRUE(are_the_same_bits(actual.picture, expected)) << name << ", knobs " << k;
             EXPECT_EQ(actual.counters.values, counters.values) << name << ", knobs " << k;
         }
 }
 
-TEST(SceneFiles, Eq11_5_APaintHasTwoColours) {
+TEST(SceneFiles, Eq11_5_AToonMaterialHasTwoColors) {
     for (const float toward_eye : {1.0f, -1.0f}) {
         Squares squares;
         Material& paint = squares.add(0, vec3(0.75f, 0.5f, 0.25f));
         paint.illumination = 1, paint.emission = vec3(0.125f);
-        paint.toon = ToonLook{.shade = vec3(0.25f, 0.125f, 0.5f)};
+        paint.toon = ToonMaterial{.shade = vec3(0.25f, 0.125f, 0.5f)};
         squares.scene.lights = {{"sun", SceneLight::Kind::directional, vec3(9), vec3(0),
                                  vec3(0, 0, -toward_eye), std::numeric_limits<float>::infinity()}};
         // With a level of 0 or 1, and eighths, no step is rounded.
@@ -525,15 +474,15 @@ TEST(SceneFiles, HardCase_ThePlanIsExplained) {
                                   "--shadow-size", "64", "--out", file});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     for (const char* line :
-         {"camera: 0 \"front\" of the file\n", "light: sun, a sun\n", "light: lamp, a spot\n",
-          "  copper: light, highlight, texture, normal map, shadow\n",
+         {"camera: 0 \"front\" of the file\n", "light: sun, a directional light\n",
+          "light: lamp, a spotlight\n", "  copper: light, highlight, texture, normal map, shadow\n",
           "  tea: light, highlight, shadow\n", "normal map (names none)", "mask, blend (opaque)",
           "  toon_fragments: 0\n", "  shadow_passes: 2\n",
           "  shadow maps: ", "  triangles: ", "  picture: "})
         EXPECT_NE(run.out.find(line), std::string::npos) << line << "\n" << run.out;
 }
 
-TEST(SceneFiles, HardCase_QualitySetsWhatNoOtherKnobSays) {
+TEST(SceneFiles, HardCase_QualitySetsWhatNoOtherOptionSets) {
     look_up("Eq. 11.3");
     const auto folder = fresh_folder("quality");
     const auto bytes_of = [&](std::vector<std::string> arguments) {
@@ -555,7 +504,9 @@ TEST(SceneFiles, HardCase_QualitySetsWhatNoOtherKnobSays) {
               bytes_of({"--shadow-size", "4096", "--samples", "16"}));
 }
 
-TEST(SceneFiles, PictureOfReliefInALowSun) { EXPECT_TRUE(equals_golden("11_scenes", "11_scenes")); }
+TEST(SceneFiles, PictureOfNormalMapsInALowSun) {
+    EXPECT_TRUE(equals_golden("11_scenes", "11_scenes"));
+}
 
 TEST(SceneFiles, PictureOfBakedLight) {
     EXPECT_TRUE(equals_golden("11_scenes", "11_scenes_unlit", {"--model", "unlit.glb"}));

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/backdrop.hpp"
-#include "common/image_io.hpp"
+#include "common/image/backdrop.hpp"
+#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 #include "support/lesson_process.hpp"
 #include "support/look_up.hpp"
@@ -50,7 +50,7 @@ int difference(u8vec4 a, u8vec4 b) {
 
 }  // namespace
 
-TEST(OthersPictures, HardCase_BlendersFileLooksAsBlenderDrawsIt) {
+TEST(OthersPictures, HardCase_ABlenderFileLooksAsBlenderDrawsIt) {
     look_up("Eq. 11.12");  // its sun has 2146 lux
     const Image<u8vec4> ours =
         drawn("still_life.glb", "320x180", {"--shadow-size", "4096", "--pcf", "1"});
@@ -76,7 +76,7 @@ TEST(OthersPictures, HardCase_BlendersFileLooksAsBlenderDrawsIt) {
     EXPECT_LE(at_most(differences, 0.999), 40);
 }
 
-TEST(OthersPictures, HardCase_AVrmFileLooksAsItIsTracedByRays) {
+TEST(OthersPictures, HardCase_AVrmFileLooksAsARayTracerDrawsIt) {
     look_up("Eq. 11.6");
     const Image<u8vec4> ours = drawn("drawing.vrm", "160x90", {"--shadow-size", "4096"});
     const Image<u8vec4> traced = read_image(data / "drawing.png");

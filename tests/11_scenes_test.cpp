@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights of files, kernels, a comic's paint and outline, holes, layers, corners' colours.
+// Lights of files, shader permutations, toon materials and outlines, alpha test and blending,
+// cameras.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,11 +16,11 @@
 #include <gtest/gtest.h>
 
 #include "11_scenes/blending.hpp"
-#include "11_scenes/finished_scene.hpp"
-#include "11_scenes/kernels.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_lights.hpp"
-#include "11_scenes/toon_look.hpp"
+#include "11_scenes/scene_plan.hpp"
+#include "11_scenes/shaders.hpp"
+#include "11_scenes/toon_material.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
 
@@ -38,7 +39,7 @@ SceneLight file_light(SceneLight::Kind kind, vec3 color) {
 
 }  // namespace
 
-TEST(Scenes, Eq11_1_ASunOfPiLuxMakesAWhiteSurfaceWhite) {
+TEST(Scenes, Eq11_1_ADirectionalLightOfPiLuxMakesAWhiteSurfaceWhite) {
     const Light sun =
         light_of(file_light(SceneLight::Kind::directional, vec3(lux_of_white, 2, 0)), 7);
     EXPECT_EQ(sun.kind, LightKind::directional);
@@ -49,14 +50,14 @@ TEST(Scenes, Eq11_1_ASunOfPiLuxMakesAWhiteSurfaceWhite) {
     EXPECT_EQ(incoming.color.b, 0);
 }
 
-TEST(Scenes, Eq11_2_ALampsLightFallsWithTheSquareOfTheDistance) {
+TEST(Scenes, Eq11_2_APointLightFallsOffWithTheSquareOfTheDistance) {
     constexpr float radius = 4;
-    const Light lamp = light_of(file_light(SceneLight::Kind::point, vec3(60)), radius);
-    EXPECT_EQ(lamp.position_world, vec3(1, 2, 3));
+    const Light point_light = light_of(file_light(SceneLight::Kind::point, vec3(60)), radius);
+    EXPECT_EQ(point_light.position_world, vec3(1, 2, 3));
     const double size = double{lamp_size} * radius;
     for (const double distance : {0.0, 0.25, 0.5, 1.0, 3.0, 40.0}) {
-        const vec3 point = lamp.position_world + vec3(0, -distance, 0);
-        const double arriving = incoming_light(lamp, point).color.r;
+        const vec3 point = point_light.position_world + vec3(0, -distance, 0);
+        const double arriving = incoming_light(point_light, point).color.r;
         // A dozen roundings on the way.
         const double exact = 60 / pi / (distance * distance + size * size);
         EXPECT_NEAR(arriving, exact, 1e-6 * exact) << distance;
@@ -65,33 +66,34 @@ TEST(Scenes, Eq11_2_ALampsLightFallsWithTheSquareOfTheDistance) {
             EXPECT_NEAR(arriving, of_a_point, 0.01 * of_a_point) << distance;
         }
     }
-    EXPECT_NEAR(incoming_light(lamp, vec3(1, 2, 8)).color.r, 60 / (25 * pi), 1e-3) << "as worked";
+    EXPECT_NEAR(incoming_light(point_light, vec3(1, 2, 8)).color.r, 60 / (25 * pi), 1e-3)
+        << "as worked";
 }
 
-TEST(Scenes, HardCase_LampsOfScenesOfAnySizeAreFinite) {
+TEST(Scenes, HardCase_PointLightsAreFiniteInScenesOfAnySize) {
     look_up("Eq. 11.2");
     for (const float radius : {1e-37f, 1e-10f, 1.0f, 1e10f, 3e38f})
         for (const SceneLight::Kind kind : {SceneLight::Kind::point, SceneLight::Kind::spot}) {
-            const Light lamp = light_of(file_light(kind, vec3(1e30f, 1, 0)), radius);
-            EXPECT_GE(lamp.half_distance, std::numeric_limits<float>::min());
+            const Light point_light = light_of(file_light(kind, vec3(1e30f, 1, 0)), radius);
+            EXPECT_GE(point_light.half_distance, std::numeric_limits<float>::min());
             for (const vec3 point : {vec3(1, 2, 3), vec3(0), vec3(1e30f), vec3(-5, 1, 2)}) {
-                const vec3 color = incoming_light(lamp, point).color;
+                const vec3 color = incoming_light(point_light, point).color;
                 EXPECT_TRUE(std::isfinite(color.r) && std::isfinite(color.g)) << radius;
                 EXPECT_EQ(color.b, 0);
             }
         }
 }
 
-TEST(Scenes, HardCase_MoreLightsThanAreDrawnWithAreNamed) {
+TEST(Scenes, HardCase_LightsBeyondTheLimitAreNamed) {
     look_up("Eq. 11.1");
     Scene scene;
-    for (std::size_t i = 0; i < most_lights + 2; ++i) {
+    for (std::size_t i = 0; i < max_lights + 2; ++i) {
         scene.lights.push_back(file_light(SceneLight::Kind::point, vec3(1)));
         scene.lights.back().name = "lamp " + std::to_string(i);
     }
     std::vector<std::string> warnings;
     const SceneLights lights = lights_of(scene, LightKind::directional, warnings);
-    EXPECT_EQ(lights.lights.size(), most_lights);
+    EXPECT_EQ(lights.lights.size(), max_lights);
     EXPECT_TRUE(lights.are_of_file);
     EXPECT_TRUE(std::ranges::all_of(lights.casts, [](bool casts) { return casts; }));
     ASSERT_EQ(warnings.size(), 2u);
@@ -104,7 +106,7 @@ TEST(Scenes, HardCase_MoreLightsThanAreDrawnWithAreNamed) {
     EXPECT_TRUE(own.casts[0] && !own.casts[1] && !own.are_of_file);
 }
 
-TEST(Scenes, Eq11_12_LightsOfAnyUnitsAreTakenDownTogether) {
+TEST(Scenes, Eq11_12_LightsOfAnyUnitAreScaledDownTogether) {
     Bounds bounds;
     bounds.add(vec3(-1, 2, 3)), bounds.add(vec3(3, 2, 3));  // middle (1, 2, 3), radius 2
     ASSERT_EQ(bounds.radius(), 2);
@@ -153,35 +155,37 @@ TEST(Scenes, HardCase_LightsOfAnyStrengthAreNeitherBlackNorInfinite) {
             }
 }
 
-TEST(Scenes, Eq11_3_EachSetOfEffectsHasAKernelWithAllOfThem) {
+TEST(Scenes, Eq11_3_EachSetOfEffectsHasAPermutationWithAllOfThem) {
     std::set<std::size_t> used;
     for (unsigned bits = 0; bits < 1u << effect_count; ++bits) {
         MaterialPlan plan;
-        for (std::size_t e = 0; e < effect_count; ++e) plan.runs[e] = bits >> e & 1;
-        const std::size_t kernel = kernel_of(plan);
-        ASSERT_LT(kernel, all_kernels.size());
-        used.insert(kernel);
-        const KernelEffects effects = all_kernels[kernel];
+        for (std::size_t e = 0; e < effect_count; ++e)
+            plan.effects.set(static_cast<Effect>(e), bits >> e & 1);
+        const std::size_t permutation = permutation_of(plan);
+        ASSERT_LT(permutation, all_permutations.size());
+        used.insert(permutation);
+        const Permutation effects = all_permutations[permutation];
         const bool toon = plan[Effect::toon], light = plan[Effect::light];
-        EXPECT_EQ(effects.look, toon ? Look::toon : light ? Look::phong : Look::unlit);
-        EXPECT_EQ(effects.see_through, plan[Effect::mask] || plan[Effect::blend]);
+        EXPECT_EQ(effects.model, toon    ? ShadingModel::toon
+                                 : light ? ShadingModel::phong
+                                         : ShadingModel::unlit);
         if (!toon && !light) {
-            EXPECT_FALSE(effects.normal_map || effects.shadow) << "no light: nothing to tilt";
+            EXPECT_FALSE(effects.normal_map || effects.shadow) << "no light: nothing to perturb";
             continue;
         }
         EXPECT_TRUE(effects.normal_map || !plan[Effect::normal_map]);
         EXPECT_TRUE(effects.shadow || !plan[Effect::shadow]);
-        if (light && !toon && !effects.see_through) {  // the common ones have no more than asked
+        if (light && !toon) {  // the common ones have no more than is called for
             EXPECT_EQ(effects.normal_map, plan[Effect::normal_map]);
             EXPECT_EQ(effects.shadow, plan[Effect::shadow]);
         }
     }
-    EXPECT_EQ(used.size(), all_kernels.size()) << "none is compiled for nothing";
+    EXPECT_EQ(used.size(), all_permutations.size()) << "none is compiled for nothing";
 }
 
-TEST(Scenes, Eq11_4_TheBorderOfTheLight) {
+TEST(Scenes, Eq11_4_TheShadingBorderOfAToonMaterial) {
     const auto look = [](float toony, float shift) {
-        return ToonLook{.toony = toony, .shift = shift};
+        return ToonMaterial{.toony = toony, .shift = shift};
     };
     // The worked example: toony 0.95, shift -0.1.
     EXPECT_EQ(toon_step(0.0f, look(0.95f, -0.1f)), 0);
@@ -208,8 +212,8 @@ TEST(Scenes, Eq11_4_TheBorderOfTheLight) {
         }
 }
 
-TEST(Scenes, Eq11_5_OnlyHowBrightLightsAreBesideEachOtherCounts) {
-    const ToonLook sharp{.toony = 1};
+TEST(Scenes, Eq11_5_OnlyTheRelativeBrightnessOfLightsCounts) {
+    const ToonMaterial sharp{.toony = 1};
     const vec3 up(0, 1, 0);
     const auto all = [](std::size_t) { return 1.0f; };
     for (const float bright : {1e-6f, 0.3f, 1.0f, 1e6f}) {
@@ -238,12 +242,12 @@ TEST(Scenes, Eq11_5_OnlyHowBrightLightsAreBesideEachOtherCounts) {
     EXPECT_EQ(toon_paint(vec3(0.25f), vec3(0.75f), 0.5f), vec3(0.5f));
 }
 
-TEST(Scenes, Eq11_7_AtTheCutoffASurfaceIsThere) {
-    EXPECT_TRUE(is_there(0.5f, 0.5f));
-    EXPECT_FALSE(is_there(std::nextafter(0.5f, 0.0f), 0.5f));
-    EXPECT_TRUE(is_there(0, 0));
-    EXPECT_FALSE(is_there(1, 1.01f)) << "a cutoff above 1: all of it is a hole";
-    EXPECT_FALSE(is_there(nan_value, 0.5f));
+TEST(Scenes, Eq11_7_TheAlphaTestPassesAtTheCutoff) {
+    EXPECT_TRUE(passes_alpha_test(0.5f, 0.5f));
+    EXPECT_FALSE(passes_alpha_test(std::nextafter(0.5f, 0.0f), 0.5f));
+    EXPECT_TRUE(passes_alpha_test(0, 0));
+    EXPECT_FALSE(passes_alpha_test(1, 1.01f)) << "a cutoff above 1: all of it is a hole";
+    EXPECT_FALSE(passes_alpha_test(nan_value, 0.5f));
 }
 
 TEST(Scenes, Eq11_8_OverIsExactAtBothEnds) {
@@ -265,38 +269,38 @@ TEST(Scenes, Eq11_8_OverIsExactAtBothEnds) {
     EXPECT_EQ(over(vec3(1, 0, 0), 0.5f, vec3(0, 0, 1)), vec3(0.5f, 0, 0.5f)) << "as worked";
 }
 
-TEST(Scenes, Eq11_9_LayersAreDrawnFromBackToFrontInWhateverOrderTheyCome) {
+TEST(Scenes, Eq11_9_FragmentsAreBlendedBackToFrontInWhateverOrderTheyCome) {
     std::mt19937 random(12);
     const ivec2 size(5, 4);
     for (int k = 0; k < 300; ++k) {
-        // Steps of an eighth, so that many layers have the same depth.
-        std::vector<Layer> layers(random() % 60);
-        for (Layer& layer : layers) {
-            layer.pixel = {static_cast<int>(random() % 5), static_cast<int>(random() % 4)};
-            layer.depth = static_cast<float>(random() % 9) / 8;
-            layer.opacity = static_cast<float>(random() % 5) / 4;
-            layer.color = vec3(random() % 8, random() % 8, random() % 8) / 8.0f;
+        // Steps of an eighth, so that many fragments have the same depth.
+        std::vector<TransparentFragment> transparent(random() % 60);
+        for (TransparentFragment& fragment : transparent) {
+            fragment.pixel = {static_cast<int>(random() % 5), static_cast<int>(random() % 4)};
+            fragment.depth = static_cast<float>(random() % 9) / 8;
+            fragment.opacity = static_cast<float>(random() % 5) / 4;
+            fragment.color = vec3(random() % 8, random() % 8, random() % 8) / 8.0f;
         }
         Image<vec3> expected(size, vec3(0.25f));
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 std::vector<std::size_t> left;  // in this pixel
-                for (std::size_t i = 0; i < layers.size(); ++i)
-                    if (layers[i].pixel == ivec2(x, y)) left.push_back(i);
+                for (std::size_t i = 0; i < transparent.size(); ++i)
+                    if (transparent[i].pixel == ivec2(x, y)) left.push_back(i);
                 while (!left.empty()) {  // the farthest, and of equals the last
                     std::size_t far = 0;
                     for (std::size_t i = 1; i < left.size(); ++i)
-                        if (layers[left[i]].depth >= layers[left[far]].depth) far = i;
-                    const Layer& layer = layers[left[far]];
+                        if (transparent[left[i]].depth >= transparent[left[far]].depth) far = i;
+                    const TransparentFragment& fragment = transparent[left[far]];
                     vec3& pixel = expected[{x, y}];
-                    pixel = layer.opacity * layer.color + (1 - layer.opacity) * pixel;
+                    pixel = fragment.opacity * fragment.color + (1 - fragment.opacity) * pixel;
                     left.erase(left.begin() + static_cast<std::ptrdiff_t>(far));
                 }
             }
-        Layers gathered;
-        for (const Layer& layer : layers) gathered.add(layer);
+        TransparentFragments gathered;
+        for (const TransparentFragment& fragment : transparent) gathered.add(fragment);
         Image<vec3> actual(size, vec3(0.25f));
-        gathered.draw_over(actual);
+        gathered.blend_over(actual);
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x)
                 ASSERT_EQ((actual[{x, y}]), (expected[{x, y}]))
@@ -305,27 +309,30 @@ TEST(Scenes, Eq11_9_LayersAreDrawnFromBackToFrontInWhateverOrderTheyCome) {
     }
     // The worked example: glass of red at 0.3, of blue at 0.6, both of a half, over white.
     for (const bool red_first : {true, false}) {
-        Layers panes;
-        const Layer red{{0, 0}, 0.3f, 0.5f, {1, 0, 0}}, blue{{0, 0}, 0.6f, 0.5f, {0, 0, 1}};
+        TransparentFragments panes;
+        const TransparentFragment red{{0, 0}, 0.3f, 0.5f, {1, 0, 0}},
+            blue{{0, 0}, 0.6f, 0.5f, {0, 0, 1}};
         panes.add(red_first ? red : blue), panes.add(red_first ? blue : red);
         Image<vec3> white({1, 1}, vec3(1));
-        panes.draw_over(white);
+        panes.blend_over(white);
         EXPECT_EQ((white[{0, 0}]), vec3(0.75f, 0.25f, 0.5f));
     }
 }
 
-TEST(Scenes, Eq11_6_OutlinesAreAsWideAsTheyAreAskedToBe) {
+TEST(Scenes, Eq11_6_OutlinesHaveTheWidthThatIsAskedFor) {
     Scene scene;
     scene.materials.resize(3);
-    scene.materials[1].toon = ToonLook{.outline = ToonLook::Outline::world, .outline_width = 0.25f};
-    scene.materials[2].toon = ToonLook{
-        .outline = ToonLook::Outline::screen, .outline_width = 0.01f, .outline_color = vec3(0.5f)};
+    scene.materials[1].toon =
+        ToonMaterial{.outline = ToonMaterial::Outline::world, .outline_width = 0.25f};
+    scene.materials[2].toon = ToonMaterial{.outline = ToonMaterial::Outline::screen,
+                                           .outline_width = 0.01f,
+                                           .outline_color = vec3(0.5f)};
     for (const std::uint32_t material : {0u, 1u, 2u}) {  // a tetrahedron of each
         Mesh mesh;
         mesh.positions = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
         for (const auto& [a, b, c] :
              {std::array{0u, 1u, 2u}, {0u, 3u, 1u}, {0u, 2u, 3u}, {1u, 3u, 2u}})
-            mesh.triangles.push_back({{Corner{a}, Corner{b}, Corner{c}}, material});
+            mesh.triangles.push_back({{Vertex{a}, Vertex{b}, Vertex{c}}, material});
         for (const vec3 p : mesh.positions) mesh.bounds.add(p);
         scene.meshes.push_back(mesh);
     }
@@ -340,14 +347,14 @@ TEST(Scenes, Eq11_6_OutlinesAreAsWideAsTheyAreAskedToBe) {
         const Mesh hull = pushed(hulls[h], camera);
         ASSERT_EQ(hull.triangles.size(), 4u);
         EXPECT_EQ(hull.triangles[0].material, h + 3);
-        const auto& [a, b, c] = hull.triangles[0].corners;
+        const auto& [a, b, c] = hull.triangles[0].vertices;
         EXPECT_EQ(a.position, 0u);
         EXPECT_EQ(b.position, 2u) << "turned inside out";
         EXPECT_EQ(c.position, 1u);
         for (std::size_t i = 0; i < 4; ++i) {
             const dvec3 place(scene.meshes[0].positions[i]), way(dvec3(hull.positions[i]) - place);
             EXPECT_GT(glm::dot(way, place), 0) << "outwards";
-            // A tetrahedron's corner is pushed straight away from its middle.
+            // A tetrahedron's vertex is pushed straight away from its middle.
             EXPECT_NEAR(glm::length(glm::cross(way, place)), 0, 1e-6);
             const double distance = -(camera.view_from_world * vec4(place, 1)).z;
             const double height = 2 * distance * std::tan(25 * pi / 180);
@@ -361,16 +368,18 @@ TEST(Scenes, Eq11_6_OutlinesAreAsWideAsTheyAreAskedToBe) {
     EXPECT_EQ(pushed(behind, camera).positions, behind.places) << "not inwards, behind the eye";
 }
 
-TEST(Scenes, HardCase_OneMeshOfSeveralPaintsHasTheirOutlines) {
+TEST(Scenes, HardCase_AMeshOfSeveralMaterialsHasTheOutlineOfEach) {
     look_up("Eq. 11.6");
     Scene scene;
     scene.materials.resize(3);
-    scene.materials[2].toon = ToonLook{.outline = ToonLook::Outline::world, .outline_width = 0.5f};
-    scene.materials[1].toon = ToonLook{.outline = ToonLook::Outline::world, .outline_width = 0};
+    scene.materials[2].toon =
+        ToonMaterial{.outline = ToonMaterial::Outline::world, .outline_width = 0.5f};
+    scene.materials[1].toon =
+        ToonMaterial{.outline = ToonMaterial::Outline::world, .outline_width = 0};
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
-    mesh.triangles = {{{Corner{0}, Corner{1}, Corner{2}}, 1},
-                      {{Corner{3}, Corner{4}, Corner{5}}, 2}};
+    mesh.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 1},
+                      {{Vertex{3}, Vertex{4}, Vertex{5}}, 2}};
     scene.meshes = {mesh};
     const std::vector<OutlineHull> hulls = outline_hulls(with_outline_materials(scene));
     ASSERT_EQ(hulls.size(), 1u);
@@ -436,7 +445,8 @@ TEST(Scenes, Eq11_11_AFittedSceneTakesNineTenthsOfThePicture) {
             farthest =
                 std::max({farthest, std::abs(corner.x / corner.w), std::abs(corner.y / corner.w)});
         }
-        // In float: the eye may be a thousand times as far away as a corner is beside the middle.
+        // In float: the eye may be a thousand times as far away as a corner of the box is beside
+        // the middle.
         ASSERT_NEAR(farthest, 0.9f, 1e-3f) << "seed 13, case " << k;
     }
     // The worked example: a cube of side 2 from the front, 90 degrees, a square picture.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drawing sets aside memory for pictures and meshes, never for a triangle or a pixel.
+// Drawing allocates memory for pictures and meshes, never for a triangle or a pixel.
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -7,67 +7,17 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-// All that the lessons' main.cpp include, so that what is left of those are their own lines.
-#include "02_triangle_fill/flat_color.hpp"
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "04_mvp/mvp_variants.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/lit_scene.hpp"
-#include "06_phong/many_samples.hpp"
-#include "06_phong/shading_variants.hpp"
-#include "07_toon/toon_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
-#include "10_threading/binned_triangles.hpp"
-#include "10_threading/thread_options.hpp"
-#include "10_threading/thread_pool.hpp"
-#include "10_threading/threaded_shadows.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-
-// Each lesson's Options and render() in a namespace of its own.
-#define main lesson_main
-namespace lesson_04 {
-#include "04_mvp/main.cpp"
-}
-namespace lesson_05 {
-#include "05_textures/main.cpp"
-}
-namespace lesson_06 {
-#include "06_phong/main.cpp"
-}
-namespace lesson_07 {
-#include "07_toon/main.cpp"
-}
-namespace lesson_08 {
-#include "08_normal_maps/main.cpp"
-}
-namespace lesson_09 {
-#include "09_shadow_maps/main.cpp"
-}
-namespace lesson_10 {
-#include "10_threading/main.cpp"
-}
-#undef main
+#include "support/lessons.hpp"
 
 using namespace rasterbook;
 
 namespace {
 
-std::atomic<std::size_t> allocations;  // operator new has nothing else to count in
+std::atomic<std::size_t> allocations;  // operator new has nowhere else to count
 
 }  // namespace
 
@@ -82,7 +32,7 @@ std::atomic<std::size_t> allocations;  // operator new has nothing else to count
 
 namespace {
 
-/// How often memory is asked for while `work` is done.
+/// How many allocations `work` makes.
 template <typename Work>
 std::size_t allocations_of(const Work& work) {
     const std::size_t before = allocations;
@@ -105,23 +55,33 @@ Scene waves(int side) {
                 mesh.uvs.push_back(4.0f * at);
                 mesh.bounds.add(mesh.positions.back());
             }
-        const auto corner = [&](int x, int y) {
+        const auto vertex = [&](int x, int y) {
             const auto index = static_cast<std::uint32_t>(y * (side + 1) + x);
-            return Corner{index, index};
+            return Vertex{index, index};
         };
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) {
                 mesh.triangles.push_back(
-                    {{corner(x, y), corner(x + 1, y), corner(x + 1, y + 1)}, 1});
+                    {{vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1)}, 1});
                 mesh.triangles.push_back(
-                    {{corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)}, 1});
+                    {{vertex(x, y), vertex(x + 1, y + 1), vertex(x, y + 1)}, 1});
             }
     }
     return scene;
 }
 
-/// For EXPECT_TRUE: a picture of n and one of 16 n triangles ask for memory equally often, seen
-/// from outside, and from so near that many triangles are clipped.
+std::shared_ptr<const Texture> texture_of(vec4 texel) {
+    return std::make_shared<const Texture>(
+        make_texture(Image<vec4>({16, 16}, texel), Wrap::repeat));
+}
+
+void expect_many(const Counters& counters, Counter counter) {
+    const auto i = static_cast<std::size_t>(counter);
+    EXPECT_GT(counters.values[i], 1000u) << counter_names[i];
+}
+
+/// For EXPECT_TRUE: a picture of n triangles and one of 16 n make as many allocations, seen from
+/// outside, and from so near that many triangles are clipped.
 template <typename Options, typename Draw>
 testing::AssertionResult does_not_depend_on_triangles(Options options, const Draw& draw) {
     options.size = {96, 64};
@@ -154,7 +114,7 @@ TEST(Allocations, OfLesson04DoNotDependOnTriangles) {
             Counters counters;
             const std::size_t count =
                 allocations_of([&] { lesson_04::render(options, scene, counters); });
-            EXPECT_GT(counters.values[std::size_t(Counter::fragments_shaded)], 1000u);
+            expect_many(counters, Counter::fragments_shaded);
             return count;
         }));
 }
@@ -166,13 +126,12 @@ TEST(Allocations, OfLesson05DoNotDependOnTriangles) {
             knobs.texture.filter = filter, knobs.texture.mapping = mapping;
             EXPECT_TRUE(
                 does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-                    TexturedScene textured(scene, options);
-                    textured.diffuse_textures[1] = std::make_shared<const Texture>(
-                        make_texture(Image<vec4>({16, 16}, vec4(0.5f)), Wrap::repeat));
+                    lesson_05::Assets assets = lesson_05::make_assets(scene, options);
+                    assets.textures[1] = texture_of(vec4(0.5f));
                     Counters counters;
                     const std::size_t count =
-                        allocations_of([&] { lesson_05::render(options, textured, counters); });
-                    EXPECT_GT(counters.values[std::size_t(Counter::texture_samples)], 1000u);
+                        allocations_of([&] { lesson_05::render(options, assets, counters); });
+                    expect_many(counters, Counter::texture_samples);
                     return count;
                 }));
         }
@@ -186,15 +145,14 @@ TEST(Allocations, OfLesson06DoNotDependOnTriangles) {
             does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
                 Scene shiny = scene;
                 shiny.materials[1].specular = vec3(0.5f), shiny.materials[1].shininess = 10;
-                LitScene lit(shiny, options);
-                lit.diffuse_textures[1] = std::make_shared<const Texture>(
-                    make_texture(Image<vec4>({16, 16}, vec4(0.5f)), Wrap::repeat));
-                lit.effects[1].diffuse_map = true;
+                PhongAssets assets = lesson_06::make_assets(shiny, options);
+                assets.textures.diffuse[1] = texture_of(vec4(0.5f));
+                assets.effects[1].set(Effect::texture);
                 Counters counters;
                 const std::size_t count =
-                    allocations_of([&] { lesson_06::render(options, lit, counters); });
-                EXPECT_GT(counters.values[std::size_t(Counter::highlights)], 1000u);
-                EXPECT_GT(counters.values[std::size_t(Counter::texture_samples)], 1000u);
+                    allocations_of([&] { lesson_06::render(options, assets, counters); });
+                expect_many(counters, Counter::highlights);
+                expect_many(counters, Counter::texture_samples);
                 return count;
             }));
     }
@@ -207,11 +165,11 @@ TEST(Allocations, OfLesson07DoNotDependOnTriangles) {
             knobs.orbit = {}, knobs.shading.outline = outline, knobs.shading.smooth = smooth;
             EXPECT_TRUE(
                 does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-                    const ToonScene toon(scene, options);
+                    const ToonAssets assets = lesson_07::make_assets(scene, options);
                     Counters counters;
                     const std::size_t count =
-                        allocations_of([&] { lesson_07::render(options, toon, counters); });
-                    EXPECT_GT(counters.values[std::size_t(Counter::toon_fragments)], 1000u);
+                        allocations_of([&] { lesson_07::render(options, assets, counters); });
+                    expect_many(counters, Counter::toon_fragments);
                     return count;
                 }));
         }
@@ -224,13 +182,12 @@ TEST(Allocations, OfLesson08DoNotDependOnTriangles) {
         knobs.shading.all_effects = true;  // a map for each mesh
         EXPECT_TRUE(
             does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-                BumpyScene bumpy(scene, options);
-                bumpy.normal_textures[1] = std::make_shared<const Texture>(
-                    make_texture(Image<vec4>({16, 16}, vec4(0.6f, 0, 0.8f, 1)), Wrap::repeat));
+                NormalMapAssets assets = lesson_08::make_assets(scene, options);
+                assets.normal_maps.textures[1] = texture_of(vec4(0.6f, 0, 0.8f, 1));
                 Counters counters;
                 const std::size_t count =
-                    allocations_of([&] { lesson_08::render(options, bumpy, counters); });
-                EXPECT_GT(counters.values[std::size_t(Counter::normal_map_samples)], 1000u);
+                    allocations_of([&] { lesson_08::render(options, assets, counters); });
+                expect_many(counters, Counter::normal_map_samples);
                 return count;
             }));
     }
@@ -243,38 +200,37 @@ TEST(Allocations, OfLesson09DoNotDependOnTriangles) {
         knobs.shading.all_effects = true;  // maps for each mesh and light
         EXPECT_TRUE(
             does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-                ShadowedScene shadowed(scene, options);
-                shadowed.normal_textures[1] = std::make_shared<const Texture>(
-                    make_texture(Image<vec4>({16, 16}, vec4(0.6f, 0, 0.8f, 1)), Wrap::repeat));
+                ShadowAssets assets = lesson_09::make_assets(scene, options);
+                assets.normal_maps.textures[1] = texture_of(vec4(0.6f, 0, 0.8f, 1));
                 Counters counters;
                 const std::size_t count =
-                    allocations_of([&] { lesson_09::render(options, shadowed, counters); });
-                EXPECT_GT(counters.values[std::size_t(Counter::shadow_fragments)], 1000u);
-                EXPECT_GT(counters.values[std::size_t(Counter::shadow_lookups)], 1000u);
+                    allocations_of([&] { lesson_09::render(options, assets, counters); });
+                expect_many(counters, Counter::shadow_fragments);
+                expect_many(counters, Counter::shadow_tests);
                 return count;
             }));
     }
 }
 
-TEST(Allocations, OfLesson10DependOnChunksAndNotOnTriangles) {
+TEST(Allocations, OfLesson10DependOnBatchesAndNotOnTriangles) {
     for (const Split split : {Split::rows, Split::interleaved, Split::tiles})
         for (const float distance : {1.4f, 0.2f}) {
             lesson_10::Options options;
             options.size = {96, 64}, options.shadow.size = 64, options.orbit.distance = distance;
             options.threads.split = split, options.threads.tile = 8;
             const auto count_for = [&](int side) {
-                const ShadowedScene scene(waves(side), options);
+                const ShadowAssets assets = lesson_10::make_assets(waves(side), options);
                 ThreadPool pool(3);
                 Counters counters;
                 const std::size_t count =
-                    allocations_of([&] { lesson_10::render(options, scene, pool, counters); });
-                EXPECT_GT(counters.values[std::size_t(Counter::shadow_fragments)], 1000u);
+                    allocations_of([&] { lesson_10::render(options, assets, pool, counters); });
+                expect_many(counters, Counter::shadow_fragments);
                 return count;
             };
             const std::size_t triangles = 2 * 32 * 32 * 2, few = count_for(8);
-            // The picture and the map have chunks; each of these has three lists, and asks once
-            // more where clipping makes many triangles of few.
-            EXPECT_LE(count_for(32), few + 2 * 4 * chunks_of(triangles));
+            // The picture and the map have batches. Each batch has three lists, and one of them may
+            // grow where clipping makes many triangles of few.
+            EXPECT_LE(count_for(32), few + 2 * 4 * batches_of(triangles));
             options.size = 2 * options.size, options.threads.tile = 16;
             EXPECT_EQ(count_for(8), few) << "four times as many pixels";
         }

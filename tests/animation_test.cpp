@@ -18,9 +18,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "common/counters.hpp"
-#include "common/film.hpp"
-#include "common/threads.hpp"
+#include "common/app/counters.hpp"
+#include "common/app/image_sequence.hpp"
+#include "common/app/threads.hpp"
 #include "support/lesson_process.hpp"
 
 using namespace rasterbook;
@@ -53,8 +53,8 @@ std::string differing(const Files& a, const Files& b) {
 }
 
 /// Runs a lesson once for each list of options, all writing into one new folder.
-Files film_of(const std::string& lesson, const std::vector<Words>& runs) {
-    const auto folder = fresh_folder("film");
+Files sequence_of(const std::string& lesson, const std::vector<Words>& runs) {
+    const auto folder = fresh_folder("sequence");
     for (Words words : runs) {
         words.insert(words.end(),
                      {"--size", "32x18", "--out", (folder / "turn_%04d.png").string()});
@@ -101,7 +101,7 @@ TEST(Frames, AreReadAsANumberOrAPart) {
 }
 
 TEST(Frames, HardCase_AnythingElseIsExitStatus2AndSaysWhy) {
-    const auto folder = fresh_folder("film");
+    const auto folder = fresh_folder("sequence");
     const auto refuse = [&](const std::string& text, const std::string& why) {
         expect_error(run_program("04_mvp", {"--size", "8x8", "--frames", text, "--out",
                                             (folder / "turn_%04d.png").string()}),
@@ -191,9 +191,9 @@ TEST(AtOnce, HardCase_TheFirstErrorInOrderIsThrownAndNoneIsBegunAfter) {
         }
 }
 
-TEST(Film, TwoHalvesAreTheWhole) {
+TEST(ImageSequence, TwoHalvesAreTheWhole) {
     for (const char* lesson : {"04_mvp", "10_threading", "11_scenes"}) {
-        const auto whole = film_of(lesson, {{"--frames", "7"}});
+        const auto whole = sequence_of(lesson, {{"--frames", "7"}});
         EXPECT_EQ(whole.size(), 7u);
         EXPECT_TRUE(whole.contains("turn_0000.png") && whole.contains("turn_0006.png"));
         EXPECT_EQ(std::set<std::string>({whole.at("turn_0000.png"), whole.at("turn_0003.png"),
@@ -201,22 +201,23 @@ TEST(Film, TwoHalvesAreTheWhole) {
                       .size(),
                   3u)
             << "the camera moves";
-        EXPECT_EQ(differing(film_of(lesson, {{"--frames", "0-3/7"}, {"--frames", "4-6/7"}}), whole),
-                  "")
+        EXPECT_EQ(
+            differing(sequence_of(lesson, {{"--frames", "0-3/7"}, {"--frames", "4-6/7"}}), whole),
+            "")
             << lesson;
-        const Files thirds =
-            film_of(lesson, {{"--frames", "6-6/7"}, {"--frames", "0-4/7"}, {"--frames", "5-5/7"}});
+        const Files thirds = sequence_of(
+            lesson, {{"--frames", "6-6/7"}, {"--frames", "0-4/7"}, {"--frames", "5-5/7"}});
         EXPECT_EQ(differing(thirds, whole), "")
             << lesson << ": a part of one frame is not a picture alone";
     }
 }
 
-TEST(Film, AnyNumberAtOnceGivesTheSameFilesAndCounters) {
+TEST(ImageSequence, AnyNumberAtOnceGivesTheSameFilesAndCounters) {
     for (const char* lesson :
          {"04_mvp", "07_toon", "09_shadow_maps", "10_threading", "11_scenes"}) {
         const bool has_threads = lesson[0] == '1';
         const auto run = [&](const char* jobs, const char* threads) {
-            const auto folder = fresh_folder("film");
+            const auto folder = fresh_folder("sequence");
             Words words = {"--size",
                            "48x27",
                            "--samples",
@@ -245,25 +246,25 @@ TEST(Film, AnyNumberAtOnceGivesTheSameFilesAndCounters) {
     }
 }
 
-TEST(Film, ThreadsAreSharedOutAmongTheFrames) {
+TEST(ImageSequence, ThreadsAreSharedOutAmongTheFrames) {
     // Each thread's pixels have its colour: those of one thread alone show that it had no others.
     for (const char* lesson : {"10_threading", "11_scenes"}) {
         const Words tinted = {"--show-threads", "--tile", "8", "--frames", "4"};
-        const auto film = [&](Words options) {
+        const auto sequence = [&](Words options) {
             options.insert(options.end(), tinted.begin(), tinted.end());
-            return film_of(lesson, {options});
+            return sequence_of(lesson, {options});
         };
-        const auto alone = film({"--jobs", "1", "--threads", "1"});
-        EXPECT_EQ(differing(film({"--jobs", "2", "--threads", "3"}), alone), "");
-        EXPECT_EQ(differing(film({"--threads", "4"}), alone), "")
+        const auto alone = sequence({"--jobs", "1", "--threads", "1"});
+        EXPECT_EQ(differing(sequence({"--jobs", "2", "--threads", "3"}), alone), "");
+        EXPECT_EQ(differing(sequence({"--threads", "4"}), alone), "")
             << "as many frames at once as threads";
-        EXPECT_EQ(differing(film({"--jobs", "4", "--threads", "2"}), alone), "");
-        EXPECT_EQ(differing(film({"--threads", "1"}), alone), "");
+        EXPECT_EQ(differing(sequence({"--jobs", "4", "--threads", "2"}), alone), "");
+        EXPECT_EQ(differing(sequence({"--threads", "1"}), alone), "");
     }
 }
 
-TEST(Film, SaysWhatItHasWritten) {
-    const auto folder = fresh_folder("film");
+TEST(ImageSequence, SaysWhatItHasWritten) {
+    const auto folder = fresh_folder("sequence");
     const auto said = [&](const char* frames) {
         const ProcessResult result = run_program(
             "04_mvp",
@@ -278,8 +279,8 @@ TEST(Film, SaysWhatItHasWritten) {
     EXPECT_EQ(files_in(folder).size(), 4u);
 }
 
-TEST(Film, StatsHaveTheTimeByTheClock) {
-    const auto folder = fresh_folder("film");
+TEST(ImageSequence, StatsHaveTheTimeByTheClock) {
+    const auto folder = fresh_folder("sequence");
     const auto stats = [&](const char* jobs) {
         return nlohmann::json::parse(
             run_program("04_mvp", {"--size", "320x180", "--frames", "8", "--stats", "--jobs", jobs,
@@ -297,11 +298,11 @@ TEST(Film, StatsHaveTheTimeByTheClock) {
     EXPECT_GT(at_once.at("write_ms"), 0);
 }
 
-TEST(Film, HardCase_TheFirstErrorInOrderIsSaidAndNothingIsHalfWritten) {
+TEST(ImageSequence, HardCase_TheFirstErrorInOrderIsSaidAndNothingIsHalfWritten) {
     for (const char* lesson : {"04_mvp", "10_threading"}) {
-        const auto whole = film_of(lesson, {{"--frames", "0-19/999"}});
+        const auto whole = sequence_of(lesson, {{"--frames", "0-19/999"}});
         for (const char* jobs : {"1", "2", "8"}) {
-            const auto folder = fresh_folder("film");
+            const auto folder = fresh_folder("sequence");
             fs::create_directory(folder / "turn_0002.png");  // where a file should go
             fs::create_directory(folder / "turn_0003.png");
             const ProcessResult result =
@@ -317,13 +318,13 @@ TEST(Film, HardCase_TheFirstErrorInOrderIsSaidAndNothingIsHalfWritten) {
             }
         }
     }
-    const auto file = fresh_folder("film") / "no" / "turn_%d.png";
+    const auto file = fresh_folder("sequence") / "no" / "turn_%d.png";
     expect_error(run_program("04_mvp", {"--frames", "9", "--jobs", "4", "--out", file.string()}), 1,
                  (file.parent_path() / "turn_0.png").string());
 }
 
-TEST(Film, HardCase_FilesWrittenAtOnceHaveTheUsualPermissions) {
-    const auto folder = fresh_folder("film");
+TEST(ImageSequence, HardCase_FilesWrittenAtOnceHaveTheUsualPermissions) {
+    const auto folder = fresh_folder("sequence");
     const mode_t before = umask(027);  // the programs that are started inherit it
     const ProcessResult result =
         run_program("04_mvp", {"--size", "1x1", "--model", "triangle.obj", "--frames", "999",
@@ -334,8 +335,8 @@ TEST(Film, HardCase_FilesWrittenAtOnceHaveTheUsualPermissions) {
         ASSERT_EQ(entry.status().permissions(), fs::perms{0640}) << entry.path();
 }
 
-TEST(Film, WhatIsSeenInOneFrameIsNoReasonToWarn) {
-    const auto folder = fresh_folder("film");
+TEST(ImageSequence, WhatIsSeenInOneFrameIsNoReasonToWarn) {
+    const auto folder = fresh_folder("sequence");
     const auto warnings = [&](const char* face) {
         std::ofstream(folder / "a.obj") << "v -1 0 0\nv 1 0 0\nv 0 1 0\n" << face << '\n';
         const ProcessResult result = run_program(
@@ -350,8 +351,8 @@ TEST(Film, WhatIsSeenInOneFrameIsNoReasonToWarn) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << "once, not for each frame";
 }
 
-TEST(Film, EachExplanationIsWhole) {
-    const auto folder = fresh_folder("film");
+TEST(ImageSequence, EachExplanationIsWhole) {
+    const auto folder = fresh_folder("sequence");
     const ProcessResult result = run_program(
         "11_scenes", {"--size", "8x8", "--frames", "64", "--jobs", "16", "--model", "unlit.glb",
                       "--explain", "--stats", "--out", (folder / "turn_%d.bmp").string()});

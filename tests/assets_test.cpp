@@ -14,8 +14,8 @@
 #include <tuple>
 #include <vector>
 
-#include "common/image_io.hpp"
-#include "common/obj.hpp"
+#include "common/image/image_io.hpp"
+#include "common/model/obj.hpp"
 #include "support/lesson_process.hpp"
 
 using namespace rasterbook;
@@ -51,21 +51,21 @@ std::map<path, std::string> generated_part_of(const path& folder) {
 /// Twice the area times the unit normal, by the polygon's outline (Newell's formula).
 dvec3 area_vector(const Mesh& mesh, const Face& face) {
     dvec3 sum(0);
-    const auto corners = mesh.corners_of(face);
-    const dvec3 origin = mesh.positions[corners[0].position];  // near: keeps the products small
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        sum +=
-            glm::cross(dvec3(mesh.positions[corners[i].position]) - origin,
-                       dvec3(mesh.positions[corners[(i + 1) % corners.size()].position]) - origin);
+    const auto vertices = mesh.vertices_of(face);
+    const dvec3 origin = mesh.positions[vertices[0].position];  // near: keeps the products small
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        sum += glm::cross(
+            dvec3(mesh.positions[vertices[i].position]) - origin,
+            dvec3(mesh.positions[vertices[(i + 1) % vertices.size()].position]) - origin);
     return sum;
 }
 
 double uv_area(const Mesh& mesh, const Face& face) {
     double sum = 0;
-    const auto corners = mesh.corners_of(face);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const dvec2 a = mesh.uvs.at(corners[i].uv);
-        const dvec2 b = mesh.uvs.at(corners[(i + 1) % corners.size()].uv);
+    const auto vertices = mesh.vertices_of(face);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const dvec2 a = mesh.uvs.at(vertices[i].uv);
+        const dvec2 b = mesh.uvs.at(vertices[(i + 1) % vertices.size()].uv);
         sum += a.x * b.y - a.y * b.x;
     }
     return sum;
@@ -79,10 +79,10 @@ std::size_t border_edges(const std::vector<const Mesh*>& meshes) {
     const auto place = [](vec3 p) { return Place(p.x, p.y, p.z); };
     for (const Mesh* mesh : meshes)
         for (const Face& face : mesh->faces) {
-            const auto corners = mesh->corners_of(face);
-            for (std::size_t i = 0; i < corners.size(); ++i) {
-                const vec3 from = mesh->positions[corners[i].position];
-                const vec3 to = mesh->positions[corners[(i + 1) % corners.size()].position];
+            const auto vertices = mesh->vertices_of(face);
+            for (std::size_t i = 0; i < vertices.size(); ++i) {
+                const vec3 from = mesh->positions[vertices[i].position];
+                const vec3 to = mesh->positions[vertices[(i + 1) % vertices.size()].position];
                 EXPECT_TRUE(edges.emplace(place(from), place(to)).second)
                     << mesh->name << ": three faces meet, or two of them disagree on the outside";
             }
@@ -239,8 +239,8 @@ TEST(AssetModels, FacesHaveAnAreaAndAgreeWithTheirNormalsAndUvs) {
                 const dvec3 area = area_vector(mesh, face);
                 ASSERT_GT(glm::length(area), 1e-4) << file << ' ' << mesh.name;
                 ASSERT_GT(uv_area(mesh, face), 0) << file << ' ' << mesh.name << ": mirrored";
-                for (const Corner& corner : mesh.corners_of(face)) {
-                    const dvec3 normal = mesh.normals.at(corner.normal);
+                for (const Vertex& vertex : mesh.vertices_of(face)) {
+                    const dvec3 normal = mesh.normals.at(vertex.normal);
                     ASSERT_NEAR(glm::length(normal), 1, text_rounding) << file << ' ' << mesh.name;
                     ASSERT_GT(glm::dot(normal, area), 0) << file << ' ' << mesh.name;
                 }
@@ -292,7 +292,7 @@ TEST(AssetModels, BodyLidAndLedgeEncloseAVolume) {
     for (const Mesh* mesh : pot)
         for (const Triangle& triangle : mesh->triangles) {
             const auto at = [&](std::size_t i) {
-                return dvec3(mesh->positions[triangle.corners[i].position]);
+                return dvec3(mesh->positions[triangle.vertices[i].position]);
             };
             six_volumes += glm::dot(at(0), glm::cross(at(1), at(2)));
         }

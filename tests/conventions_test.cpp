@@ -16,12 +16,12 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/clip.hpp"
 #include "04_mvp/transform.hpp"
-#include "common/image_io.hpp"
+#include "common/app/orthographic_view.hpp"
+#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 #include "common/math/error_metrics.hpp"
 #include "common/math/numerics.hpp"
-#include "common/obj.hpp"
-#include "common/parallel_view.hpp"
+#include "common/model/obj.hpp"
 #include "support/lesson_process.hpp"
 
 using namespace rasterbook;
@@ -119,7 +119,8 @@ TEST(Conventions, C6_ScreenStartsAtTheTopLeftCorner) {
     }
     // The view of the first lessons puts what is higher in the model higher in the picture.
     const Scene scene = load_obj(root / "assets/models/teapot.obj");
-    const auto screen = ParallelView(scene, {640, 480}).screen_from_model({{0, 0, 0}, {0, 1, 0}});
+    const auto screen =
+        OrthographicView(scene, {640, 480}).screen_from_model({{0, 0, 0}, {0, 1, 0}});
     EXPECT_LT(screen[1].y, screen[0].y);
     EXPECT_EQ(screen[1].x, screen[0].x);
 }
@@ -140,9 +141,9 @@ TEST(Conventions, C7_PixelCentresLieAtHalves) {
     EXPECT_EQ(image.pixels()[2], 7) << "the second row follows the top one";
 }
 
-TEST(Conventions, C8_CornersSnapTo256thsOfAPixel) {
+TEST(Conventions, C8_VerticesSnapTo256thsOfAPixel) {
     EXPECT_EQ(subpixels, 256);
-    EXPECT_EQ(snap_triangle({1.25f, 2}, {0, 0}, {0, 0}).corners[0], ivec2(320, 512));
+    EXPECT_EQ(snap_triangle({1.25f, 2}, {0, 0}, {0, 0}).vertices[0], ivec2(320, 512));
 }
 
 TEST(Conventions, C9_FrontFacesAreSeenCounterClockwise) {
@@ -154,13 +155,13 @@ TEST(Conventions, C9_FrontFacesAreSeenCounterClockwise) {
 }
 
 TEST(Conventions, C10_TextureCoordinateVPointsUp) {
-    // The crate's front: the corner that stands higher has the greater v.
+    // The crate's front: the vertex that stands higher has the greater v.
     const Scene scene = load_obj(root / "assets/models/crate.obj");
     const Mesh& crate = scene.meshes.at(0);
     int sides = 0;
     for (const Face& face : crate.faces)
-        for (const Corner& p : crate.corners_of(face))
-            for (const Corner& q : crate.corners_of(face)) {
+        for (const Vertex& p : crate.vertices_of(face))
+            for (const Vertex& q : crate.vertices_of(face)) {
                 const vec3 from = crate.positions[p.position], to = crate.positions[q.position];
                 if (from.x != to.x || from.z != to.z || from.y >= to.y) continue;
                 EXPECT_LT(crate.uvs[p.uv].y, crate.uvs[q.uv].y);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/image_io.hpp"
+#include "common/image/image_io.hpp"
 #include "support/image_doctor.hpp"
 #include "support/lesson_process.hpp"
 

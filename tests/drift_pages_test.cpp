@@ -103,7 +103,7 @@ TEST(Drift, TheGlossaryNamesWhatIsInTheCode) {
 }
 
 TEST(Drift, WrongPicturesAreOfLinesInTheCode) {  // docs/pictures.py draws them from the same text
-    constexpr std::uintmax_t most_bytes = 100 * 1024;
+    constexpr std::uintmax_t max_bytes = 100 * 1024;
     const fs::path docs = root / "docs";
     const std::set<std::string> equations = numbered_equations();
     int mistakes = 0;
@@ -134,7 +134,7 @@ TEST(Drift, WrongPicturesAreOfLinesInTheCode) {  // docs/pictures.py draws them 
         for (const std::string& picture : pictures) {
             const fs::path file = docs / "troubleshooting" / picture;
             ASSERT_TRUE(fs::exists(file)) << file;
-            EXPECT_LT(fs::file_size(file), most_bytes) << file;
+            EXPECT_LT(fs::file_size(file), max_bytes) << file;
         }
         for (const std::string& number : cited_equations(section))
             EXPECT_TRUE(equations.contains(number)) << title << ": " << number;

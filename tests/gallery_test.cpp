@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What ./lessons/run makes when it is given no lesson, with programs that stand in for the lessons'.
+// What ./lessons/run makes when it is given no lesson, with programs that stand in for the
+// lessons'.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -18,9 +19,8 @@ namespace {
 fs::path stand_in_programs() {
     const fs::path folder = fresh_folder("programs");
     for (const std::string& lesson : lessons()) {
-        std::ofstream(folder / lesson)
-            << "#!/bin/sh\nwhile [ \"$1\" != --out ]; do shift; done\n"
-               "echo drawn >\"$2\"\necho '{ \"render_ms\": 12.34 }'\n";
+        std::ofstream(folder / lesson) << "#!/bin/sh\nwhile [ \"$1\" != --out ]; do shift; done\n"
+                                          "echo drawn >\"$2\"\necho '{ \"render_ms\": 12.34 }'\n";
         fs::permissions(folder / lesson, fs::perms::owner_all);
     }
     return folder;

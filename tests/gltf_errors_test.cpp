@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// glTF files that are wrong, or ask for more than is read.
+/// glTF files that are malformed, or need more than is read.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <functional>
 
-#include "common/gltf.hpp"
+#include "common/model/gltf.hpp"
 #include "support/gltf_builder.hpp"
 #include "support/lesson_process.hpp"
 
@@ -20,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What an error says behind the file's name; "" when the file is read.
-std::string error_of(const fs::path& file, std::size_t max_corners = most_gltf_corners) {
+std::string error_of(const fs::path& file, std::size_t max_vertices = max_gltf_vertices) {
     try {
-        load_gltf(file, max_corners);
+        load_gltf(file, max_vertices);
         return "";
     } catch (const InputError& error) {
         const std::string text = error.what(), begin = file.string() + ": ";
@@ -100,7 +100,7 @@ TEST(GltfErrors, FilesThatAreMissingOrNoRegularFiles) {
     EXPECT_NE(error_of(folder / "b.gltf").find("size mismatch"), std::string::npos);
 }
 
-TEST(GltfErrors, ABinaryFileCutAnywhere) {
+TEST(GltfErrors, ABinaryFileTruncatedAnywhere) {
     const fs::path whole =
         one_triangle().write(fresh_folder("gltf_whole") / "whole.glb", GltfForm::binary);
     const std::string bytes = read_text(whole);
@@ -120,7 +120,7 @@ TEST(GltfErrors, ABinaryFileCutAnywhere) {
               "damaged: a chunk reaches beyond the end of the file");
 }
 
-TEST(GltfErrors, AccessorsThatLeadNowhere) {
+TEST(GltfErrors, AccessorsOutOfRange) {
     const auto is = [](std::size_t which, const char* key, json value) {
         return [=](GltfBuilder& made) { accessor(made, which)[key] = value; };
     };
@@ -174,7 +174,7 @@ TEST(GltfErrors, AccessorsThatLeadNowhere) {
     });
 }
 
-TEST(GltfErrors, BuffersAndViewsThatLeadNowhere) {
+TEST(GltfErrors, BuffersAndViewsOutOfRange) {
     expect_errors({
         {"view beyond its buffer",
          [](GltfBuilder& made) { view(made, positions)["byteLength"] = 100000; },
@@ -213,7 +213,7 @@ TEST(GltfErrors, BuffersAndViewsThatLeadNowhere) {
     });
 }
 
-TEST(GltfErrors, NodesScenesAndMeshesThatLeadNowhere) {
+TEST(GltfErrors, NodesScenesAndMeshesOutOfRange) {
     const auto nodes = [](json list) {
         return [=](GltfBuilder& made) { made.document["nodes"] = list; };
     };
@@ -287,7 +287,7 @@ TEST(GltfErrors, NumbersThatAreNotFinite) {
     });
 }
 
-TEST(GltfErrors, CamerasAndLightsThatCannotBe) {
+TEST(GltfErrors, ImpossibleCamerasAndLights) {
     const auto with_camera = [](json lens) {
         return [=](GltfBuilder& made) {
             made.document["nodes"][0]["camera"] = 0;
@@ -320,7 +320,7 @@ TEST(GltfErrors, CamerasAndLightsThatCannotBe) {
     });
 }
 
-TEST(GltfErrors, MaterialsWhosePicturesAreNotThere) {
+TEST(GltfErrors, MaterialsWhoseImagesAreMissing) {
     const auto textured = [](json textures, json images) {
         return [=](GltfBuilder& made) {
             made.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
@@ -347,7 +347,7 @@ TEST(GltfErrors, MaterialsWhosePicturesAreNotThere) {
     });
 }
 
-TEST(GltfErrors, ExtensionsThatAreNeededAndNotReadAreNamed) {
+TEST(GltfErrors, UnsupportedRequiredExtensionsAreNamed) {
     expect_errors({
         {"Draco",
          [](GltfBuilder& made) {
@@ -364,7 +364,7 @@ TEST(GltfErrors, ExtensionsThatAreNeededAndNotReadAreNamed) {
     });
 }
 
-TEST(GltfErrors, WhatIsPassedOverIsAWarning) {
+TEST(GltfErrors, WhatIsIgnoredIsAWarning) {
     struct Row {
         const char* what;
         std::function<void(GltfBuilder&)> change;
@@ -460,7 +460,7 @@ TEST(GltfErrors, WhatIsPassedOverIsAWarning) {
     }
 }
 
-TEST(GltfErrors, ASmallFileOfManyInstancesIsRefusedBeforeItFillsTheMemory) {
+TEST(GltfErrors, ASmallFileOfManyInstancesIsRejectedBeforeItFillsTheMemory) {
     GltfBuilder made = one_triangle();
     made.document["nodes"] = json::array();
     made.document["scenes"][0]["nodes"] = json::array();
@@ -470,7 +470,7 @@ TEST(GltfErrors, ASmallFileOfManyInstancesIsRefusedBeforeItFillsTheMemory) {
     }
     const fs::path file = made.write(fresh_folder("gltf_many") / "scene.gltf");
     EXPECT_EQ(error_of(file, 30), "");
-    EXPECT_EQ(error_of(file, 29), "has more corners than are accepted");
+    EXPECT_EQ(error_of(file, 29), "has more vertices than are accepted");
 }
 
 TEST(GltfErrors, AChainOfAHundredThousandNodesIsRead) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// glTF files as they come: of Blender, of our own generator, damaged, and drawn by a lesson.
+/// Real glTF files: Blender's, the course's own, damaged ones, and one that a lesson draws.
 /// tests/data/gltf/blender_scene.py makes Blender's.
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <random>
 #include <set>
 
-#include "05_textures/textured_scene.hpp"
-#include "common/image_io.hpp"
-#include "common/model_file.hpp"
+#include "05_textures/textures.hpp"
+#include "common/image/image_io.hpp"
+#include "common/model/model_file.hpp"
 #include "support/gltf_builder.hpp"
 #include "support/lesson_process.hpp"
 
@@ -37,13 +37,13 @@ bool is_finite(const Vector& v) {
 /// For EXPECT_TRUE: indices in range, and finite numbers.
 testing::AssertionResult is_sound(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
-        if (mesh.triangles.empty() || mesh.corners.size() != 3 * mesh.faces.size() ||
+        if (mesh.triangles.empty() || mesh.vertices.size() != 3 * mesh.faces.size() ||
             mesh.faces.size() != mesh.triangles.size())
             return testing::AssertionFailure() << "wrong faces in " << mesh.name;
         if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
             return testing::AssertionFailure() << "wrong colours in " << mesh.name;
         for (const Triangle& triangle : mesh.triangles)
-            for (const auto& [position, uv, normal] : triangle.corners)
+            for (const auto& [position, uv, normal] : triangle.vertices)
                 if (position >= mesh.positions.size() ||
                     (uv != no_index && uv >= mesh.uvs.size()) || normal >= mesh.normals.size() ||
                     triangle.material >= scene.materials.size())
@@ -76,11 +76,11 @@ const Mesh& mesh_of(const Scene& scene, const std::string& name) {
     return *found;
 }
 
-/// Position, normal and uv of a triangle's corner.
-std::array<float, 8> corner_of(const Mesh& mesh, const Triangle& triangle, std::size_t i) {
-    const Corner& corner = triangle.corners[i];
-    const vec3 p = mesh.positions.at(corner.position), n = mesh.normals.at(corner.normal);
-    const vec2 uv = mesh.uvs.at(corner.uv);
+/// Position, normal and uv of a triangle's vertex.
+std::array<float, 8> vertex_of(const Mesh& mesh, const Triangle& triangle, std::size_t i) {
+    const Vertex& vertex = triangle.vertices[i];
+    const vec3 p = mesh.positions.at(vertex.position), n = mesh.normals.at(vertex.normal);
+    const vec2 uv = mesh.uvs.at(vertex.uv);
     return {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y};
 }
 
@@ -99,7 +99,7 @@ TEST(GltfFiles, BlendersSceneIsTheSameInBothFormats) {
         SCOPED_TRACE(mesh.name);
         const Mesh& other = mesh_of(as_obj, mesh.name);
         ASSERT_EQ(mesh.triangles.size(), other.triangles.size());
-        EXPECT_EQ(mesh.positions.size(), other.positions.size());  // as many points
+        EXPECT_EQ(mesh.positions.size(), other.positions.size());
         std::set<std::size_t> taken;
         for (const Triangle& triangle : mesh.triangles) {
             bool is_found = false;
@@ -107,8 +107,8 @@ TEST(GltfFiles, BlendersSceneIsTheSameInBothFormats) {
                 for (std::size_t turn = 0; turn < 3 && !is_found; ++turn) {
                     bool agrees = !taken.contains(t);
                     for (std::size_t i = 0; i < 3 && agrees; ++i) {
-                        const auto a = corner_of(mesh, triangle, i);
-                        const auto b = corner_of(other, other.triangles[t], (i + turn) % 3);
+                        const auto a = vertex_of(mesh, triangle, i);
+                        const auto b = vertex_of(other, other.triangles[t], (i + turn) % 3);
                         for (std::size_t k = 0; k < 8; ++k)
                             agrees = agrees && std::abs(a[k] - b[k]) < (k < 3   ? of_position
                                                                         : k < 6 ? of_normal
@@ -116,10 +116,10 @@ TEST(GltfFiles, BlendersSceneIsTheSameInBothFormats) {
                     }
                     if (agrees) taken.insert(t), is_found = true;
                 }
-            const auto [x, y, z, nx, ny, nz, u, v] = corner_of(mesh, triangle, 0);
-            EXPECT_TRUE(is_found) << "a triangle has no like: its first corner has position " << x
-                                  << ' ' << y << ' ' << z << ", normal " << nx << ' ' << ny << ' '
-                                  << nz << ", uv " << u << ' ' << v;
+            const auto [x, y, z, nx, ny, nz, u, v] = vertex_of(mesh, triangle, 0);
+            EXPECT_TRUE(is_found) << "a triangle has no counterpart: its first vertex has position "
+                                  << x << ' ' << y << ' ' << z << ", normal " << nx << ' ' << ny
+                                  << ' ' << nz << ", uv " << u << ' ' << v;
         }
         const Material& ours = as_gltf.materials.at(mesh.triangles[0].material);
         const Material& its = as_obj.materials.at(other.triangles[0].material);
@@ -137,7 +137,7 @@ TEST(GltfFiles, BlendersSceneIsTheSameInBothFormats) {
     EXPECT_EQ(decode_image(*map.embedded, map.file), read_image(data / "blender_checker.png"));
 }
 
-TEST(GltfFiles, BlendersCameraAndLightsStandWhereTheyWerePut) {
+TEST(GltfFiles, BlendersCameraAndLightsKeepTheirPositions) {
     constexpr float tolerance = 1e-5f;  // of floats in the file, times lengths of at most 10
     const Scene scene = load_model(data / "blender.glb");
     ASSERT_EQ(scene.cameras.size(), 1u);
@@ -159,7 +159,7 @@ TEST(GltfFiles, BlendersCameraAndLightsStandWhereTheyWerePut) {
     EXPECT_NEAR(scene.lights[1].direction_world.x, -std::sin(0.7f) * std::sin(0.8f), tolerance);
 }
 
-TEST(GltfFiles, TheScenesOfTheCourseCallForWhatTheyAreFor) {
+TEST(GltfFiles, TheCoursesScenesCallForTheirEffects) {
     const Scene unlit = load_model(models / "unlit.glb"),
                 textured = load_model(models / "textured.gltf"),
                 bumpy = load_model(models / "bumpy.glb"), toon = load_model(models / "toon.glb");
@@ -188,7 +188,7 @@ TEST(GltfFiles, TheScenesOfTheCourseCallForWhatTheyAreFor) {
     EXPECT_EQ(count(toon, [](const Material& m) { return !m.toon; }), 0);
 }
 
-TEST(GltfFiles, FilesDamagedAtRandomGiveASoundSceneOrAnError) {
+TEST(GltfFiles, RandomlyDamagedFilesGiveASoundSceneOrAnError) {
     struct Original {
         fs::path file;
         std::string bytes;
@@ -249,7 +249,7 @@ TEST(GltfFiles, FilesDamagedAtRandomGiveASoundSceneOrAnError) {
     EXPECT_GT(refused, 200);
 }
 
-TEST(GltfFiles, EachWayToWrapAPictureIsATextureOfItsOwn) {
+TEST(GltfFiles, EachWrapModeIsATextureOfItsOwn) {
     const fs::path folder = fresh_folder("gltf_wrapped");
     write_image(folder / "wood.png", Image<u8vec3>({1, 1}, {255, 160, 40}));
     GltfBuilder made = one_triangle();
@@ -265,11 +265,8 @@ TEST(GltfFiles, EachWayToWrapAPictureIsATextureOfItsOwn) {
         primitive["material"] = index;
         if (index > 0) made.document["meshes"][0]["primitives"].push_back(primitive);
     }
-    const struct {
-        TextureOptions texture;
-    } options;
-    const TexturedScene scene(load_model(made.write(folder / "scene.gltf")), options);
-    const MaterialTextures& textures = scene.diffuse_textures;
+    Scene scene = load_model(made.write(folder / "scene.gltf"));
+    const MaterialTextures textures = load_diffuse_textures(scene, TextureOptions());
     ASSERT_EQ(textures.size(), 5u);
     EXPECT_EQ(textures[1]->wrap, Wrap::repeat);
     EXPECT_EQ(textures[2]->wrap, Wrap::clamp);
@@ -277,7 +274,7 @@ TEST(GltfFiles, EachWayToWrapAPictureIsATextureOfItsOwn) {
     EXPECT_EQ(textures[3], textures[4]);
 }
 
-TEST(GltfFiles, ALessonDrawsAPictureInAGltfFileAsItDrawsItOfAnObjFile) {
+TEST(GltfFiles, ALessonDrawsAnEmbeddedTextureAsThatOfAnObjFile) {
     const fs::path folder = fresh_folder("gltf_drawn");
     Image<u8vec3> picture({8, 8}, {255, 160, 40});
     for (int i = 0; i < 32; ++i) picture[{i % 8, i / 8}] = {u8vec3(20, 8 * i, 200)};

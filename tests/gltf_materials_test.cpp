@@ -3,14 +3,13 @@
 /// What glTF's materials become.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "common/gltf.hpp"
-#include "common/image_io.hpp"
-#include "common/metallic_roughness.hpp"
-#include "common/model_file.hpp"
+#include "common/image/image_io.hpp"
+#include "common/model/gltf.hpp"
+#include "common/model/metallic_roughness.hpp"
+#include "common/model/model_file.hpp"
 #include "support/gltf_builder.hpp"
 #include "support/lesson_process.hpp"
 
@@ -26,7 +25,7 @@ Material material_of(const GltfBuilder& made) {
     return load_gltf(made.write(fresh_folder("gltf_material") / "scene.gltf")).materials.at(1);
 }
 
-/// Adds a picture in the file's own bytes: 2 x 1 pixels.
+/// Embeds an image of 2 x 1 pixels; gives the index of its texture.
 int add_picture(GltfBuilder& made, u8vec3 left, u8vec3 right) {
     const fs::path file = fresh_folder("gltf_picture") / "two.png";
     Image<u8vec3> picture({2, 1}, left);
@@ -42,7 +41,7 @@ int add_picture(GltfBuilder& made, u8vec3 left, u8vec3 right) {
 
 }  // namespace
 
-TEST(MetallicRoughness, WhitePlasticOfMiddleRoughnessHasASoftHighlight) {
+TEST(MetallicRoughness, WhitePlasticOfMediumRoughnessHasASoftHighlight) {
     const PhongNumbers plastic = phong_from_metallic_roughness(vec3(1), 0, 0.5f);
     EXPECT_EQ(plastic.diffuse, vec3(1));
     EXPECT_FLOAT_EQ(plastic.specular.r, 0.16f);
@@ -74,7 +73,7 @@ TEST(MetallicRoughness, TheHighlightIsAsBrightAndAsWideAsThatOfRoughSurfaces) {
     }
 }
 
-TEST(MetallicRoughness, NoMoreLightIsSentOutThanArrives) {
+TEST(MetallicRoughness, NoMoreLightIsReflectedThanArrives) {
     for (const float metallic : {0.0f, 0.3f, 1.0f})
         for (float r = 0; r <= 1; r += 0.01f) {
             const vec3 base(1, 0.5f, 0.1f);
@@ -92,7 +91,7 @@ TEST(MetallicRoughness, NoMoreLightIsSentOutThanArrives) {
         }
 }
 
-TEST(MetallicRoughness, AMetalReflectsItsColourInHighlightsAlone) {
+TEST(MetallicRoughness, AMetalReflectsItsColourOnlyInHighlights) {
     const PhongNumbers gold = phong_from_metallic_roughness({1, 0.75f, 0.25f}, 1, 0.6f);
     EXPECT_EQ(gold.diffuse, vec3(0));
     for (int i = 0; i < 3; ++i)  // no brighter than light, of the same hue; float rounds twice
@@ -115,13 +114,13 @@ TEST(GltfMaterials, FactorsAreMapped) {
     EXPECT_EQ(material.shininess, 1);
     EXPECT_EQ(material.emission, vec3(2, 1, 0));
     EXPECT_EQ(material.illumination, 2);
-    EXPECT_EQ(material.opacity, 1);  // OPAQUE: the fourth number of the factor does not count
+    EXPECT_EQ(material.opacity, 1);  // OPAQUE: the factor's alpha does not count
     EXPECT_EQ(material.alpha, AlphaMode::opaque);
     EXPECT_TRUE(material.two_sided);
     EXPECT_FALSE(material.toon);
 }
 
-TEST(GltfMaterials, UnlitOnesHaveTheirColourAlone) {
+TEST(GltfMaterials, UnlitOnesHaveOnlyTheirColour) {
     GltfBuilder made = one_triangle();
     made.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.5, 0.25, 1, 1}}};
     made.material()["emissiveFactor"] = {1, 1, 1};
@@ -146,7 +145,7 @@ TEST(GltfMaterials, OpacityIsMaskedOrBlended) {
     EXPECT_EQ(material_of(made).alpha_cutoff, 0.75f);
 }
 
-TEST(GltfMaterials, PicturesStandBesideTheFileOrInIt) {
+TEST(GltfMaterials, ImagesAreFilesOrEmbedded) {
     GltfBuilder made = one_triangle();
     made.document["images"] = json::array({{{"uri", "folder/my%20wood.png"}}});
     made.document["textures"] = json::array({{{"source", 0}}});
@@ -184,7 +183,7 @@ TEST(GltfMaterials, PicturesStandBesideTheFileOrInIt) {
     EXPECT_EQ(*in_json.materials[1].diffuse_map.embedded, *inside.embedded);
 }
 
-TEST(GltfMaterials, SamplersSayWhatLiesBeyondThePicture) {
+TEST(GltfMaterials, SamplersChooseTheWrapMode) {
     GltfBuilder made = one_triangle();
     made.document["images"] = json::array({{{"uri", "wood.png"}}});
     made.document["textures"] = json::array({{{"source", 0}, {"sampler", 0}}});
@@ -216,7 +215,7 @@ TEST(GltfMaterials, TexturesAreMovedAndScaledWithVUpwards) {
     }
 }
 
-TEST(GltfMaterials, AnotherSetOfTextureCoordinatesIsTakenWhereTheMaterialSaysSo) {
+TEST(GltfMaterials, TheMaterialChoosesTheSetOfTextureCoordinates) {
     GltfBuilder made = one_triangle();
     made.document["images"] = json::array({{{"uri", "wood.png"}}});
     made.document["textures"] = json::array({{{"source", 0}}});
@@ -227,7 +226,7 @@ TEST(GltfMaterials, AnotherSetOfTextureCoordinatesIsTakenWhereTheMaterialSaysSo)
     EXPECT_EQ(scene.meshes.at(0).uvs.at(0), vec2(0.5f));
 }
 
-TEST(GltfMaterials, OfAPictureOfMetalAndRoughnessTheMeanCounts) {
+TEST(GltfMaterials, OfAMetallicRoughnessTextureTheMeanCounts) {
     GltfBuilder made = one_triangle();
     // Red does not count, roughness is green, metal is blue.
     const int texture = add_picture(made, {255, 51, 255}, {255, 153, 0});
@@ -242,7 +241,7 @@ TEST(GltfMaterials, OfAPictureOfMetalAndRoughnessTheMeanCounts) {
     EXPECT_TRUE(material.specular_map.file.empty());
 }
 
-TEST(GltfMaterials, OfAPictureOfEmissionTheMeanCounts) {
+TEST(GltfMaterials, OfAnEmissiveTextureTheMeanCounts) {
     GltfBuilder made = one_triangle();
     const int texture = add_picture(made, {255, 0, 188}, {0, 0, 188});
     made.material()["emissiveFactor"] = {1, 1, 0.5};
@@ -256,7 +255,7 @@ TEST(GltfMaterials, OfAPictureOfEmissionTheMeanCounts) {
     EXPECT_NE(scene.warnings[0].find("emissiveTexture is not drawn"), std::string::npos);
 }
 
-TEST(GltfMaterials, AMetalsHighlightHasTheMeanColourOfItsPicture) {
+TEST(GltfMaterials, AMetalsHighlightHasTheMeanColourOfItsTexture) {
     GltfBuilder made = one_triangle();
     const int texture = add_picture(made, {255, 188, 0}, {255, 0, 0});
     made.material()["pbrMetallicRoughness"] = {{"roughnessFactor", 1},
@@ -269,7 +268,7 @@ TEST(GltfMaterials, AMetalsHighlightHasTheMeanColourOfItsPicture) {
     EXPECT_EQ(material.diffuse, vec3(0));
 }
 
-TEST(GltfMaterials, MToonIsALookOfItsOwn) {
+TEST(GltfMaterials, MToonIsAShadingModelOfItsOwn) {
     GltfBuilder made = one_triangle();
     made.document["extensionsRequired"] = {"VRMC_materials_mtoon"};
     made.material()["pbrMetallicRoughness"] = {{"baseColorFactor", {0.5, 0.25, 1, 1}}};
@@ -280,7 +279,7 @@ TEST(GltfMaterials, MToonIsALookOfItsOwn) {
     EXPECT_EQ(plain.toon->shade, vec3(0));
     EXPECT_EQ(plain.toon->toony, 0.9f);
     EXPECT_EQ(plain.toon->shift, 0);
-    EXPECT_EQ(plain.toon->outline, ToonLook::Outline::none);
+    EXPECT_EQ(plain.toon->outline, ToonMaterial::Outline::none);
     EXPECT_EQ(plain.illumination, 1);  // "unlit" is for programs that do not know MToon
     EXPECT_EQ(plain.diffuse, vec3(0.5f, 0.25f, 1));
     EXPECT_EQ(plain.specular, vec3(0));
@@ -298,18 +297,18 @@ TEST(GltfMaterials, MToonIsALookOfItsOwn) {
     EXPECT_EQ(full.toon->shade, vec3(0.25f, 0.5f, 0.75f));
     EXPECT_EQ(full.toon->toony, 0.5f);
     EXPECT_EQ(full.toon->shift, -0.25f);
-    EXPECT_EQ(full.toon->outline, ToonLook::Outline::world);
+    EXPECT_EQ(full.toon->outline, ToonMaterial::Outline::world);
     EXPECT_EQ(full.toon->outline_width, 0.125f);
     EXPECT_EQ(full.toon->outline_color, vec3(1, 0, 0.5f));
     made.material()["extensions"]["VRMC_materials_mtoon"]["outlineWidthMode"] = "screenCoordinates";
-    EXPECT_EQ(material_of(made).toon->outline, ToonLook::Outline::screen);
+    EXPECT_EQ(material_of(made).toon->outline, ToonMaterial::Outline::screen);
     made.material()["extensions"]["VRMC_materials_mtoon"]["matcapTexture"] = {{"index", 0}};
     const Scene scene = load_model(made.write(fresh_folder("gltf_matcap") / "a.gltf"));
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_NE(scene.warnings[0].find("matcapTexture is passed over"), std::string::npos);
 }
 
-TEST(GltfMaterials, Vrm0SaysTheSameInAListBesideTheMaterials) {
+TEST(GltfMaterials, Vrm0HasTheSameInAListBesideTheMaterials) {
     GltfBuilder made = one_triangle();
     made.document["materials"] = json::array({{{"name", "other"}}, made.document["materials"][0]});
     made.primitive()["material"] = 1;
@@ -326,14 +325,14 @@ TEST(GltfMaterials, Vrm0SaysTheSameInAListBesideTheMaterials) {
     const fs::path file = fresh_folder("gltf_vrm") / "figure.vrm";
     const Scene scene = load_model(made.write(file, GltfForm::binary));
     EXPECT_FALSE(scene.materials.at(1).toon);
-    const std::optional<ToonLook>& toon = scene.materials.at(2).toon;
+    const std::optional<ToonMaterial>& toon = scene.materials.at(2).toon;
     ASSERT_TRUE(toon);
     // Light begins at N.L = -0.5 and is full halfway from there to 1: at 0.25.
     EXPECT_FLOAT_EQ(toon->toony, 1 - 0.75f / 2);
     EXPECT_FLOAT_EQ(toon->shift, -(-0.5f + 0.25f) / 2);
     EXPECT_FLOAT_EQ(toon->shade.r, 0.21404114f);  // sRGB code 0.5, as light
     EXPECT_EQ(toon->shade.b, 1);
-    EXPECT_EQ(toon->outline, ToonLook::Outline::world);
+    EXPECT_EQ(toon->outline, ToonMaterial::Outline::world);
     EXPECT_FLOAT_EQ(toon->outline_width, 0.005f);  // centimetres there
     EXPECT_EQ(toon->outline_color, vec3(0, 1, 0));
 
@@ -341,7 +340,7 @@ TEST(GltfMaterials, Vrm0SaysTheSameInAListBesideTheMaterials) {
     own["floatProperties"]["_OutlineWidthMode"] = 2;
     own["vectorProperties"].erase("_ShadeColor");
     const Scene other = load_model(made.write(file, GltfForm::binary));
-    EXPECT_EQ(other.materials.at(2).toon->outline, ToonLook::Outline::screen);
+    EXPECT_EQ(other.materials.at(2).toon->outline, ToonMaterial::Outline::screen);
     EXPECT_FLOAT_EQ(other.materials.at(2).toon->outline_width, 0.0025f)
         << "100 of them are half of the height";
     EXPECT_FLOAT_EQ(other.materials.at(2).toon->shade.r, 0.9331069f) << "sRGB code 0.97";

@@ -1,40 +1,37 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What glTF files give: shapes, places, and the order of corners.
-#include "common/gltf.hpp"
+/// The geometry of glTF files: attributes, transforms, and the order of vertices.
+#include "common/model/gltf.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "common/obj.hpp"
 #include "support/gltf_builder.hpp"
 #include "support/lesson_process.hpp"
+#include "support/pictures.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
 
 namespace {
 
-const std::filesystem::path models = std::filesystem::path(RASTERBOOK_ASSETS) / "models";
-
 Scene read(const GltfBuilder& made, GltfForm form = GltfForm::embedded) {
     return load_gltf(made.write(
         fresh_folder("gltf") / (form == GltfForm::binary ? "scene.glb" : "scene.gltf"), form));
 }
 
-/// Of a triangle's corner.
-vec3 position(const Mesh& mesh, std::size_t triangle, std::size_t corner) {
-    return mesh.positions.at(mesh.triangles.at(triangle).corners[corner].position);
+/// Of a triangle's vertex.
+vec3 position(const Mesh& mesh, std::size_t triangle, std::size_t vertex) {
+    return mesh.positions.at(mesh.triangles.at(triangle).vertices[vertex].position);
 }
 
-vec3 normal(const Mesh& mesh, std::size_t triangle, std::size_t corner) {
-    return mesh.normals.at(mesh.triangles.at(triangle).corners[corner].normal);
+vec3 normal(const Mesh& mesh, std::size_t triangle, std::size_t vertex) {
+    return mesh.normals.at(mesh.triangles.at(triangle).vertices[vertex].normal);
 }
 
-/// All corners as positions, normals and uvs, in order; for EXPECT_EQ.
+/// All vertices as positions, normals and uvs, in order; for EXPECT_EQ.
 std::vector<float> numbers_of(const Scene& scene) {
     std::vector<float> numbers;
     const auto add = [&](const auto& v) {
@@ -42,10 +39,10 @@ std::vector<float> numbers_of(const Scene& scene) {
     };
     for (const Mesh& mesh : scene.meshes)
         for (const Triangle& triangle : mesh.triangles)
-            for (const Corner& corner : triangle.corners) {
-                add(mesh.positions.at(corner.position));
-                if (corner.normal != no_index) add(mesh.normals.at(corner.normal));
-                if (corner.uv != no_index) add(mesh.uvs.at(corner.uv));
+            for (const Vertex& vertex : triangle.vertices) {
+                add(mesh.positions.at(vertex.position));
+                if (vertex.normal != no_index) add(mesh.normals.at(vertex.normal));
+                if (vertex.uv != no_index) add(mesh.uvs.at(vertex.uv));
             }
     return numbers;
 }
@@ -56,7 +53,7 @@ using Wide4 = glm::mat<4, 4, Wide>;
 
 }  // namespace
 
-TEST(Gltf, ATriangleIsReadTheSameFromAllThreeFormsOfFiles) {
+TEST(Gltf, ATriangleIsTheSameInAllThreeFormsOfFiles) {
     const GltfBuilder made = one_triangle();
     // Positions and normals as written, v upside down.
     const std::vector<float> expected = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0,
@@ -70,7 +67,7 @@ TEST(Gltf, ATriangleIsReadTheSameFromAllThreeFormsOfFiles) {
         EXPECT_EQ(scene.materials[0].diffuse, vec3(0.8f));  // for faces without a material
         EXPECT_EQ(scene.materials[scene.meshes[0].triangles[0].material].name, "paint");
         EXPECT_EQ(scene.meshes[0].faces.size(), 1u);
-        EXPECT_EQ(scene.meshes[0].faces[0].corner_count, 3u);
+        EXPECT_EQ(scene.meshes[0].faces[0].vertex_count, 3u);
         EXPECT_EQ(scene.bounds().max, vec3(1, 1, 0));
         EXPECT_TRUE(scene.warnings.empty());
         EXPECT_TRUE(scene.cameras.empty() && scene.lights.empty());
@@ -78,13 +75,13 @@ TEST(Gltf, ATriangleIsReadTheSameFromAllThreeFormsOfFiles) {
 }
 
 TEST(Gltf, TheSameCrateAsObjAndAsGltfGivesTheSameScene) {
-    const Scene as_obj = load_obj(models / "crate.obj");
+    const Scene as_obj = loaded("crate.obj");
     const Mesh& crate = as_obj.meshes.at(0);
     std::vector<double> positions, normals, uvs;
     for (const Triangle& triangle : crate.triangles)
-        for (const Corner& corner : triangle.corners) {
-            const vec3 p = crate.positions[corner.position], n = crate.normals[corner.normal];
-            const vec2 uv = crate.uvs[corner.uv];
+        for (const Vertex& vertex : triangle.vertices) {
+            const vec3 p = crate.positions[vertex.position], n = crate.normals[vertex.normal];
+            const vec2 uv = crate.uvs[vertex.uv];
             positions.insert(positions.end(), {p.x, p.y, p.z});
             normals.insert(normals.end(), {n.x, n.y, n.z});
             uvs.insert(uvs.end(), {uv.x, 1 - uv.y});  // exact: they are 0 and 1
@@ -104,7 +101,7 @@ TEST(Gltf, TheSameCrateAsObjAndAsGltfGivesTheSameScene) {
     const Scene as_gltf = read(made);
     EXPECT_EQ(numbers_of(as_gltf), numbers_of(as_obj));
     ASSERT_EQ(as_gltf.meshes.size(), 1u);
-    EXPECT_EQ(as_gltf.meshes[0].positions.size(), 8u);  // corners that meet are one point
+    EXPECT_EQ(as_gltf.meshes[0].positions.size(), 8u);  // vertices that meet are one point
     EXPECT_EQ(as_gltf.meshes[0].bounds.max, crate.bounds.max);
     EXPECT_EQ(as_gltf.materials.at(1).diffuse, as_obj.materials.at(1).diffuse);
     EXPECT_EQ(as_gltf.materials[1].ambient, as_obj.materials[1].ambient);
@@ -112,7 +109,7 @@ TEST(Gltf, TheSameCrateAsObjAndAsGltfGivesTheSameScene) {
               as_obj.materials[1].diffuse_map.file.filename());
 }
 
-TEST(Gltf, NodesTurnAndMoveAsInExactArithmetic) {
+TEST(Gltf, NodesTransformAsInExactArithmetic) {
     // The product is in double; the result is rounded to float: half an ulp of what is at most 100,
     // and normals of a length near 1.
     constexpr Wide position_tolerance = 4e-6L, normal_tolerance = 1.5e-7L;
@@ -165,19 +162,19 @@ TEST(Gltf, NodesTurnAndMoveAsInExactArithmetic) {
             glm::normalize(glm::transpose(glm::inverse(linear)) * Wide3(0, 0, 1));
         const Scene scene = read(made);
         const Mesh& mesh = scene.meshes.at(0);
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const std::size_t from = is_mirrored && corner > 0 ? 3 - corner : corner;
+        for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+            const std::size_t from = is_mirrored && vertex > 0 ? 3 - vertex : vertex;
             const glm::vec<4, Wide> source(from == 1 ? 1 : 0, from == 2 ? 1 : 0, 0, 1);
             const Wide3 expected(world * source);
-            EXPECT_LT(glm::distance(Wide3(position(mesh, 0, corner)), expected),
+            EXPECT_LT(glm::distance(Wide3(position(mesh, 0, vertex)), expected),
                       position_tolerance);
-            EXPECT_LT(glm::distance(Wide3(normal(mesh, 0, corner)), expected_normal),
+            EXPECT_LT(glm::distance(Wide3(normal(mesh, 0, vertex)), expected_normal),
                       normal_tolerance);
         }
     }
 }
 
-TEST(Gltf, AMirroredNodeTurnsTheWindingSoThatFacesStillLookOutwards) {
+TEST(Gltf, AMirroredNodeReversesTheWindingSoThatFacesStillFaceOutwards) {
     for (const std::vector<double>& scale :
          {std::vector<double>{-1, 1, 1}, {1, -2, 1}, {-1, -1, -1}, {2, -1, -1}}) {
         GltfBuilder made = one_triangle();
@@ -188,7 +185,7 @@ TEST(Gltf, AMirroredNodeTurnsTheWindingSoThatFacesStillLookOutwards) {
                                      position(mesh, 0, 2) - position(mesh, 0, 0));
         EXPECT_GT(glm::dot(area, normal(mesh, 0, 0)), 0);
         EXPECT_EQ(normal(mesh, 0, 0).z, scale[2] < 0 ? -1 : 1);
-        EXPECT_EQ(mesh.corners[1], mesh.triangles[0].corners[1]);
+        EXPECT_EQ(mesh.vertices[1], mesh.triangles[0].vertices[1]);
     }
 }
 
@@ -203,7 +200,7 @@ TEST(Gltf, ANodeWithoutExtentGivesFiniteNormals) {
     EXPECT_EQ(line.bounds().max, vec3(0, 1, 0));
 }
 
-TEST(Gltf, EachNodeIsAMeshOfItsOwnAndNodesOutsideOfTheSceneAreNone) {
+TEST(Gltf, EachNodeOfTheSceneIsAMeshOfItsOwn) {
     GltfBuilder made = one_triangle();
     made.document["nodes"] = json::array({{{"mesh", 0}, {"name", "near"}, {"children", {1}}},
                                           {{"mesh", 0}, {"translation", {0, 0, -5}}},
@@ -222,7 +219,7 @@ TEST(Gltf, EachNodeIsAMeshOfItsOwnAndNodesOutsideOfTheSceneAreNone) {
 
 TEST(Gltf, ListsStripsAndFansAreTriangles) {
     const std::vector<double> square = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
-    const auto corners = [&](int mode, const std::vector<double>& indices, int type) {
+    const auto vertices = [&](int mode, const std::vector<double>& indices, int type) {
         GltfBuilder made = one_triangle();
         made.primitive() = {{"attributes", {{"POSITION", made.add(square, "VEC3", gl_float)}}},
                             {"mode", mode}};
@@ -240,11 +237,11 @@ TEST(Gltf, ListsStripsAndFansAreTriangles) {
         return text;
     };
     for (const int type : {gl_unsigned_byte, gl_unsigned_short, gl_unsigned_int})
-        EXPECT_EQ(corners(4, {0, 1, 2, 2, 1, 3}, type), "012 213");
-    EXPECT_EQ(corners(5, {}, 0), "012 213 234");  // every second one has its corners swapped
-    EXPECT_EQ(corners(5, {0, 1, 2, 3}, gl_unsigned_byte), "012 213");
-    EXPECT_EQ(corners(6, {0, 1, 3, 2}, gl_unsigned_byte), "013 032");
-    EXPECT_EQ(corners(4, {0, 1, 2, 3}, gl_unsigned_byte), "012");  // and a warning
+        EXPECT_EQ(vertices(4, {0, 1, 2, 2, 1, 3}, type), "012 213");
+    EXPECT_EQ(vertices(5, {}, 0), "012 213 234");  // every second one has its vertices swapped
+    EXPECT_EQ(vertices(5, {0, 1, 2, 3}, gl_unsigned_byte), "012 213");
+    EXPECT_EQ(vertices(6, {0, 1, 3, 2}, gl_unsigned_byte), "013 032");
+    EXPECT_EQ(vertices(4, {0, 1, 2, 3}, gl_unsigned_byte), "012");  // and a warning
 }
 
 TEST(Gltf, WithoutNormalsEachFaceHasItsOwn) {
@@ -256,12 +253,12 @@ TEST(Gltf, WithoutNormalsEachFaceHasItsOwn) {
     made.primitive()["indices"] = made.add({0, 1, 2, 0, 3, 1}, "SCALAR", gl_unsigned_byte);
     const Scene scene = read(made);
     const Mesh& mesh = scene.meshes.at(0);
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-        EXPECT_EQ(normal(mesh, 0, corner), vec3(0, 0, 1));
-        EXPECT_EQ(normal(mesh, 1, corner), vec3(0, 1, 0));
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        EXPECT_EQ(normal(mesh, 0, vertex), vec3(0, 0, 1));
+        EXPECT_EQ(normal(mesh, 1, vertex), vec3(0, 1, 0));
     }
     EXPECT_EQ(mesh.positions.size(), 4u);
-    EXPECT_EQ(mesh.triangles[0].corners[0].uv, no_index);
+    EXPECT_EQ(mesh.triangles[0].vertices[0].uv, no_index);
 }
 
 TEST(Gltf, PointsThatDifferInColourAloneStayApart) {
@@ -277,9 +274,9 @@ TEST(Gltf, PointsThatDifferInColourAloneStayApart) {
     const Mesh& mesh = scene.meshes.at(0);
     ASSERT_EQ(mesh.positions.size(), 5u);  // 0 and 4 agree, 1 and 3 do not
     ASSERT_EQ(mesh.colors.size(), 5u);
-    EXPECT_EQ(mesh.colors[mesh.corners[1].position], vec4(0.2f, 0.4f, 0.6f, 1));
-    EXPECT_EQ(mesh.colors[mesh.corners[3].position], vec4(1, 0, 0, 1));
-    EXPECT_EQ(mesh.corners[0].position, mesh.corners[4].position);
+    EXPECT_EQ(mesh.colors[mesh.vertices[1].position], vec4(0.2f, 0.4f, 0.6f, 1));
+    EXPECT_EQ(mesh.colors[mesh.vertices[3].position], vec4(1, 0, 0, 1));
+    EXPECT_EQ(mesh.vertices[0].position, mesh.vertices[4].position);
 
     for (std::size_t channel = 0; channel < 4; ++channel) {
         std::vector<double> colors(6 * 4, 0.5);
@@ -308,13 +305,13 @@ TEST(Gltf, PrimitivesOfAMeshShareItsPointsAndKeepTheirMaterials) {
     EXPECT_EQ(mesh.triangles[1].material, 0u);
     ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
     EXPECT_EQ(mesh.positions.size(), 4u);  // the first has no colours: they count as white
-    EXPECT_EQ(mesh.colors[mesh.triangles[1].corners[0].position], vec4(0.5f, 0.5f, 0.5f, 0.25f));
-    EXPECT_EQ(mesh.triangles[0].corners[1].position, mesh.triangles[1].corners[1].position);
+    EXPECT_EQ(mesh.colors[mesh.triangles[1].vertices[0].position], vec4(0.5f, 0.5f, 0.5f, 0.25f));
+    EXPECT_EQ(mesh.triangles[0].vertices[1].position, mesh.triangles[1].vertices[1].position);
 }
 
-TEST(Gltf, NumbersMayBeWholeAndMayStandBetweenOthers) {
+TEST(Gltf, AttributesMayBeWholeNumbersAndInterleaved) {
     GltfBuilder made = one_triangle();
-    // Whole positions, as of KHR_mesh_quantization; whole normals, and uvs, that mean fractions.
+    // Whole positions, as of KHR_mesh_quantization; normals and uvs as normalized whole numbers.
     made.document["extensionsRequired"] = {"KHR_mesh_quantization"};
     json& attributes = made.primitive()["attributes"];
     attributes["POSITION"] = made.add({0, 0, 0, 300, 0, 0, 0, -300, 0}, "VEC3", gl_short);
@@ -353,7 +350,7 @@ TEST(Gltf, NumbersMayBeWholeAndMayStandBetweenOthers) {
     EXPECT_EQ(normal(scene.meshes[0], 0, 2), vec3(0, 1, 0));
 }
 
-TEST(Gltf, CamerasAndLightsStandWhereTheirNodesDo) {
+TEST(Gltf, CamerasAndLightsMoveWithTheirNodes) {
     GltfBuilder made = one_triangle();
     const double s = std::sqrt(0.5);
     // The parent turns x to -z and is twice as large; the camera below it looks along its -z.
@@ -365,15 +362,18 @@ TEST(Gltf, CamerasAndLightsStandWhereTheirNodesDo) {
          {{"camera", 0}, {"name", "eye"}, {"translation", {1, 2, 3}}},
          {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
          {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}, {"translation", {0, 1, 0}}},
-         {{"extensions", {{"KHR_lights_punctual", {{"light", 2}}}}}, {"name", "lamp"}}});
+         {{"extensions", {{"KHR_lights_punctual", {{"light", 2}}}}}, {"name", "point"}}});
     made.document["cameras"] =
         json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 0.75}, {"znear", 0.5}}}}});
-    made.document["extensions"]["KHR_lights_punctual"]["lights"] = json::array(
-        {{{"type", "directional"}, {"name", "sun"}, {"color", {1, 0.5, 0.25}}, {"intensity", 4}},
-         {{"type", "spot"},
-          {"range", 9},
-          {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
-         {{"type", "point"}}});
+    made.document["extensions"]["KHR_lights_punctual"]["lights"] =
+        json::array({{{"type", "directional"},
+                      {"name", "directional"},
+                      {"color", {1, 0.5, 0.25}},
+                      {"intensity", 4}},
+                     {{"type", "spot"},
+                      {"range", 9},
+                      {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
+                     {{"type", "point"}}});
     const Scene scene = read(made);
     constexpr float tolerance = 1e-6f;  // sqrt(0.5) is rounded, and so is the result
     ASSERT_EQ(scene.cameras.size(), 1u);
@@ -390,7 +390,7 @@ TEST(Gltf, CamerasAndLightsStandWhereTheirNodesDo) {
 
     ASSERT_EQ(scene.lights.size(), 3u);
     EXPECT_EQ(scene.lights[0].kind, SceneLight::Kind::directional);
-    EXPECT_EQ(scene.lights[0].name, "sun");
+    EXPECT_EQ(scene.lights[0].name, "directional");
     EXPECT_EQ(scene.lights[0].color, vec3(4, 2, 1));
     expect_near(scene.lights[0].direction_world, vec3(-1, 0, 0));
     EXPECT_EQ(scene.lights[1].kind, SceneLight::Kind::spot);
@@ -399,7 +399,7 @@ TEST(Gltf, CamerasAndLightsStandWhereTheirNodesDo) {
     EXPECT_FLOAT_EQ(scene.lights[1].cos_full, std::cos(0.25f));
     EXPECT_FLOAT_EQ(scene.lights[1].cos_none, std::cos(0.5f));
     EXPECT_EQ(scene.lights[2].kind, SceneLight::Kind::point);
-    EXPECT_EQ(scene.lights[2].name, "lamp");
+    EXPECT_EQ(scene.lights[2].name, "point");
     EXPECT_EQ(scene.lights[2].color, vec3(1));
     EXPECT_TRUE(std::isinf(scene.lights[2].range));
 }

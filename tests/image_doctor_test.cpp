@@ -17,11 +17,11 @@
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
-#include "common/backdrop.hpp"
-#include "common/image_io.hpp"
+#include "common/app/orthographic_view.hpp"
+#include "common/image/backdrop.hpp"
+#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
-#include "common/obj.hpp"
-#include "common/parallel_view.hpp"
+#include "common/model/obj.hpp"
 #include "support/lesson_process.hpp"
 #include "support/picture_difference.hpp"
 #include "support/texts.hpp"
@@ -48,12 +48,12 @@ struct Shot {
     }
 };
 
-const Shot filled{lesson_02, {}}, filled_weights{lesson_02, {"--paint", "weights"}},
-    nearest{lesson_03, {}}, nearest_weights{lesson_03, {"--paint", "weights"}},
+const Shot filled{lesson_02, {}}, filled_barycentrics{lesson_02, {"--paint", "barycentric"}},
+    nearest{lesson_03, {}}, nearest_barycentrics{lesson_03, {"--paint", "barycentric"}},
     depths{lesson_03, {"--depth"}}, crate{lesson_03, {"--model", "crate.obj"}, "crate.obj"},
-    one_triangle{lesson_02, {"--model", "triangle.obj", "--paint", "weights"}, "triangle.obj"};
-const std::vector<Shot> all_shots{filled, filled_weights, nearest,     nearest_weights,
-                                  depths, crate,          one_triangle};
+    one_triangle{lesson_02, {"--model", "triangle.obj", "--paint", "barycentric"}, "triangle.obj"};
+const std::vector<Shot> all_shots{
+    filled, filled_barycentrics, nearest, nearest_barycentrics, depths, crate, one_triangle};
 
 Scene scene_of(const Shot& shot) {
     return load_obj(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / shot.model);
@@ -61,12 +61,12 @@ Scene scene_of(const Shot& shot) {
 
 /// The places of the lessons' pipeline in which a mistake can be made; right as they stand.
 struct Pipeline {
-    std::function<vec3(vec3)> place = [](vec3 corner) { return corner; };
+    std::function<vec3(vec3)> place = [](vec3 vertex) { return vertex; };
     std::function<bool(const ScreenTriangle&)> is_drawn = is_front_facing;
     std::function<bool(int)> is_skipped = [](int) { return false; };
     std::function<bool(float, float)> is_nearer = std::less<float>();
     float cleared = 1;
-    std::function<vec3(vec3)> weights_for = [](vec3 weights) { return weights; };
+    std::function<vec3(vec3)> barycentrics_for = [](vec3 barycentrics) { return barycentrics; };
     std::function<vec3(vec3)> shade = [](vec3 color) { return color; };
     std::function<float(float)> encode = [](float linear) { return srgb_from_linear(linear); };
 };
@@ -74,27 +74,27 @@ struct Pipeline {
 /// The pictures of lessons 02 and 03.
 Image<u8vec4> render(const Shot& shot, const Pipeline& pipeline = {}) {
     const Scene scene = scene_of(shot);
-    const ParallelView view(scene, size);
+    const OrthographicView view(scene, size);
     Image<vec3> color = backdrop(size);
     Image<float> buffer(size, pipeline.cleared);
     int number = 0;
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
-            const vec3 a = pipeline.place(positions_screen[triangle.corners[0].position]);
-            const vec3 b = pipeline.place(positions_screen[triangle.corners[1].position]);
-            const vec3 c = pipeline.place(positions_screen[triangle.corners[2].position]);
+            const vec3 a = pipeline.place(positions_screen[triangle.vertices[0].position]);
+            const vec3 b = pipeline.place(positions_screen[triangle.vertices[1].position]);
+            const vec3 c = pipeline.place(positions_screen[triangle.vertices[2].position]);
             const ScreenTriangle on_screen = snap_triangle(a, b, c);
             if (pipeline.is_skipped(number++) || !pipeline.is_drawn(on_screen)) continue;
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
             const TriangleDepth depth(vec3(a.z, b.z, c.z));
-            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 true_weights) {
-                const vec3 weights = pipeline.weights_for(true_weights);
+            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 true_barycentrics) {
+                const vec3 barycentrics = pipeline.barycentrics_for(true_barycentrics);
                 if (shot.lesson == lesson_03 &&
-                    !pipeline.is_nearer(depth.at(weights), buffer[pixel]))
+                    !pipeline.is_nearer(depth.at(barycentrics), buffer[pixel]))
                     return;
-                buffer[pixel] = depth.at(weights);
-                color[pixel] = pipeline.shade(shot.has("weights") ? weights : face_color);
+                buffer[pixel] = depth.at(barycentrics);
+                color[pixel] = pipeline.shade(shot.has("barycentric") ? barycentrics : face_color);
             });
         }
     }
@@ -133,7 +133,7 @@ std::string look(const Shot& shot, const Pipeline& pipeline) {
     return look(shot, render(shot, pipeline));
 }
 
-/// A pipeline with corners in wrong places.
+/// A pipeline with vertices in wrong places.
 Pipeline placed(std::function<vec3(vec3)> place) {
     Pipeline pipeline;
     pipeline.place = std::move(place);
@@ -201,7 +201,7 @@ TEST(ImageDoctor, TheModelIsWhereTheLessonDrawsIt) {
 
 TEST(ImageDoctor, NoiseOfALevelIsNotAccused) {
     std::mt19937 random(7);
-    for (const Shot& shot : {filled, nearest_weights, depths}) {
+    for (const Shot& shot : {filled, nearest_barycentrics, depths}) {
         Image<u8vec4> noisy = render(shot);
         for (u8vec4& color : noisy.pixels())
             if (random() % 250 == 0)
@@ -213,7 +213,8 @@ TEST(ImageDoctor, NoiseOfALevelIsNotAccused) {
 
 TEST(ImageDoctor, FlippedFiles) {
     const ivec2 last = size - ivec2(1);
-    for (const Shot& shot : {Shot{"01_bresenham_lines", {}}, filled, nearest, nearest_weights}) {
+    for (const Shot& shot :
+         {Shot{"01_bresenham_lines", {}}, filled, nearest, nearest_barycentrics}) {
         const Image<u8vec4> right = drawn(shot);
         const auto flipped = [&](auto source) {
             return look(shot, rearranged(right, source), right);
@@ -230,7 +231,7 @@ TEST(ImageDoctor, FlippedFiles) {
 TEST(ImageDoctor, MirroredViews) {
     const auto mirrored_x = [](vec3 p) { return vec3(static_cast<float>(size.x) - p.x, p.y, p.z); };
     const auto mirrored_y = [](vec3 p) { return vec3(p.x, static_cast<float>(size.y) - p.y, p.z); };
-    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights}) {
+    for (const Shot& shot : {filled, filled_barycentrics, nearest, nearest_barycentrics}) {
         Pipeline pipeline = placed(mirrored_x);
         EXPECT_EQ(look(shot, pipeline),
                   "the model is flipped left to right, and its backs are seen");
@@ -247,7 +248,8 @@ TEST(ImageDoctor, MirroredViews) {
 }
 
 TEST(ImageDoctor, ExchangedChannels) {
-    for (const Shot& shot : {Shot{"01_bresenham_lines", {}}, filled, nearest, filled_weights}) {
+    for (const Shot& shot :
+         {Shot{"01_bresenham_lines", {}}, filled, nearest, filled_barycentrics}) {
         const Image<u8vec4> right = drawn(shot);
         Image<u8vec4> blue_first = right, round = right;
         for (u8vec4& color : blue_first.pixels()) std::swap(color.r, color.b);
@@ -257,21 +259,28 @@ TEST(ImageDoctor, ExchangedChannels) {
     }
 }
 
-TEST(ImageDoctor, WrongWeights) {
+TEST(ImageDoctor, WrongBarycentrics) {
     Pipeline exchanged, round;
-    exchanged.weights_for = [](vec3 weights) { return vec3(weights.y, weights.x, weights.z); };
-    round.weights_for = [](vec3 weights) { return vec3(weights.z, weights.x, weights.y); };
-    for (const Shot& shot : {filled_weights, nearest_weights}) {
-        EXPECT_EQ(look(shot, exchanged),
-                  "the weights belong to the wrong corners, those of a and b exchanged");
+    exchanged.barycentrics_for = [](vec3 barycentrics) {
+        return vec3(barycentrics.y, barycentrics.x, barycentrics.z);
+    };
+    round.barycentrics_for = [](vec3 barycentrics) {
+        return vec3(barycentrics.z, barycentrics.x, barycentrics.y);
+    };
+    for (const Shot& shot : {filled_barycentrics, nearest_barycentrics}) {
+        EXPECT_EQ(
+            look(shot, exchanged),
+            "the barycentric coordinates belong to the wrong vertices, those of a and b exchanged");
         EXPECT_EQ(look(shot, round),
-                  "the weights belong to the wrong corners, a has c's, b has a's, c has b's");
+                  "the barycentric coordinates belong to the wrong vertices, a has c's, b has a's, "
+                  "c has b's");
     }
     EXPECT_EQ(look(one_triangle, round),
-              "the weights belong to the wrong corners, a has c's, b has a's, c has b's");
-    // Where no weight is painted, depth alone shows them.
+              "the barycentric coordinates belong to the wrong vertices, a has c's, b has a's, c "
+              "has b's");
+    // Where no barycentrics are painted, depth alone shows them.
     for (const Shot& shot : {nearest, depths})
-        EXPECT_EQ(look(shot, exchanged), "depths belong to the wrong corners");
+        EXPECT_EQ(look(shot, exchanged), "depths belong to the wrong vertices");
 }
 
 TEST(ImageDoctor, Gamma) {
@@ -294,7 +303,7 @@ TEST(ImageDoctor, ShiftedByPixels) {
 }
 
 TEST(ImageDoctor, ShiftedByHalfAPixel) {
-    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights, depths}) {
+    for (const Shot& shot : {filled, filled_barycentrics, nearest, nearest_barycentrics, depths}) {
         EXPECT_EQ(look(shot, placed([](vec3 p) { return p + vec3(0.5f, 0.5f, 0); })),
                   "shifted by half a pixel to the right and half a pixel down");
         EXPECT_EQ(look(shot, placed([](vec3 p) { return p - vec3(0.5f, 0.5f, 0); })),
@@ -314,7 +323,7 @@ TEST(ImageDoctor, WrongSurfaceInFront) {
     farthest.cleared = 0;
     last.is_nearer = [](float, float) { return true; };
     const Pipeline reversed = placed([](vec3 p) { return vec3(p.x, p.y, 1 - p.z); });
-    for (const Shot& shot : {nearest, nearest_weights, depths}) {
+    for (const Shot& shot : {nearest, nearest_barycentrics, depths}) {
         EXPECT_EQ(look(shot, farthest), "the farthest surface is seen in place of the nearest");
         EXPECT_EQ(look(shot, last), "each triangle covers those before it");
         EXPECT_EQ(look(shot, cleared_for_less), "nothing of the model is seen");
@@ -335,9 +344,9 @@ TEST(ImageDoctor, WrongFacing) {
     Pipeline inside_out, both;
     inside_out.is_drawn = is_back_facing;
     both.is_drawn = [](const ScreenTriangle&) { return true; };
-    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights, depths})
+    for (const Shot& shot : {filled, filled_barycentrics, nearest, nearest_barycentrics, depths})
         EXPECT_EQ(look(shot, inside_out), "inside out, backs are seen in place of fronts");
-    for (const Shot& shot : {filled, filled_weights})
+    for (const Shot& shot : {filled, filled_barycentrics})
         EXPECT_EQ(look(shot, both), "backs are drawn as well as fronts");
     for (const Shot& shot : {nearest, crate})
         EXPECT_EQ(look(shot, both), "") << "fronts are before the backs of a closed model";
@@ -360,7 +369,8 @@ TEST(ImageDoctor, EverySecondTriangleMissing) {
     Pipeline odd, even;
     odd.is_skipped = [](int i) { return i % 2 == 0; };
     even.is_skipped = [](int i) { return i % 2 == 1; };
-    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights, depths, crate}) {
+    for (const Shot& shot :
+         {filled, filled_barycentrics, nearest, nearest_barycentrics, depths, crate}) {
         EXPECT_EQ(look(shot, odd), "every second triangle is missing (the 1st, 3rd ...)");
         EXPECT_EQ(look(shot, even), "every second triangle is missing (the 2nd, 4th ...)");
     }
@@ -374,7 +384,7 @@ TEST(ImageDoctor, OtherMistakesAreNotExplained) {
     others[3].place = [](vec3 p) { return vec3(160 + 0.9f * (p.x - 160), p.y, p.z); };
     others[4].is_skipped = [](int i) { return i % 3 == 0; };
     others[5].encode = [](float linear) { return 0.5f * srgb_from_linear(linear); };
-    for (const Shot& shot : {filled, filled_weights, nearest, nearest_weights})
+    for (const Shot& shot : {filled, filled_barycentrics, nearest, nearest_barycentrics})
         for (std::size_t i = 0; i < others.size(); ++i)
             EXPECT_NE(look(shot, others[i]).find(nothing_usual), std::string::npos)
                 << i << ' ' << shot.lesson << testing::PrintToString(shot.options);

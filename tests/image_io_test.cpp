@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Picture files: what is written is read back, other decoders agree, and bad files are errors.
-#include "common/image_io.hpp"
+#include "common/image/image_io.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -19,9 +19,9 @@
 #include <string>
 #include <string_view>
 
-#include "common/bmp.hpp"
-#include "common/input_error.hpp"
-#include "common/tga.hpp"
+#include "common/image/bmp.hpp"
+#include "common/image/input_error.hpp"
+#include "common/image/tga.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "common/counters.hpp"
-#include "common/image_io.hpp"
+#include "common/app/counters.hpp"
+#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 #include "support/lesson_process.hpp"
 
@@ -111,7 +111,7 @@ TEST(LessonApp, HardCase_BadUsageIsExitStatus2) {
     expect_error(run_program(lesson, {"--out", "picture.gif"}), 2, "picture.gif");
     expect_error(run_program(lesson, {"--model"}), 2, "--model");
     expect_error(run_program("02_triangle_fill", {"--paint", "blue"}), 2,
-                 "'blue' is not one of flat|weights");
+                 "'blue' is not one of flat|barycentric");
 }
 
 TEST(LessonApp, HardCase_PercentSignsThatAreNoFrameNumberStayInTheName) {

@@ -11,9 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "04_mvp/mvp_variants.hpp"
-#include "common/image_io.hpp"
+#include "common/image/image_io.hpp"
 #include "support/lesson_process.hpp"
 #include "support/printers.hpp"
+#include "support/projected.hpp"
 #include "support/seen_by_rays.hpp"
 
 using namespace rasterbook;
@@ -32,33 +33,30 @@ struct Drawn {
 };
 
 /// As in the lesson; what lies beyond the far plane is not kept.
-void draw(const MvpVariant& variant, const ClipCorners& corners, Drawn& drawn) {
+void draw(const MvpVariant& variant, const ClipVertices& vertices, Drawn& drawn) {
     const auto keep = [&](ivec2 pixel, float z) {
         if (!(z < DepthBuffer::cleared)) return;
         ++drawn.hits[pixel];
         drawn.depth[pixel] = z;
     };
     if (variant.clipping == Clipping::pixels) {
-        drawn.front += HomogeneousTriangle(whole_triangle(corners)).volume > 0;
-        fill_homogeneous(whole_triangle(corners), size, keep);
+        drawn.front += HomogeneousTriangle(whole_triangle(vertices)).volume > 0;
+        fill_homogeneous(whole_triangle(vertices), size, keep);
         return;
     }
-    for (const ClippedTriangle& clipped : clip(variant, corners, size)) {
-        const vec3 a = screen_from_clip(clipped[0].position_clip, size);
-        const vec3 b = screen_from_clip(clipped[1].position_clip, size);
-        const vec3 c = screen_from_clip(clipped[2].position_clip, size);
-        const ScreenTriangle on_screen = snap_triangle(a, b, c);
-        if (!is_front_facing(on_screen)) continue;
+    for (const ClippedTriangle& clipped : clip(variant, vertices, size)) {
+        const ProjectedTriangle triangle = projected(clipped, size);
+        if (triangle.is_back_facing) continue;
         ++drawn.front;
-        const TriangleDepth depth(vec3(a.z, b.z, c.z));
-        fill_triangle(on_screen, size,
-                      [&](ivec2 pixel, vec3 weights) { keep(pixel, depth.at(weights)); });
+        fill_triangle(triangle.on_screen, size, [&](ivec2 pixel, Barycentrics barycentrics) {
+            keep(pixel, triangle.depth.at(barycentrics));
+        });
     }
 }
 
-Drawn drawn(Clipping clipping, const ClipCorners& corners) {
+Drawn drawn(Clipping clipping, const ClipVertices& vertices) {
     Drawn result;
-    draw({.clipping = clipping}, corners, result);
+    draw({.clipping = clipping}, vertices, result);
     return result;
 }
 
@@ -75,9 +73,9 @@ int clearly_different(const Drawn& drawn, const RaySeen& rays, long double band_
     return different;
 }
 
-std::vector<ClipCorners> small_and_large() {
-    std::vector<ClipCorners> all = small_triangles(400);
-    const std::vector<ClipCorners> large = large_triangles(200);
+std::vector<ClipVertices> small_and_large() {
+    std::vector<ClipVertices> all = small_triangles(400);
+    const std::vector<ClipVertices> large = large_triangles(200);
     all.insert(all.end(), large.begin(), large.end());
     return all;
 }
@@ -100,19 +98,19 @@ Image<u8vec4> picture(std::vector<std::string> arguments) {
 }  // namespace
 
 TEST(MvpVariants, EveryClippingDrawsWhatRaysSee) {
-    // Corners are snapped by up to 1/512 pixel in x and in y, and so are those that cutting adds.
+    // Vertices are snapped by up to 1/512 pixel in x and in y, and so are those that cutting adds.
     constexpr long double snapped_px = 1.0L / 256;
     // Those of `pixel` are not: what is left is the rounding of double.
     constexpr long double exact_px = 1e-9L;
     int seen = 0;
-    for (const ClipCorners& corners : small_and_large()) {
-        const RaySeen rays(corners);
+    for (const ClipVertices& vertices : small_and_large()) {
+        const RaySeen rays(vertices);
         for (const Clipping clipping : {Clipping::six_planes, Clipping::near_plane}) {
-            const Drawn result = drawn(clipping, corners);
+            const Drawn result = drawn(clipping, vertices);
             ASSERT_EQ(clearly_different(result, rays, snapped_px), 0) << static_cast<int>(clipping);
             for (const int hits : result.hits.pixels()) seen += hits;
         }
-        ASSERT_EQ(clearly_different(drawn(Clipping::pixels, corners), rays, exact_px), 0);
+        ASSERT_EQ(clearly_different(drawn(Clipping::pixels, vertices), rays, exact_px), 0);
     }
     EXPECT_GT(seen, 50'000);
 }
@@ -122,11 +120,11 @@ TEST(MvpVariants, EveryClippingGivesTheSameDepths) {
     // by less than 1/256 of it. Slivers may be steeper.
     constexpr float tolerance = 1.0f / 256;
     int compared = 0;
-    for (const ClipCorners& corners : small_and_large()) {
-        const RaySeen rays(corners);
-        const Drawn six = drawn(Clipping::six_planes, corners);
-        const Drawn near = drawn(Clipping::near_plane, corners);
-        const Drawn pixel = drawn(Clipping::pixels, corners);
+    for (const ClipVertices& vertices : small_and_large()) {
+        const RaySeen rays(vertices);
+        const Drawn six = drawn(Clipping::six_planes, vertices);
+        const Drawn near = drawn(Clipping::near_plane, vertices);
+        const Drawn pixel = drawn(Clipping::pixels, vertices);
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 if (!rays.is_seen({x, y}, size) || rays.is_near_border({x, y}, size, 1)) continue;
@@ -139,32 +137,33 @@ TEST(MvpVariants, EveryClippingGivesTheSameDepths) {
 }
 
 TEST(MvpVariants, TrianglesInsideAreLeftAsTheyAre) {
-    for (const ClipCorners& corners : small_triangles(400)) {
+    for (const ClipVertices& vertices : small_triangles(400)) {
         bool is_inside = true;
-        for (const vec4 corner : corners)
+        for (const vec4 vertex : vertices)
             for (int plane = 0; plane < frustum_planes; ++plane)
-                is_inside &= inside_by(plane, corner) >= 0;
+                is_inside &= plane_distance(plane, vertex) >= 0;
         if (!is_inside) continue;
-        const ClippedTriangles near = clip({.clipping = Clipping::near_plane}, corners, size);
+        const ClippedTriangles near = clip({.clipping = Clipping::near_plane}, vertices, size);
         ASSERT_EQ(near.end() - near.begin(), 1);
-        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ((*near.begin())[i].position_clip, corners[i]);
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ((*near.begin())[i].position_clip, vertices[i]);
     }
 }
 
 TEST(MvpVariants, NearCuttingLeavesNothingThatFillTriangleRefuses) {
     // Inside the guard band of 4 million pixels, and beyond it: there cut by six planes.
     for (const float reach : {1e4f, 8e4f}) {
-        const ClipCorners corners = {vec4(-reach, -1.1f, 0, 1), vec4(reach, -1.1f, 0, 1),
-                                     vec4(0, reach, 0, 1)};
-        const ClippedTriangles parts = clip({.clipping = Clipping::near_plane}, corners, size);
+        const ClipVertices vertices = {vec4(-reach, -1.1f, 0, 1), vec4(reach, -1.1f, 0, 1),
+                                       vec4(0, reach, 0, 1)};
+        const ClippedTriangles parts = clip({.clipping = Clipping::near_plane}, vertices, size);
         EXPECT_EQ(parts.end() - parts.begin() == 1, reach == 1e4f);
-        const Drawn result = drawn(Clipping::near_plane, corners);
+        const Drawn result = drawn(Clipping::near_plane, vertices);
         for (const int hits : result.hits.pixels()) ASSERT_EQ(hits, 1) << reach;
     }
 }
 
 TEST(MvpVariants, TrianglesThatShareSidesVisitEachPixelOnce) {
-    // A fan around a pixel's centre, with corners behind the camera and sides through centres.
+    // A fan around a pixel's centre, with vertices behind the camera and sides through centres.
     for (const float tilt : {0.0f, 0.3f, 0.6f}) {
         Drawn result;
         const vec4 middle(1.0f / 128, -1.0f / 64, 0, 1);
@@ -179,7 +178,7 @@ TEST(MvpVariants, TrianglesThatShareSidesVisitEachPixelOnce) {
             draw({.clipping = Clipping::pixels}, {middle, rim[k], rim[(k + 1) % rim.size()]},
                  result);
         int behind = 0;
-        for (const vec4 corner : rim) behind += corner.w < 0;
+        for (const vec4 vertex : rim) behind += vertex.w < 0;
         EXPECT_EQ(behind > 0, tilt >= 0.3f);
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x)
@@ -191,16 +190,16 @@ TEST(MvpVariants, CentresOnSidesBelongToTheSameTriangleWithEveryClipping) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> column(0, 15), row(0, 7), power(0, 2);
     for (int i = 0; i < 300; ++i) {
-        ClipCorners corners;
-        for (vec4& corner : corners) {
+        ClipVertices vertices;
+        for (vec4& vertex : vertices) {
             const vec2 center = 8.0f * vec2(column(random), row(random)) + 0.5f;
             const auto w = static_cast<float>(1 << power(random));
-            corner = vec4(2.0f * center.x / 128 - 1, 1 - 2.0f * center.y / 64, 0, 1) * w;
+            vertex = vec4(2.0f * center.x / 128 - 1, 1 - 2.0f * center.y / 64, 0, 1) * w;
         }
-        const Drawn six = drawn(Clipping::six_planes, corners);
+        const Drawn six = drawn(Clipping::six_planes, vertices);
         const auto hits = six.hits.pixels();
         for (const Clipping clipping : {Clipping::near_plane, Clipping::pixels}) {
-            const Drawn other = drawn(clipping, corners);
+            const Drawn other = drawn(clipping, vertices);
             ASSERT_TRUE(std::equal(hits.begin(), hits.end(), other.hits.pixels().begin())) << i;
         }
     }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The variants of lesson 08 that docs/accuracy/08_normal_maps.md measures: each keeps what its
 // comment says.
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -11,9 +14,9 @@
 #include <gtest/gtest.h>
 
 #include "08_normal_maps/normal_map_variants.hpp"
-#include "common/image_io.hpp"
-#include "support/bumpy_torus.hpp"
+#include "common/image/image_io.hpp"
 #include "support/lesson_process.hpp"
+#include "support/normal_mapped_torus.hpp"
 #include "support/printers.hpp"
 
 using namespace rasterbook;
@@ -22,11 +25,11 @@ using namespace rasterbook::test;
 namespace {
 
 NormalErrors errors_of(int around, int across, const NormalMapVariant& variant) {
-    return normal_errors(BumpyTorus(around, across, variant));
+    return normal_errors(NormalMappedTorus(around, across, variant));
 }
 
 constexpr NormalMapVariant face{.frame = FrameOf::face}, vertex{},
-    mixed{.orthonormal = Orthonormal::at_corners}, pixel{.frame = FrameOf::pixel};
+    interpolated{.orthonormal = Orthonormal::at_vertices}, pixel{.frame = FrameOf::pixel};
 
 /// The picture that the lesson draws with these options.
 Image<u8vec4> drawn(std::vector<std::string> options) {
@@ -38,10 +41,10 @@ Image<u8vec4> drawn(std::vector<std::string> options) {
 
 }  // namespace
 
-TEST(NormalMapVariants, TheOraclesNormalIsAcrossTheBumpySurface) {
+TEST(NormalMapVariants, TheReferenceNormalIsOrthogonalToTheBumpySurface) {
     // Differences of positions on the surface itself, apart from the formula for its derivatives.
     using real = long double;
-    const auto place = [](real u, real v) {
+    const auto surface_at = [](real u, real v) {
         const real tau = 2 * std::numbers::pi_v<real>;
         const real height = TrueTorus::bump * std::sin(TrueTorus::bumps_around * tau * u) *
                             std::sin(TrueTorus::bumps_across * tau * v);
@@ -51,8 +54,8 @@ TEST(NormalMapVariants, TheOraclesNormalIsAcrossTheBumpySurface) {
     std::uniform_real_distribution<double> any(0, 1);
     for (int i = 0; i < 1000; ++i) {
         const real u = any(random), v = any(random), step = 1e-6L;
-        const auto along_u = place(u + step, v) - place(u - step, v);
-        const auto along_v = place(u, v + step) - place(u, v - step);
+        const auto along_u = surface_at(u + step, v) - surface_at(u - step, v);
+        const auto along_v = surface_at(u, v + step) - surface_at(u, v - step);
         const auto n = TrueTorus::normal(u, v);
         EXPECT_NEAR(static_cast<double>(glm::dot(n, n)), 1, 1e-15);
         // Differences of such steps are off by the third derivative: 1e-7 of their size.
@@ -62,8 +65,8 @@ TEST(NormalMapVariants, TheOraclesNormalIsAcrossTheBumpySurface) {
     }
 }
 
-TEST(NormalMapVariants, AllFramesComeNearerToTheTruthOnFinerMeshes) {
-    for (const NormalMapVariant& variant : {face, vertex, mixed, pixel}) {
+TEST(NormalMapVariants, AllFramesAreMoreAccurateOnFinerMeshes) {
+    for (const NormalMapVariant& variant : {face, vertex, interpolated, pixel}) {
         const NormalErrors coarse = errors_of(16, 8, variant), fine = errors_of(64, 32, variant);
         EXPECT_GT(coarse.fragments, 10'000);
         EXPECT_GT(fine.rms, 0.01) << "the map itself has steps";
@@ -73,12 +76,12 @@ TEST(NormalMapVariants, AllFramesComeNearerToTheTruthOnFinerMeshes) {
     }
 }
 
-TEST(NormalMapVariants, TangentsOfCornersAreNearestToTheTruth) {
+TEST(NormalMapVariants, VertexTangentsAreTheMostAccurate) {
     const double of_face = errors_of(64, 32, face).rms, of_vertex = errors_of(64, 32, vertex).rms,
                  of_pixel = errors_of(64, 32, pixel).rms;
     EXPECT_LT(2 * of_vertex, of_pixel);
     EXPECT_LT(of_pixel, of_face);
-    EXPECT_LT(errors_of(16, 8, vertex).rms, errors_of(16, 8, mixed).rms);
+    EXPECT_LT(errors_of(16, 8, vertex).rms, errors_of(16, 8, interpolated).rms);
 }
 
 TEST(NormalMapVariants, CodesAreTheNearest) {
@@ -101,7 +104,7 @@ TEST(NormalMapVariants, CodesAreTheNearest) {
     }
 }
 
-TEST(NormalMapVariants, GreatestAnglesAreThoseOfThePage) {
+TEST(NormalMapVariants, TheLargestAnglesAreThoseOfThePage) {
     // Half a step in each of three directions, across the normal at most: sqrt(3)/2 of a step.
     std::mt19937 random(3);
     std::normal_distribution<double> any;
@@ -122,7 +125,7 @@ TEST(NormalMapVariants, GreatestAnglesAreThoseOfThePage) {
     }
 }
 
-TEST(NormalMapVariants, KnobsChangeThePictureAndDefaultsDoNot) {
+TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
     const Image<u8vec4> plain = drawn({});
     for (const std::vector<std::string>& same : {std::vector<std::string>{"--frame", "vertex"},
                                                  {"--orthonormal", "pixels"},
@@ -133,7 +136,7 @@ TEST(NormalMapVariants, KnobsChangeThePictureAndDefaultsDoNot) {
         EXPECT_EQ(drawn(same), plain) << same[0];
     for (const std::vector<std::string>& other : {std::vector<std::string>{"--frame", "face"},
                                                   {"--frame", "pixel"},
-                                                  {"--orthonormal", "corners"},
+                                                  {"--orthonormal", "vertices"},
                                                   {"--normal-map", "object"},
                                                   {"--normal-map", "none"},
                                                   {"--green", "down"},
@@ -144,7 +147,7 @@ TEST(NormalMapVariants, KnobsChangeThePictureAndDefaultsDoNot) {
         EXPECT_NE(drawn(other), plain) << other[0] << " " << other[1];
 }
 
-TEST(NormalMapVariants, FewerBitsAreFartherFromTheFile) {
+TEST(NormalMapVariants, FewerBitsAreLessAccurate) {
     const NormalMapVariant as_file{};
     const Image<u8vec4> picture =
         read_image(std::filesystem::path(RASTERBOOK_ASSETS) / "textures/hammered_normal.png");

@@ -2,7 +2,7 @@
 /// @file
 /// Model files. tests/data/obj/good and bad hold a small file for each way in which OBJ files
 /// differ or go wrong; each begins with comments that say what is expected of it.
-#include "common/obj.hpp"
+#include "common/model/obj.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -18,7 +18,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/input_error.hpp"
+#include "common/image/input_error.hpp"
 
 namespace rasterbook {
 namespace {
@@ -101,8 +101,8 @@ std::string with_commas(const Vector& vector, int digits) {
     return out.str();
 }
 
-/// A corner as OBJ has it, but with values in place of indices.
-std::string corner_text(const vec3& position, const vec2* uv, const vec3* normal, int digits) {
+/// A vertex as OBJ has it, but with values in place of indices.
+std::string vertex_text(const vec3& position, const vec2* uv, const vec3* normal, int digits) {
     std::string text = with_commas(position, digits);
     if (uv || normal) text += "/";
     if (uv) text += with_commas(*uv, digits);
@@ -114,15 +114,15 @@ std::string face_start(const std::string& group, const std::string& material) {
     return "group \"" + group + "\" material \"" + material + "\"";
 }
 
-/// All faces, with the values that their corners refer to.
+/// All faces, with the values that their vertices refer to.
 Lines faces_of(const Scene& scene, int digits = 9) {
     Lines faces;
     for (const Mesh& mesh : scene.meshes)
         for (const Face& face : mesh.faces) {
             faces.push_back(face_start(mesh.name, scene.materials.at(face.material).name));
-            for (const auto& [position, uv, normal] : mesh.corners_of(face))
+            for (const auto& [position, uv, normal] : mesh.vertices_of(face))
                 faces.back() +=
-                    " " + corner_text(mesh.positions.at(position),
+                    " " + vertex_text(mesh.positions.at(position),
                                       uv == no_index ? nullptr : &mesh.uvs.at(uv),
                                       normal == no_index ? nullptr : &mesh.normals.at(normal),
                                       digits);
@@ -159,7 +159,7 @@ Lines faces_of_tinyobj(const fs::path& file, int digits) {
                 vec3 normal_value;
                 if (uv >= 0) uv_value = vec2_at(all.texcoords, std::size_t(uv));
                 if (normal >= 0) normal_value = vec3_at(all.normals, std::size_t(normal));
-                faces.back() += " " + corner_text(vec3_at(all.vertices, std::size_t(position)),
+                faces.back() += " " + vertex_text(vec3_at(all.vertices, std::size_t(position)),
                                                   uv < 0 ? nullptr : &uv_value,
                                                   normal < 0 ? nullptr : &normal_value, digits);
             }
@@ -171,29 +171,30 @@ Lines faces_of_tinyobj(const fs::path& file, int digits) {
 /// For EXPECT_TRUE: what every scene keeps to.
 testing::AssertionResult is_sound(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
-        const auto is_in_range = [&](const Corner& corner) {
-            return corner.position < mesh.positions.size() &&
-                   (corner.uv == no_index || corner.uv < mesh.uvs.size()) &&
-                   (corner.normal == no_index || corner.normal < mesh.normals.size());
+        const auto is_in_range = [&](const Vertex& vertex) {
+            return vertex.position < mesh.positions.size() &&
+                   (vertex.uv == no_index || vertex.uv < mesh.uvs.size()) &&
+                   (vertex.normal == no_index || vertex.normal < mesh.normals.size());
         };
         Bounds bounds;
-        std::size_t triangle_count = 0, corner_count = 0;
+        std::size_t triangle_count = 0, vertex_count = 0;
         for (const Face& face : mesh.faces) {
-            if (face.material >= scene.materials.size() || face.first_corner != corner_count ||
-                face.corner_count < 3)
+            if (face.material >= scene.materials.size() || face.first_vertex != vertex_count ||
+                face.vertex_count < 3)
                 return testing::AssertionFailure() << "wrong face in " << mesh.name;
-            corner_count += face.corner_count, triangle_count += face.corner_count - 2;
+            vertex_count += face.vertex_count, triangle_count += face.vertex_count - 2;
         }
-        if (corner_count != mesh.corners.size() || !std::ranges::all_of(mesh.corners, is_in_range))
-            return testing::AssertionFailure() << "wrong corners in " << mesh.name;
-        for (const Corner& corner : mesh.corners) bounds.add(mesh.positions[corner.position]);
+        if (vertex_count != mesh.vertices.size() ||
+            !std::ranges::all_of(mesh.vertices, is_in_range))
+            return testing::AssertionFailure() << "wrong vertices in " << mesh.name;
+        for (const Vertex& vertex : mesh.vertices) bounds.add(mesh.positions[vertex.position]);
         if (mesh.faces.empty() || bounds.min != mesh.bounds.min || bounds.max != mesh.bounds.max)
             return testing::AssertionFailure() << "wrong bounds of " << mesh.name;
         if (mesh.triangles.size() != triangle_count)
             return testing::AssertionFailure()
                    << mesh.triangles.size() << " triangles in " << mesh.name;
-        for (const auto& [corners, material] : mesh.triangles)
-            if (material >= scene.materials.size() || !std::ranges::all_of(corners, is_in_range))
+        for (const auto& [vertices, material] : mesh.triangles)
+            if (material >= scene.materials.size() || !std::ranges::all_of(vertices, is_in_range))
                 return testing::AssertionFailure() << "wrong triangle in " << mesh.name;
     }
     return testing::AssertionSuccess();
@@ -214,32 +215,33 @@ TEST(Obj, GoodFilesGiveTheFacesAndWarningsThatTheyState) {
     }
 }
 
-enum class Deviation { of_names, of_corners };
+enum class Deviation { of_names, of_vertices };
 
 /// Where tinyobjloader reads something else, and what it does.
 const std::map<std::string, std::pair<Deviation, std::string>> tinyobj_deviations = {
-    {"comment_at_end_of_line", {Deviation::of_corners, "takes the comment for corners"}},
-    {"continuation_crlf", {Deviation::of_corners, "does not continue lines"}},
-    {"continuation_lines", {Deviation::of_corners, "does not continue lines"}},
+    {"comment_at_end_of_line", {Deviation::of_vertices, "takes the comment for vertices"}},
+    {"continuation_crlf", {Deviation::of_vertices, "does not continue lines"}},
+    {"continuation_lines", {Deviation::of_vertices, "does not continue lines"}},
     {"group_name_with_blanks", {Deviation::of_names, "writes one blank for several"}},
     {"group_without_name", {Deviation::of_names, "keeps the name of the group before"}},
     {"material_name_with_blanks", {Deviation::of_names, "takes the first word after usemtl"}},
     {"mtllib_in_quotes", {Deviation::of_names, "takes quotes for a part of the name"}},
     {"mtllib_with_backslash", {Deviation::of_names, "takes a backslash for an escape"}},
     {"mtllib_with_blanks", {Deviation::of_names, "takes each word for a name"}},
-    {"polygon_of_300_corners", {Deviation::of_corners, "counts modulo 256 in some versions"}},
+    {"polygon_of_300_vertices", {Deviation::of_vertices, "counts modulo 256 in some versions"}},
     {"several_mtllibs_on_one_line", {Deviation::of_names, "stops at the first that it finds"}},
-    {"slashes_at_the_end", {Deviation::of_corners, "takes a missing index for 0"}},
+    {"slashes_at_the_end", {Deviation::of_vertices, "takes a missing index for 0"}},
     {"usemtl_before_mtllib", {Deviation::of_names, "knows only the materials read so far"}},
     {"utf8_byte_order_mark",
-     {Deviation::of_corners, "takes the mark for a part of the first word in some versions"}},
+     {Deviation::of_vertices, "takes the mark for a part of the first word in some versions"}},
 };
 
-/// The faces' corners alone.
+/// The faces' vertices alone.
 Lines without_names(Lines faces) {
-    const std::string start_of_corners = "\" ";  // behind the material's name
+    const std::string start_of_vertices = "\" ";  // behind the material's name
     for (std::string& face : faces)
-        if (const auto end = face.rfind(start_of_corners); end != face.npos) face.erase(0, end + 2);
+        if (const auto end = face.rfind(start_of_vertices); end != face.npos)
+            face.erase(0, end + 2);
     return faces;
 }
 
@@ -251,7 +253,7 @@ TEST(Obj, FacesEqualThoseOfTinyobjloader) {
     for (const fs::path& file : files) {
         const auto deviation = tinyobj_deviations.find(file.stem());
         const bool deviates = deviation != tinyobj_deviations.end();
-        if (deviates && deviation->second.first == Deviation::of_corners) continue;
+        if (deviates && deviation->second.first == Deviation::of_vertices) continue;
         SCOPED_TRACE(file);
         Lines ours = faces_of(load_obj(file), digits), theirs = faces_of_tinyobj(file, digits);
         if (deviates) ours = without_names(ours), theirs = without_names(theirs);
@@ -260,7 +262,7 @@ TEST(Obj, FacesEqualThoseOfTinyobjloader) {
         EXPECT_EQ(ours, theirs);
         ++compared;
     }
-    const auto skipped = std::ranges::count(tinyobj_deviations, Deviation::of_corners,
+    const auto skipped = std::ranges::count(tinyobj_deviations, Deviation::of_vertices,
                                             [](const auto& entry) { return entry.second.first; });
     EXPECT_EQ(compared + static_cast<std::size_t>(skipped), files.size());
 }
@@ -377,9 +379,9 @@ TEST(Obj, EachOfSeveralMeshesHasTheElementsThatItUses) {
 TEST(Obj, TrianglesOfAConcaveFaceAreEars) {
     const Scene scene = load_obj(data / "good/concave_polygon.obj");
     float doubled_area = 0;
-    for (const auto& [corners, material] : scene.meshes.at(0).triangles) {
+    for (const auto& [vertices, material] : scene.meshes.at(0).triangles) {
         const auto position = [&](int i) {
-            return scene.meshes[0].positions[corners[std::size_t(i)].position];
+            return scene.meshes[0].positions[vertices[std::size_t(i)].position];
         };
         const float doubled = glm::cross(position(1) - position(0), position(2) - position(0)).z;
         EXPECT_GT(doubled, 0);
@@ -394,7 +396,7 @@ TEST(Obj, MoreElementsThanAllowedAreAnError) {
                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\ng a\nf 1 2 3\ng b\n"
                    "f 1 2 3\ng a\nf 3 2 1\n");
     EXPECT_EQ(error_of(file, 6), "");
-    EXPECT_EQ(error_of(file, 5), "elements.obj:11: more than 5 corners in a group");
+    EXPECT_EQ(error_of(file, 5), "elements.obj:11: more than 5 vertices in a group");
     EXPECT_EQ(error_of(file, 2), "elements.obj:3: more than 2 positions");
     EXPECT_EQ(error_of(write_file("uvs.obj", "vt 0 0\nvt 0 0\n"), 1), "uvs.obj:2: more than 1 uvs");
     EXPECT_EQ(error_of(write_file("normals.obj", "vn 0 0 1\nvn 0 0 1\n"), 1),
@@ -439,7 +441,7 @@ TEST(Obj, StatementsMayLieAcrossTheEndOfAPart) {
             for (std::size_t i = 0; i < text.size(); ++i) line += is_line_end(i);
             const fs::path file = write_file("parts.obj", text);
             ASSERT_EQ(error_of(file),
-                      "parts.obj:" + std::to_string(line) + ": \"x\" is not a corner of a face");
+                      "parts.obj:" + std::to_string(line) + ": \"x\" is not a vertex of a face");
             text.back() = '3';
             const Scene scene = load_obj(write_file("parts.obj", text));
             ASSERT_EQ(scene.meshes.at(0).faces.size(), 3u);
@@ -447,18 +449,18 @@ TEST(Obj, StatementsMayLieAcrossTheEndOfAPart) {
         }
 }
 
-TEST(Obj, AFaceMayHaveAHundredThousandCorners) {
-    constexpr int corner_count = 100'000;
+TEST(Obj, AFaceMayHaveAHundredThousandVertices) {
+    constexpr int vertex_count = 100'000;
     std::string text, face = "f";
-    for (int i = 0; i < corner_count;
+    for (int i = 0; i < vertex_count;
          ++i) {  // Teeth of a comb, along a parabola that opens upwards.
-        const long x = i - corner_count / 2;
+        const long x = i - vertex_count / 2;
         text += "v " + std::to_string(x) + " " + std::to_string(x * x / 1000 + i % 2) + " 0\n";
         face += " " + std::to_string(i + 1);
     }
     const Scene scene = load_obj(write_file("large.obj", text + face));
     EXPECT_TRUE(is_sound(scene));
-    EXPECT_EQ(scene.meshes.at(0).triangles.size(), corner_count - 2u);
+    EXPECT_EQ(scene.meshes.at(0).triangles.size(), vertex_count - 2u);
 }
 
 /// Writes the statements of a model in a random style.
@@ -528,7 +530,7 @@ TEST(Obj, RandomModelsAreReadBackEqual) {
             faces += writer.line({writer.pick({"g", "o"}) + " " + group});
             std::vector<std::string> words{"f"};
             std::string text = face_start(group, "");
-            for (std::size_t corner = 0, count = 3 + below(6); corner < count; ++corner) {
+            for (std::size_t vertex = 0, count = 3 + below(6); vertex < count; ++vertex) {
                 const std::size_t position = below(positions.size());
                 const std::size_t uv = below(uvs.size() + 1),
                                   normal = below(normals.size() + 1);  // the last: none
@@ -537,7 +539,7 @@ TEST(Obj, RandomModelsAreReadBackEqual) {
                 if (has_uv || has_normal) words.back() += "/";
                 if (has_uv) words.back() += index_text(uv, uvs.size());
                 if (has_normal) words.back() += "/" + index_text(normal, normals.size());
-                text += " " + corner_text(positions[position], has_uv ? &uvs[uv] : nullptr,
+                text += " " + vertex_text(positions[position], has_uv ? &uvs[uv] : nullptr,
                                           has_normal ? &normals[normal] : nullptr, 9);
             }
             faces += writer.line(words);

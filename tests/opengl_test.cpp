@@ -31,21 +31,21 @@ struct Drawn {
     ScreenTriangle triangle;
 };
 
-std::array<vec3, 3> on_screen(const Corners& corners, const OpenGlView& view) {
+std::array<vec3, 3> on_screen(const Vertices& vertices, const OpenGlView& view) {
     std::array<vec3, 3> screen;
     for (std::size_t i = 0; i < 3; ++i)
-        screen[i] = screen_from_clip(corners[i], view.viewport_size) + vec3(view.viewport_low, 0);
+        screen[i] = screen_from_clip(vertices[i], view.viewport_size) + vec3(view.viewport_low, 0);
     return screen;
 }
 
-Drawn drawn(const Corners& corners, const OpenGlView& view) {
-    const auto [a, b, c] = on_screen(corners, view);
+Drawn drawn(const Vertices& vertices, const OpenGlView& view) {
+    const auto [a, b, c] = on_screen(vertices, view);
     Drawn result = {Image<int>(view.size), Image<float>(view.size), snap_triangle(a, b, c)};
     if (!is_front_facing(result.triangle)) return result;
     const TriangleDepth depth(vec3(a.z, b.z, c.z));
-    fill_triangle(result.triangle, view.size, [&](ivec2 pixel, vec3 weights) {
+    fill_triangle(result.triangle, view.size, [&](ivec2 pixel, vec3 barycentrics) {
         ++result.times[pixel];
-        result.depth[pixel] = depth.at(weights);
+        result.depth[pixel] = depth.at(barycentrics);
     });
     return result;
 }
@@ -68,7 +68,7 @@ testing::AssertionResult covers_the_same(const Image<int>& ours, const OpenGlPic
 /// How many centres of the picture's pixels lie on a side of the triangle.
 int centers_on_sides(const Drawn& ours) {
     int count = 0;
-    const auto [a, b, c] = ours.triangle.corners;
+    const auto [a, b, c] = ours.triangle.vertices;
     for_each_pixel(ours.times.size(), [&](ivec2 pixel) {
         const ivec2 center = pixel * subpixels + subpixels / 2;
         const std::int64_t shares[] = {edge_function(b, c, center), edge_function(c, a, center),
@@ -95,7 +95,7 @@ void for_each_exact_triangle(OpenGl& gl, auto&& visit) {
         const std::vector<OpenGlPicture> theirs = gl.draw_each(triangles, kind.view);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             SCOPED_TRACE(kind.name + ", seed 1, case " + std::to_string(i));
-            visit(kind, triangles[i].corners_clip, steps[i], theirs[i]);
+            visit(kind, triangles[i].vertices_clip, steps[i], theirs[i]);
             if (testing::Test::HasFailure()) return;
         }
     }
@@ -104,15 +104,15 @@ void for_each_exact_triangle(OpenGl& gl, auto&& visit) {
 /// How far a point of the screen is from all lines along which a triangle can end, in pixels: its
 /// sides and where the near and the far plane cut it. (The other planes cut along the picture's
 /// borders.)
-double distance_to_ends(const Corners& corners, ivec2 size, dvec2 point) {
+double distance_to_ends(const Vertices& vertices, ivec2 size, dvec2 point) {
     const auto xyw = [&](std::size_t i) {
-        return dvec3(corners[i % 3].x, corners[i % 3].y, corners[i % 3].w);
+        return dvec3(vertices[i % 3].x, vertices[i % 3].y, vertices[i % 3].w);
     };
     std::array<dvec3, 5> lines = {};  // 0 = dot(line, (x_ndc, y_ndc, 1))
     for (std::size_t i = 0; i < 3; ++i) {
-        lines[i] = glm::cross(xyw(i + 1), xyw(i + 2));  // the share of corner i, divided by w
-        lines[3] += lines[i] * double{inside_by(4, corners[i])};
-        lines[4] += lines[i] * double{inside_by(5, corners[i])};
+        lines[i] = glm::cross(xyw(i + 1), xyw(i + 2));  // the share of vertex i, divided by w
+        lines[3] += lines[i] * double{plane_distance(4, vertices[i])};
+        lines[4] += lines[i] * double{plane_distance(5, vertices[i])};
     }
     const dvec2 to_ndc = dvec2(2, -2) / dvec2(size);
     const dvec3 point_ndc(point * to_ndc + dvec2(-1, 1), 1);
@@ -127,10 +127,10 @@ double distance_to_ends(const Corners& corners, ivec2 size, dvec2 point) {
 
 TEST_F(OpenGlTest, CoversTheSamePixels) {
     int compared = 0, covering = 0, on_sides = 0;
-    for_each_exact_triangle(*gl, [&](const Kind& kind, const Corners& corners, const Steps& steps,
+    for_each_exact_triangle(*gl, [&](const Kind& kind, const Vertices& vertices, const Steps& steps,
                                      const OpenGlPicture& theirs) {
-        const Drawn ours = drawn(corners, kind.view);
-        ASSERT_EQ(ours.triangle.corners, steps) << "nothing is to be rounded here";
+        const Drawn ours = drawn(vertices, kind.view);
+        ASSERT_EQ(ours.triangle.vertices, steps) << "nothing is to be rounded here";
         ASSERT_TRUE(covers_the_same(ours.times, theirs));
         ++compared;
         covering += !(ours.times == Image<int>(kind.view.size));
@@ -141,10 +141,10 @@ TEST_F(OpenGlTest, CoversTheSamePixels) {
     EXPECT_GE(on_sides, 8'000) << "a matter of the top-left rule";
 }
 
-TEST_F(OpenGlTest, CoversTheSamePixelsWhereCornersAreSnapped) {
+TEST_F(OpenGlTest, CoversTheSamePixelsWhereVerticesAreSnapped) {
     // llvmpipe, too, snaps to the nearest 1/256 pixel, halves to even. But it multiplies by 1/w,
     // and takes off half a pixel before it snaps: five roundings of numbers below 128 pixels, each
-    // by at most 2^-18 pixel, ours being no more. So a corner within 5/1024 step of half a step may
+    // by at most 2^-18 pixel, ours being no more. So a vertex within 5/1024 step of half a step may
     // go either way, and its triangle is left out.
     constexpr double margin = 5.0 / 1024;
     constexpr int chosen = 3000;
@@ -154,10 +154,10 @@ TEST_F(OpenGlTest, CoversTheSamePixelsWhereCornersAreSnapped) {
     for (int i = 0; i < chosen; ++i) {
         OpenGlTriangle triangle;
         bool is_clear = true;
-        for (vec4& corner : triangle.corners_clip) {
+        for (vec4& vertex : triangle.vertices_clip) {
             const float w = any_float(random, 0.25f, 4), x = any_float(random, -w, w);
-            corner = {x, any_float(random, -w, w), 0, w};
-            const dvec2 ndc = dvec2(corner.x, -corner.y) / double{w};
+            vertex = {x, any_float(random, -w, w), 0, w};
+            const dvec2 ndc = dvec2(vertex.x, -vertex.y) / double{w};
             const dvec2 steps = (ndc + 1.0) * 0.5 * dvec2(view.size) * double{subpixels};
             const dvec2 from_half = glm::abs(glm::fract(steps) - 0.5);
             is_clear &= from_half.x > margin && from_half.y > margin;
@@ -167,33 +167,33 @@ TEST_F(OpenGlTest, CoversTheSamePixelsWhereCornersAreSnapped) {
     EXPECT_GE(triangles.size(), chosen * 9 / 10u);
     const std::vector<OpenGlPicture> theirs = gl->draw_each(triangles, view);
     for (std::size_t i = 0; i < triangles.size(); ++i)
-        ASSERT_TRUE(covers_the_same(drawn(triangles[i].corners_clip, view).times, theirs[i]))
+        ASSERT_TRUE(covers_the_same(drawn(triangles[i].vertices_clip, view).times, theirs[i]))
             << "seed 1, case " << i << " of those left";
 }
 
-TEST_F(OpenGlTest, CoversTheSamePixelsWhereCornersLieOnHalfSteps) {
+TEST_F(OpenGlTest, CoversTheSamePixelsWhereVerticesLieOnHalfSteps) {
     // Beside centres of pixels, so that a step more or less is seen. Nothing is rounded before.
     constexpr float step = 1.0f / subpixels;
     const OpenGlView view(ivec2(16));
     Random random(1);
     std::vector<OpenGlTriangle> triangles(1000);
     for (OpenGlTriangle& triangle : triangles)
-        for (vec4& corner : triangle.corners_clip) {
+        for (vec4& vertex : triangle.vertices_clip) {
             const vec2 center = vec2(any_point(random, 1, 14)) + 0.5f;
             const vec2 ndc = (center + vec2(any_point(random, -3, 3)) * step / 2.0f) / 8.0f - 1.0f;
-            corner = {ndc.x, -ndc.y, 0, 1};
+            vertex = {ndc.x, -ndc.y, 0, 1};
         }
     const std::vector<OpenGlPicture> theirs = gl->draw_each(triangles, view);
     for (std::size_t i = 0; i < triangles.size(); ++i)
-        ASSERT_TRUE(covers_the_same(drawn(triangles[i].corners_clip, view).times, theirs[i]))
+        ASSERT_TRUE(covers_the_same(drawn(triangles[i].vertices_clip, view).times, theirs[i]))
             << "seed 1, case " << i;
 }
 
 TEST_F(OpenGlTest, CoversTheSamePixelsWherePlanesCut) {
-    // Where planes cut a triangle, OpenGL finds new corners in its own way, and snaps those. By
+    // Where planes cut a triangle, OpenGL finds new vertices in its own way, and snaps those. By
     // that a side moves by less than a step, and so does ours: all centres that are farther than a
     // step from a side, or from where the near or the far plane cuts, are compared.
-    constexpr double band = 1.0 / subpixels;
+    constexpr double near_px = 1.0 / subpixels;
     const OpenGlView view(ivec2(64, 48));
     const mat4 clip_from_view = perspective(1.2f, 4.0f / 3, 0.5f, 20.0f);
     Random random(1);
@@ -201,25 +201,25 @@ TEST_F(OpenGlTest, CoversTheSamePixelsWherePlanesCut) {
     while (triangles.size() < 2000) {
         OpenGlTriangle triangle;
         float least = 0;
-        for (vec4& corner : triangle.corners_clip) {
+        for (vec4& vertex : triangle.vertices_clip) {
             const ivec2 xy = any_point(random, -6000, 6000);
-            corner = clip_from_view * vec4(vec2(xy) / 1000.0f, any_float(random, -24, 4), 1);
-            for (const int plane : {4, 5}) least = std::min(least, inside_by(plane, corner));
+            vertex = clip_from_view * vec4(vec2(xy) / 1000.0f, any_float(random, -24, 4), 1);
+            for (const int plane : {4, 5}) least = std::min(least, plane_distance(plane, vertex));
         }
         if (least < 0) triangles.push_back(triangle);
     }
     const std::vector<OpenGlPicture> theirs = gl->draw_each(triangles, view);
     int compared = 0, left_out = 0, covering = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const Corners& corners = triangles[i].corners_clip;
+        const Vertices& vertices = triangles[i].vertices_clip;
         Image<int> ours(view.size);
-        for (const auto& [a, b, c] : clip_triangle(corners)) {
+        for (const auto& [a, b, c] : clip_triangle(vertices)) {
             const Drawn part = drawn({a.position_clip, b.position_clip, c.position_clip}, view);
             for_each_pixel(view.size, [&](ivec2 pixel) { ours[pixel] += part.times[pixel]; });
         }
         covering += !(ours == Image<int>(view.size));
         for_each_pixel(view.size, [&](ivec2 pixel) {
-            if (distance_to_ends(corners, view.size, dvec2(pixel) + 0.5) > band)
+            if (distance_to_ends(vertices, view.size, dvec2(pixel) + 0.5) > near_px)
                 ++compared;
             else
                 ++left_out, ours[pixel] = static_cast<int>(theirs[i].color[pixel].x);
@@ -236,13 +236,13 @@ TEST_F(OpenGlTest, DepthIsTheSame) {
     // of the exact depth in every triangle.)
     constexpr double least_tolerance = 0x1p-22;
     int gentle = 0;
-    for_each_exact_triangle(*gl, [&](const Kind& kind, const Corners& corners, const Steps& steps,
+    for_each_exact_triangle(*gl, [&](const Kind& kind, const Vertices& vertices, const Steps& steps,
                                      const OpenGlPicture& theirs) {
-        const Drawn ours = drawn(corners, kind.view);
+        const Drawn ours = drawn(vertices, kind.view);
         double reach = kind.view.size.x;
         std::array<dvec3, 3> p;
         for (std::size_t i = 0; i < 3; ++i) {
-            const double z_ndc = double{corners[i].z} / double{corners[i].w};
+            const double z_ndc = double{vertices[i].z} / double{vertices[i].w};
             p[i] = dvec3(dvec2(steps[i]) / double{subpixels}, (z_ndc + 1) / 2);
             reach = std::max({reach, std::abs(p[i].x), std::abs(p[i].y)});
         }

@@ -11,6 +11,7 @@
 #include "05_textures/texture.hpp"
 #include "support/opengl_triangles.hpp"
 #include "support/printers.hpp"
+#include "support/projected.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -42,7 +43,7 @@ struct Floor {
         for (std::size_t t = 0; t < 2; ++t)
             for (std::size_t i = 0; i < 3; ++i) {
                 const vec3 corner = corners[i == 0 ? 0 : t + i];
-                triangles[t].corners_clip[i] = clip_from_world * vec4(corner, 1);
+                triangles[t].vertices_clip[i] = clip_from_world * vec4(corner, 1);
                 triangles[t].uv[i] = vec2(corner.x, corner.z) / 8.0f;
             }
         return triangles;
@@ -66,15 +67,13 @@ std::vector<OpenGlTriangle> exact_floor(int turns) {
 /// Calls emit(pixel, uv) for what our stages draw.
 void for_each_fragment(const std::vector<OpenGlTriangle>& triangles, ivec2 size, auto&& emit) {
     for (const OpenGlTriangle& triangle : triangles)
-        for (const ClippedTriangle& clipped : clip_triangle(triangle.corners_clip)) {
-            const ScreenTriangle on_screen =
-                snap_triangle(screen_from_clip(clipped[0].position_clip, size),
-                              screen_from_clip(clipped[1].position_clip, size),
-                              screen_from_clip(clipped[2].position_clip, size));
+        for (const ClippedTriangle& clipped : clip_triangle(triangle.vertices_clip)) {
+            const ScreenTriangle on_screen = projected(clipped, size).on_screen;
             if (!is_front_facing(on_screen)) continue;
-            const PerspectiveWeights perspective_weights(on_screen, clipped);
-            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 weights) {
-                emit(pixel, fragment_uv(triangle.uv, perspective_weights.at(weights)));
+            const PerspectiveSetup setup = perspective_setup(on_screen, clipped);
+            fill_triangle(on_screen, size, [&](ivec2 pixel, Barycentrics screen_barycentrics) {
+                emit(pixel,
+                     fragment_uv(triangle.uv, perspective_correct(setup, screen_barycentrics)));
             });
         }
 }
@@ -107,7 +106,7 @@ TEST_F(OpenGlTest, UvIsTheSame) {
             ++compared;
             ASSERT_EQ(covered, 1);
             EXPECT_LE(in_texels(uv.here, {u, v}), uv_tolerance) << testing::PrintToString(pixel);
-            EXPECT_NEAR(level_of_detail(uv.step_x, uv.step_y, texture_size), level, level_tolerance)
+            EXPECT_NEAR(level_of_detail(uv.ddx, uv.ddy, texture_size), level, level_tolerance)
                 << testing::PrintToString(pixel);
         });
         EXPECT_EQ(compared, view.size.x * view.size.y / 2);
@@ -115,7 +114,7 @@ TEST_F(OpenGlTest, UvIsTheSame) {
 }
 
 TEST_F(OpenGlTest, UvIsTheSameWherePlanesCut) {
-    // We interpolate between the corners where they are snapped, OpenGL where they were before: by
+    // We interpolate between the vertices where they are snapped, OpenGL where they were before: by
     // that the floor moves on the screen by less than a step.
     constexpr double in_pixels = 1.0 / subpixels, texels = 1.0 / 256;
     const OpenGlView view(ivec2(320, 240));

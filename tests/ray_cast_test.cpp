@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/obj.hpp"
+#include "common/model/obj.hpp"
 #include "support/ray_cast.hpp"
 
 using namespace rasterbook;

@@ -12,11 +12,11 @@
 
 #include <gtest/gtest.h>
 
-#include "05_textures/bands.hpp"
 #include "05_textures/texture_variants.hpp"
-#include "common/image_io.hpp"
+#include "common/image/image_io.hpp"
 #include "support/lesson_process.hpp"
 #include "support/printers.hpp"
+#include "support/projected.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -33,16 +33,12 @@ struct Case {
     ClippedTriangle clipped;
     ScreenTriangle on_screen;
 
-    explicit Case(const ClippedTriangle& triangle) : clipped(triangle) {
-        const auto place = [&](std::size_t i) {
-            return screen_from_clip(clipped[i].position_clip, size);
-        };
-        on_screen = snap_triangle(place(0), place(1), place(2));
-    }
+    explicit Case(const ClippedTriangle& triangle)
+        : clipped(triangle), on_screen(projected(triangle, size).on_screen) {}
 };
 
-ClippedTriangle whole(const std::array<vec4, 3>& corners) {
-    return {{{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
+ClippedTriangle whole(const std::array<vec4, 3>& vertices) {
+    return {{{vertices[0], {1, 0, 0}}, {vertices[1], {0, 1, 0}}, {vertices[2], {0, 0, 1}}}};
 }
 
 /// Triangles of both windings, with w from 1 to `greatest_w`; every second one a piece of another.
@@ -52,11 +48,12 @@ std::vector<Case> random_cases(int count, float greatest_w) {
     std::vector<Case> cases;
     while (static_cast<int>(cases.size()) < count) {
         ClippedTriangle triangle = whole({});
-        for (ClippedCorner& corner : triangle) {
-            corner.position_clip = vec4(ndc(random), ndc(random), 0, 1) * std::exp(log_w(random));
+        for (ClippedVertex& vertex : triangle) {
+            vertex.position_clip = vec4(ndc(random), ndc(random), 0, 1) * std::exp(log_w(random));
             if (cases.size() % 2 == 0) continue;
-            corner.weights = {share(random), share(random), share(random)};
-            corner.weights /= corner.weights.x + corner.weights.y + corner.weights.z;
+            vertex.barycentrics = {share(random), share(random), share(random)};
+            vertex.barycentrics /=
+                vertex.barycentrics.x + vertex.barycentrics.y + vertex.barycentrics.z;
         }
         cases.emplace_back(triangle);
     }
@@ -66,23 +63,23 @@ std::vector<Case> random_cases(int count, float greatest_w) {
 /// A fragment as fill_triangle gives it.
 struct Fragment {
     ivec2 pixel;
-    vec3 screen_weights;
+    vec3 screen_barycentrics;
 };
 
 /// Row by row.
 std::vector<std::vector<Fragment>> rows_of(const ScreenTriangle& triangle) {
     std::vector<std::vector<Fragment>> rows;
-    fill_triangle(triangle, size, [&](ivec2 pixel, vec3 screen_weights) {
+    fill_triangle(triangle, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
         if (rows.empty() || rows.back().front().pixel.y != pixel.y) rows.emplace_back();
-        rows.back().push_back({pixel, screen_weights});
+        rows.back().push_back({pixel, screen_barycentrics});
     });
     return rows;
 }
 
-void expect_same(const FragmentWeights& a, const FragmentWeights& b) {
+void expect_same(const FragmentBarycentrics& a, const FragmentBarycentrics& b) {
     EXPECT_EQ(a.here, b.here);
-    EXPECT_EQ(a.step_x, b.step_x);
-    EXPECT_EQ(a.step_y, b.step_y);
+    EXPECT_EQ(a.ddx, b.ddx);
+    EXPECT_EQ(a.ddy, b.ddy);
 }
 
 float greatest(vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -90,28 +87,28 @@ float greatest(vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs
 constexpr int spans[] = {64, 32, 16, 8, 4};
 
 /// Draws a case's rows with a division every so many pixels, and checks each fragment: spans begin
-/// with the exact weights and are straight from there to the exact ones at their end.
+/// with the exact barycentrics and are straight from there to the exact ones at their end.
 ///
 /// @param is_left_out  Called as is_left_out() for each pixel: whether something hides it.
 /// @return             How many pixels lay within spans.
 template <typename IsLeftOut>
 int expect_straight_spans(const Case& c, int every, IsLeftOut&& is_left_out) {
-    const PerspectiveWeights exact(c.on_screen, c.clipped);
-    MappedWeights mapped({{}, every}, c.on_screen, c.clipped);
+    const PerspectiveSetup setup = perspective_setup(c.on_screen, c.clipped);
+    MappedBarycentrics mapped({{}, every}, c.on_screen, c.clipped);
     const auto length = static_cast<std::size_t>(every);
     int within = 0;
     for (const std::vector<Fragment>& row : rows_of(c.on_screen)) {
         std::size_t begin = 0, end = 0;  // of a span, the first pixel and the one behind it
         for (std::size_t i = 0; i < row.size(); ++i) {
             if (is_left_out()) continue;
-            const FragmentWeights here = mapped.at(row[i].pixel, row[i].screen_weights);
+            const FragmentBarycentrics here = mapped.at(row[i].pixel, row[i].screen_barycentrics);
             if (i >= end) {
                 begin = i, end = std::max(std::min(i + length, row.size() - 1), i + 1);
-                expect_same(here, exact.at(row[i].screen_weights));
+                expect_same(here, perspective_correct(setup, row[i].screen_barycentrics));
                 continue;
             }
-            const vec3 at_begin = exact.at(row[begin].screen_weights).here;
-            const vec3 at_end = exact.at(row[end].screen_weights).here;
+            const vec3 at_begin = perspective_correct(setup, row[begin].screen_barycentrics).here;
+            const vec3 at_end = perspective_correct(setup, row[end].screen_barycentrics).here;
             const float share = static_cast<float>(i - begin) / static_cast<float>(end - begin);
             const vec3 between = at_begin + share * (at_end - at_begin);
             EXPECT_LT(greatest(here.here - between), in_span_tolerance)
@@ -152,30 +149,35 @@ long difference(const Image<u8vec4>& a, const Image<u8vec4>& b) {
 
 }  // namespace
 
-TEST(TextureVariants, PerspectiveIsPerspectiveWeights) {
+TEST(TextureVariants, PerspectiveIsPerspectiveCorrect) {
     for (const Case& c : random_cases(100, 50)) {
-        MappedWeights mapped({}, c.on_screen, c.clipped);
-        const PerspectiveWeights exact(c.on_screen, c.clipped);
-        fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-            expect_same(mapped.at(pixel, screen_weights), exact.at(screen_weights));
+        MappedBarycentrics mapped({}, c.on_screen, c.clipped);
+        const PerspectiveSetup setup = perspective_setup(c.on_screen, c.clipped);
+        fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
+            expect_same(mapped.at(pixel, screen_barycentrics),
+                        perspective_correct(setup, screen_barycentrics));
         });
     }
 }
 
 TEST(TextureVariants, AffineIsWhatTheScreenHas) {
     for (const Case& c : random_cases(100, 50)) {
-        MappedWeights mapped({{}, affine}, c.on_screen, c.clipped);
-        const mat3 weights(c.clipped[0].weights, c.clipped[1].weights, c.clipped[2].weights);
+        MappedBarycentrics mapped({{}, affine}, c.on_screen, c.clipped);
+        const mat3 whole_from_piece(c.clipped[0].barycentrics, c.clipped[1].barycentrics,
+                                    c.clipped[2].barycentrics);
         for (const auto& row : rows_of(c.on_screen))
             for (std::size_t i = 0; i < row.size(); ++i) {
-                const FragmentWeights here = mapped.at(row[i].pixel, row[i].screen_weights);
-                ASSERT_EQ(here.here, weights * row[i].screen_weights);
-                if (weights == mat3(1)) { ASSERT_EQ(here.here, row[i].screen_weights); }
+                const FragmentBarycentrics here =
+                    mapped.at(row[i].pixel, row[i].screen_barycentrics);
+                ASSERT_EQ(here.here, whole_from_piece * row[i].screen_barycentrics);
+                if (whole_from_piece == mat3(1)) {
+                    ASSERT_EQ(here.here, row[i].screen_barycentrics);
+                }
                 if (i == 0) continue;
-                // Screen weights are within 2 ulp each; so is their difference, twice.
+                // Screen barycentrics are within 2 ulp each; so is their difference, twice.
                 const vec3 step =
-                    here.here - mapped.at(row[i - 1].pixel, row[i - 1].screen_weights).here;
-                ASSERT_LT(greatest(here.step_x - step), 8 * ulp);
+                    here.here - mapped.at(row[i - 1].pixel, row[i - 1].screen_barycentrics).here;
+                ASSERT_LT(greatest(here.ddx - step), 8 * ulp);
             }
     }
 }
@@ -202,54 +204,34 @@ TEST(TextureVariants, SpansBeginWherePixelsWereLeftOut) {
     EXPECT_GT(within, 10'000);
 }
 
-TEST(TextureVariants, BandsShowWhatAWholeTriangleShows) {
-    std::mt19937 random(1);
-    for (const ivec2 picture :
-         {ivec2(1, 1), ivec2(63, 20), ivec2(64, 20), ivec2(65, 20), ivec2(300, 40)}) {
-        const vec2 far = vec2(picture) + 20.0f;
-        std::uniform_real_distribution<float> x(-20, far.x), y(-20, far.y);
-        int visited = 0;
-        for (int i = 0; i < 2000; ++i) {
-            const auto corner = [&] { return vec2(x(random), y(random)); };
-            const ScreenTriangle triangle = snap_triangle(corner(), corner(), corner());
-            Image<vec3> at_once(picture, vec3(-1)), bands(picture, vec3(-1));
-            fill_triangle(triangle, picture, [&](ivec2 p, vec3 weights) { at_once[p] = weights; });
-            ivec2 before(-1);
-            fill_in_bands(triangle, picture, [&](ivec2 p, vec3 weights) {
-                ASSERT_EQ(bands[p], vec3(-1)) << "visited twice";
-                bands[p] = weights;
-                EXPECT_TRUE(p.y > before.y || p.x > before.x) << "neither below nor beside";
-                before = p, ++visited;
-            });
-            ASSERT_EQ(bands, at_once) << picture.x << ": case " << i;
-        }
-        EXPECT_GT(visited, 100);
-    }
-}
-
-TEST(TextureVariants, SpansBeginAnewInEachRowOfABand) {
+TEST(TextureVariants, SpansBeginAnewInEachRow) {
     int begun = 0;
     for (const Case& c : random_cases(200, 50))
         for (const int every : spans) {
-            const MappedWeights fresh({{}, every}, c.on_screen, c.clipped);
-            MappedWeights mapped = fresh, of_row = fresh;
+            const MappedBarycentrics fresh({{}, every}, c.on_screen, c.clipped);
+            MappedBarycentrics mapped = fresh, of_row = fresh;
             int row = -1;
-            fill_in_bands(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-                if (pixel.y != row) of_row = fresh, row = pixel.y, ++begun;
-                expect_same(mapped.at(pixel, screen_weights), of_row.at(pixel, screen_weights));
-            });
+            // Also of tiles, one after the other: then a row is begun again.
+            for (int x = 0; x < size.x; x += 64) {
+                const auto check = [&](ivec2 pixel, Barycentrics screen_barycentrics) {
+                    if (pixel.y != row) of_row = fresh, row = pixel.y, ++begun;
+                    expect_same(mapped.at(pixel, screen_barycentrics),
+                                of_row.at(pixel, screen_barycentrics));
+                };
+                fill_triangle(c.on_screen, {x, 0}, {x + 63, size.y - 1}, check);
+            }
             ASSERT_FALSE(HasFailure());
         }
     EXPECT_GT(begun, 10'000);
 }
 
-TEST(TextureVariants, WeightsStaySharesHoweverDeepATriangleIs) {
+TEST(TextureVariants, BarycentricsStaySharesHoweverDeepATriangleIs) {
     for (const float greatest_w : {1e3f, 1e12f})
         for (const Case& c : random_cases(100, greatest_w))
             for (const int every : spans) {
-                MappedWeights mapped({{}, every}, c.on_screen, c.clipped);
-                fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-                    const vec3 here = mapped.at(pixel, screen_weights).here;
+                MappedBarycentrics mapped({{}, every}, c.on_screen, c.clipped);
+                fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
+                    const vec3 here = mapped.at(pixel, screen_barycentrics).here;
                     ASSERT_GE(std::min({here.x, here.y, here.z}), -in_span_tolerance);
                     ASSERT_NEAR(here.x + here.y + here.z, 1, in_span_tolerance);
                 });
@@ -261,11 +243,11 @@ TEST(TextureVariants, AffineIsWrongByNineElevenths) {
     const Case c(whole({vec4(-1, -1, 0, 1), vec4(100, -100, 0, 100), vec4(-1, 1, 0, 1)}));
     std::vector<float> worst;
     for (const int mapping : {affine, 64, 32, 16, 8, 4, 1}) {
-        MappedWeights mapped({{}, mapping}, c.on_screen, c.clipped);
+        MappedBarycentrics mapped({{}, mapping}, c.on_screen, c.clipped);
         worst.push_back(0);
-        fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
+        fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
             const float x = (static_cast<float>(pixel.x) + 0.5f) / static_cast<float>(size.x);
-            const float u = mapped.at(pixel, screen_weights).here.y;
+            const float u = mapped.at(pixel, screen_barycentrics).here.y;
             worst.back() = std::max(worst.back(), std::abs(u - x / (100 - 99 * x)));
         });
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Polygons cut into triangles: the areas add up exactly and no triangle is inverted.
-#include "common/triangulate.hpp"
+#include "common/model/triangulate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,17 +79,17 @@ testing::AssertionResult is_cut_exactly(std::vector<Point> polygon) {
     return testing::AssertionSuccess();
 }
 
-std::vector<Point> circle(int corner_count, double radius) {
+std::vector<Point> circle(int vertex_count, double radius) {
     std::vector<Point> points;
-    for (int i = 0; i < corner_count; ++i) {
-        const double angle = 2 * std::numbers::pi * i / corner_count;
+    for (int i = 0; i < vertex_count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / vertex_count;
         points.push_back(
             {std::llround(radius * std::cos(angle)), std::llround(radius * std::sin(angle))});
     }
     return points;
 }
 
-/// A polygon with a hole, and the bridge from corner 0 to the hole's corner 0, there and back.
+/// A polygon with a hole, and the bridge from vertex 0 to the hole's vertex 0, there and back.
 std::vector<Point> with_hole(std::vector<Point> outside, const std::vector<Point>& hole) {
     outside.push_back(outside[0]);
     outside.push_back(hole[0]);
@@ -200,8 +200,8 @@ TEST(Triangulate, AreasAddUpExactly) {
                                 {0, 2}}));  // a spiral
 }
 
-TEST(Triangulate, HardCase_OneUlpDecidesWhetherACornerIsReflex) {
-    // Corner 2 lies one unit of 2^-24 beside the straight line from 1 to 3, inside or outside.
+TEST(Triangulate, HardCase_OneUlpDecidesWhetherAVertexIsReflex) {
+    // Vertex 2 lies one unit of 2^-24 beside the straight line from 1 to 3, inside or outside.
     const std::int64_t n = (1 << 24) - 1;
     EXPECT_TRUE(is_cut_exactly({{0, n}, {0, 0}, {n / 3, n / 3 + 1}, {n, n - 1}}));
     EXPECT_TRUE(is_cut_exactly({{0, n}, {0, 0}, {n / 3, n / 3 - 1}, {n, n - 1}}));
@@ -214,7 +214,7 @@ TEST(Triangulate, HardCase_RingWithABridgeToItsHole) {
     EXPECT_TRUE(is_cut_exactly(ring));
 }
 
-TEST(Triangulate, HardCase_SeveralHolesBridgedFromOneCorner) {
+TEST(Triangulate, HardCase_SeveralHolesBridgedFromOneVertex) {
     std::vector<Point> polygon{{0, 0}, {90, 0}, {90, 90}, {0, 90}};
     for (const Point at : {Point{10, 60}, Point{40, 40}, Point{60, 10}})
         polygon =
@@ -251,12 +251,12 @@ TEST(Triangulate, HardCase_BridgesWithBends) {
                                 {0, 4}}));
 }
 
-TEST(Triangulate, HardCase_CornersThatTouch) {
+TEST(Triangulate, HardCase_VerticesThatTouch) {
     EXPECT_TRUE(
         is_cut_exactly({{0, 0}, {2, 2}, {4, 0}, {4, 4}, {2, 2}, {0, 4}}));  // a bow at a point
     EXPECT_TRUE(is_cut_exactly({{0, 0}, {8, 0}, {8, 8}, {0, 8}, {4, 0}, {0, 7}}));  // on an edge
     EXPECT_TRUE(
-        is_cut_exactly({{0, 0}, {8, 0}, {8, 4}, {8, 8}, {4, 8}, {8, 4}, {0, 4}}));  // on a corner
+        is_cut_exactly({{0, 0}, {8, 0}, {8, 4}, {8, 8}, {4, 8}, {8, 4}, {0, 4}}));  // on a vertex
 }
 
 TEST(Triangulate, PolygonsWithoutAreaGiveTrianglesWithoutArea) {
@@ -268,7 +268,7 @@ TEST(Triangulate, PolygonsWithoutAreaGiveTrianglesWithoutArea) {
         is_cut_exactly({{0, 0}, {4, 0}, {4, 3}, {4, 0}, {8, 1}, {4, 0}}));  // a tree, walked around
 }
 
-TEST(Triangulate, DuplicateAndStraightCornersCostTrianglesWithoutArea) {
+TEST(Triangulate, DuplicateAndStraightVerticesCostTrianglesWithoutArea) {
     EXPECT_TRUE(is_cut_exactly({{0, 0}, {0, 0}, {4, 0}, {4, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 4}}));
     EXPECT_TRUE(is_cut_exactly(
         {{0, 0}, {1, 0}, {2, 0}, {4, 0}, {4, 2}, {4, 4}, {2, 2}, {1, 3}, {0, 4}, {0, 1}}));
@@ -277,19 +277,19 @@ TEST(Triangulate, DuplicateAndStraightCornersCostTrianglesWithoutArea) {
     EXPECT_TRUE(is_cut_exactly({{0, 0}, {4, 0}, {4, 4}, {2, 2}, {4, 4}, {0, 4}}));  // inwards
     EXPECT_TRUE(is_cut_exactly(
         {{0, 0}, {4, 0}, {9, 1}, {4, 0}, {4, 4}, {4, 4}, {0, 4}}));         // and a duplicate
-    EXPECT_TRUE(is_cut_exactly({{0, 0}, {4, 0}, {1, 1}, {1, 1}, {0, 4}}));  // at a reflex corner
+    EXPECT_TRUE(is_cut_exactly({{0, 0}, {4, 0}, {1, 1}, {1, 1}, {0, 4}}));  // at a reflex vertex
 }
 
 /// Grows a polygon at random whose edges touch but do not cross: from a grid, cut into triangles,
 /// it takes one triangle after the other over one of its edges, and now and then draws a line out
-/// along an edge of the grid and back. What closes up leaves slits, holes with bridges, and corners
-/// that touch.
+/// along an edge of the grid and back. What closes up leaves slits, holes with bridges, and
+/// vertices that touch.
 class PolygonGrower {
   public:
     explicit PolygonGrower(unsigned polygon_seed) : random_(polygon_seed), size_(2 + below(5)) {
         for (std::int64_t i = 0; i < size_ * size_; ++i) rises_.push_back(below(2) == 1);
-        const Point corner{below(size_), below(size_)}, right{corner.x + 1, corner.y};
-        polygon_ = {corner, right, {corner.x + (rises_at(corner) ? 1 : 0), corner.y + 1}};
+        const Point vertex{below(size_), below(size_)}, right{vertex.x + 1, vertex.y};
+        polygon_ = {vertex, right, {vertex.x + (rises_at(vertex) ? 1 : 0), vertex.y + 1}};
         taken_.insert(sorted(polygon_[0], polygon_[1], polygon_[2]));
     }
 
@@ -344,7 +344,7 @@ class PolygonGrower {
         return count;
     }
 
-    /// Takes in the triangle outside the edge that begins at corner i.
+    /// Takes in the triangle outside the edge that begins at vertex i.
     void take_triangle(std::size_t i) {
         const Point p = polygon_[i], q = after(i);
         for (const Point r : neighbours(p))
@@ -358,7 +358,7 @@ class PolygonGrower {
             }
     }
 
-    /// Draws a line from corner i to a neighbour in the grid and back, where it meets no other.
+    /// Draws a line from vertex i to a neighbour in the grid and back, where it meets no other.
     void draw_line(std::size_t i) {
         const Point p = polygon_[i];
         const std::vector<Point> ends = neighbours(p);
@@ -389,7 +389,7 @@ class PolygonGrower {
         };
         return turn(b) > 0 && turn(b) < turn(c);
     }
-    /// True when the line through p at another corner may have some of the points on either side.
+    /// True when the line through p at another vertex may have some of the points on either side.
     bool is_parted(Point p, std::size_t other, const std::array<Point, 3>& points) const {
         const Point a = before(other), c = after(other);
         const auto is_on_line = [&](Point q) { return q == a || q == c; };
@@ -403,7 +403,7 @@ class PolygonGrower {
     std::vector<bool> rises_;  ///< For each cell: its diagonal goes up to the right.
     std::set<Triangle> taken_;
     std::vector<Point> polygon_;
-    std::size_t last_ = 0;  ///< The corner added last.
+    std::size_t last_ = 0;  ///< The vertex added last.
 };
 
 TEST(Triangulate, HardCase_RandomPolygonsWhoseEdgesTouch) {
@@ -429,15 +429,15 @@ TEST(Triangulate, RandomStarsAreCutExactly) {
 
 TEST(Triangulate, PolygonsThatCrossThemselvesGiveTriangles) {
     std::mt19937 random(seed);
-    for (const std::size_t corner_count : {4u, 5u, 8u, 50u, 2000u})
+    for (const std::size_t vertex_count : {4u, 5u, 8u, 50u, 2000u})
         for (int i = 0; i < 20; ++i) {
-            std::vector<vec3> polygon(corner_count);
+            std::vector<vec3> polygon(vertex_count);
             const auto side = 2 + random() % 50;  // small: many points are equal
             for (vec3& p : polygon) p = {random() % side, random() % side, random() % side};
             const auto triangles = triangulate(polygon);
-            ASSERT_EQ(triangles.size(), corner_count - 2);
+            ASSERT_EQ(triangles.size(), vertex_count - 2);
             for (const auto& triangle : triangles)
-                for (const std::uint32_t corner : triangle) ASSERT_LT(corner, corner_count);
+                for (const std::uint32_t vertex : triangle) ASSERT_LT(vertex, vertex_count);
         }
 }
 

@@ -12,7 +12,7 @@
 #include "01_bresenham_lines/line_variants.hpp"
 #include "02_triangle_fill/triangle_variants.hpp"
 #include "03_z_buffer/depth_variants.hpp"
-#include "common/image_io.hpp"
+#include "common/image/image_io.hpp"
 #include "support/exact_area.hpp"
 #include "support/lesson_process.hpp"
 #include "support/printers.hpp"
@@ -34,18 +34,18 @@ Image<float> drawn_line(LineMethod method, ivec2 a, ivec2 b, ivec2 size,
 }
 
 /// How often each pixel is visited, row by row.
-std::vector<int> hits_of(const FillVariant& variant, const std::array<dvec2, 3>& corners,
+std::vector<int> hits_of(const FillVariant& variant, const std::array<dvec2, 3>& vertices,
                          ivec2 size) {
     Image<int> hits(size, 0);
-    fill_bounding_box_as(variant, corners, size, [&](ivec2 pixel, vec3) { ++hits[pixel]; });
+    fill_bounding_box_as(variant, vertices, size, [&](ivec2 pixel, vec3) { ++hits[pixel]; });
     return {hits.pixels().begin(), hits.pixels().end()};
 }
 
-std::array<dvec2, 3> random_corners(std::mt19937& random, double low, double high) {
+std::array<dvec2, 3> random_vertices(std::mt19937& random, double low, double high) {
     std::uniform_real_distribution<double> any(low, high);
-    std::array<dvec2, 3> corners;
-    for (dvec2& corner : corners) corner = {any(random), any(random)};
-    return corners;
+    std::array<dvec2, 3> vertices;
+    for (dvec2& vertex : vertices) vertex = {any(random), any(random)};
+    return vertices;
 }
 
 }  // namespace
@@ -99,9 +99,9 @@ TEST(Variants, FixedPointDriftsByAtMostHalfAStepOfItsFraction) {
 TEST(Variants, WholeBoundingBoxesVisitWhatFillTriangleVisits) {
     std::mt19937 random(1);
     for (int i = 0; i < 300; ++i) {
-        std::array<dvec2, 3> t = random_corners(random, -20, 60);
+        std::array<dvec2, 3> t = random_vertices(random, -20, 60);
         if (i % 2 == 0)  // sides through centres, some of them level
-            for (dvec2& corner : t) corner = glm::floor(corner / 8.0) * 8.0 + 0.5;
+            for (dvec2& vertex : t) vertex = glm::floor(vertex / 8.0) * 8.0 + 0.5;
         std::vector<int> expected(40 * 40);
         const ScreenTriangle on_screen = snap_triangle(t[0], t[1], t[2]);
         const std::array<dvec2, 3> as_float = {vec2(t[0]), vec2(t[1]), vec2(t[2])};
@@ -115,19 +115,20 @@ TEST(Variants, WholeBoundingBoxesVisitWhatFillTriangleVisits) {
         for (std::size_t k = 0; k < 3; ++k) snapped[k] = glm::round(as_float[k] * 256.0) / 256.0;
         for (const EdgeNumber number : {EdgeNumber::float32, EdgeNumber::float64})
             EXPECT_EQ(hits_of({.edges = number}, snapped, ivec2(40)), expected)
-                << "corners that need no rounding";
+                << "vertices that need no rounding";
     }
 }
 
-TEST(Variants, WeightsOfABoundingBoxAddUpToOne) {
+TEST(Variants, BarycentricsOfABoundingBoxAddUpToOne) {
     for (const EdgeNumber number :
          {EdgeNumber::int64, EdgeNumber::int32, EdgeNumber::float32, EdgeNumber::float64}) {
         vec3 first(0);
         int visited = 0;
         fill_bounding_box_as({.edges = number}, {dvec2(1, 1), dvec2(1, 9), dvec2(9, 1)}, ivec2(20),
-                             [&](ivec2 pixel, vec3 weights) {
-                                 EXPECT_NEAR(weights.x + weights.y + weights.z, 1, 1e-6f);
-                                 if (pixel == ivec2(2, 2)) first = weights;
+                             [&](ivec2 pixel, vec3 barycentrics) {
+                                 EXPECT_NEAR(barycentrics.x + barycentrics.y + barycentrics.z, 1,
+                                             1e-6f);
+                                 if (pixel == ivec2(2, 2)) first = barycentrics;
                                  ++visited;
                              });
         EXPECT_EQ(visited, 28) << "half of the square; the diagonal is a right side, not its own";
@@ -145,7 +146,7 @@ TEST(Variants, FewerBitsSnapToCoarserPlaces) {
     EXPECT_NE(hits_of({.subpixel_bits = 2}, t, ivec2(8)), whole);
 }
 
-TEST(Variants, CornersOutOfRangeVisitNothing) {
+TEST(Variants, VerticesOutOfRangeVisitNothing) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const EdgeNumber number :
          {EdgeNumber::int64, EdgeNumber::int32, EdgeNumber::float32, EdgeNumber::float64})
@@ -198,7 +199,7 @@ TEST(Variants, DepthsAreRoundedToTheNearestOfTheirBits) {
 TEST(Variants, AreasInPixelsAddUpToThePolygon) {
     std::mt19937 random(1);
     for (int i = 0; i < 100; ++i) {
-        const auto t = random_corners(random, 0, 12);
+        const auto t = random_vertices(random, 0, 12);
         const dvec2 u = t[1] - t[0], v = t[2] - t[0];
         double sum = 0;
         for (int y = 0; y < 12; ++y)

@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/generate/model.hpp"
-#include "common/image_bytes.hpp"
+#include "common/image/image_bytes.hpp"
 
 namespace rasterbook::assets {
 

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "assets/generate/noise.hpp"
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook::assets {

@@ -7,7 +7,7 @@
 #include <concepts>
 #include <cstdint>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook {
 

@@ -4,6 +4,9 @@
 /// docs/conventions.md.
 #pragma once
 
+/// @cond
+#define GLM_FORCE_UNRESTRICTED_GENTYPE  // vectors of any number type: Vec3<F>
+/// @endcond
 #include <glm/gtc/type_precision.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -17,6 +20,10 @@ using glm::dmat3, glm::dmat4, glm::dvec2, glm::dvec3, glm::dvec4;
 using glm::ivec2, glm::ivec3, glm::uvec3;
 using glm::mat3, glm::mat4, glm::vec2, glm::vec3, glm::vec4;
 using glm::u8vec3, glm::u8vec4;
+
+/// Three numbers of a type F: float, or a struct of several floats (common/math/functions.hpp).
+template <typename F>
+using Vec3 = glm::vec<3, F>;
 
 /// The 3x3 matrix with these rows, as it stands on paper. (GLM's own constructor takes columns.)
 template <typename T>

@@ -2,9 +2,9 @@
 /// @file
 /// Lesson 01: the model as a wireframe.
 #include "01_bresenham_lines/line_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-#include "common/parallel_view.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/app/orthographic_view.hpp"
+#include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
@@ -31,15 +31,15 @@ vec3 line_color(float depth) {
 
 template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
-    const ParallelView view(scene, options.size);
+    const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Face& face : mesh.faces) {
-            vec3 from = positions_screen[mesh.corners_of(face).back().position];
-            for (const Corner& corner : mesh.corners_of(face)) {
-                const vec3 to = positions_screen[corner.position];
+            vec3 from = positions_screen[mesh.vertices_of(face).back().position];
+            for (const Vertex& vertex : mesh.vertices_of(face)) {
+                const vec3 to = positions_screen[vertex.position];
                 const vec3 light = line_color(0.5f * (from.z + to.z));
                 counters.add(Counter::lines);
                 draw_line_as(options.line, pixel_of(from), pixel_of(to), options.size,

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "common/math/numerics.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
@@ -18,7 +18,7 @@ namespace rasterbook {
 inline vec3 flat_color(const Mesh& mesh, const Triangle& triangle, const Material& material) {
     constexpr vec3 up(0, 1, 0), sun_color(1.05f, 0.97f, 0.86f), sky_color(0.17f, 0.22f, 0.30f);
     const vec3 toward_sun = normalize_or(vec3(-0.75f, 0.85f, 0.3f), up);
-    const auto [a, b, c] = triangle.corners;
+    const auto [a, b, c] = triangle.vertices;
     const dvec3 origin = mesh.positions[a.position];  // double: a product of floats may overflow
     const dvec3 ab = dvec3(mesh.positions[b.position]) - origin;
     const dvec3 ac = dvec3(mesh.positions[c.position]) - origin;

@@ -3,49 +3,51 @@
 /// Lesson 02: the model as filled triangles, each painted over those before it.
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-#include "common/parallel_view.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/app/orthographic_view.hpp"
+#include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
 namespace {
 
-enum class Paint { flat, weights };
+enum class Paint { flat, barycentric };
 
 struct Options : LessonOptions {
     Paint paint = Paint::flat;
     FillVariant fill;
 
     void declare(Knobs& knobs) {
-        knobs.choice("--paint", paint, {{"flat", Paint::flat}, {"weights", Paint::weights}},
-                     "One colour for each triangle, or its three weights as red, green and blue");
+        knobs.choice(
+            "--paint", paint, {{"flat", Paint::flat}, {"barycentric", Paint::barycentric}},
+            "One colour for each triangle, or its three barycentrics as red, green and blue");
         fill.declare(knobs);
     }
 };
 
 template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
-    const ParallelView view(scene, options.size);
+    const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
             counters.add(Counter::triangles_in);
-            const vec3 a = positions_screen[triangle.corners[0].position];
-            const vec3 b = positions_screen[triangle.corners[1].position];
-            const vec3 c = positions_screen[triangle.corners[2].position];
+            const vec3 a = positions_screen[triangle.vertices[0].position];
+            const vec3 b = positions_screen[triangle.vertices[1].position];
+            const vec3 c = positions_screen[triangle.vertices[2].position];
             const ScreenTriangle on_screen = snap_triangle(a, b, c);
             if (!is_front_facing(on_screen)) {
                 counters.add(Counter::triangles_culled_by_facing);
                 continue;
             }
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
-            fill(options.fill, on_screen, {a, b, c}, options.size, [&](ivec2 pixel, vec3 weights) {
-                counters.add(Counter::fragments_shaded);
-                color[pixel] = options.paint == Paint::flat ? face_color : weights;
-            });
+            fill(options.fill, on_screen, {a, b, c}, options.size,
+                 [&](ivec2 pixel, vec3 barycentrics) {
+                     counters.add(Counter::fragments_shaded);
+                     color[pixel] = options.paint == Paint::flat ? face_color : barycentrics;
+                 });
         }
     }
     return color;

@@ -22,10 +22,13 @@ static_assert(subpixel_bits >= 1, "a pixel's centre has to be a whole step");
 /// (Eq. 2.9).
 constexpr float coordinate_limit = 1 << 22;
 
-/// A triangle on the screen, its corners snapped to 1/256 pixel.
+/// The barycentric coordinates of a point: the three vertices' shares in it (Eq. 2.4).
+using Barycentrics = vec3;
+
+/// A triangle on the screen, its vertices snapped to 1/256 pixel.
 struct ScreenTriangle {
-    std::array<ivec2, 3> corners;  ///< In 1/256 pixel, x right, y down.
-    std::int64_t twice_area;       ///< In 1/65536 square pixel; > 0 where seen counter-clockwise.
+    std::array<ivec2, 3> vertices;  ///< In 1/256 pixel, x right, y down.
+    std::int64_t twice_area;        ///< In 1/65536 square pixel; > 0 where seen counter-clockwise.
 };
 
 /// Twice the area of the triangle a, b, p: positive for p on the left of the way from a to b as
@@ -40,7 +43,7 @@ constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
     return normal_x * (std::int64_t{p.x} - a.x) + normal_y * (std::int64_t{p.y} - a.y);
 }
 
-/// The triangle with its corners snapped to the nearest 1/256 pixel, halves to even (Eq. 2.8).
+/// The triangle with its vertices snapped to the nearest 1/256 pixel, halves to even (Eq. 2.8).
 ///
 /// @param a,b,c  Screen space, pixels. When a coordinate is not a number or is not below
 ///               coordinate_limit in size, the triangle becomes one of no area, which covers
@@ -57,7 +60,7 @@ inline ScreenTriangle snap_triangle(vec2 a, vec2 b, vec2 c) {
     return {{snapped_a, snapped_b, snapped_c}, edge_function(snapped_a, snapped_b, snapped_c)};
 }
 
-/// Whether the corners are seen counter-clockwise. False for a triangle of no area.
+/// Whether the vertices are seen counter-clockwise. False for a triangle of no area.
 constexpr bool is_front_facing(const ScreenTriangle& triangle) { return triangle.twice_area > 0; }
 
 /// One side of a triangle, to be asked about one pixel centre after the other (Eq. 2.5).
@@ -94,19 +97,19 @@ struct EdgeWalk {
 /// Visits each pixel of a picture, or of a part of one, whose centre the triangle covers.
 ///
 /// A centre on a side belongs to the triangle when the side is a left or a top one, so that
-/// triangles which share sides visit each pixel once (Eq. 2.7). The order of the corners does not
+/// triangles which share sides visit each pixel once (Eq. 2.7). The order of the vertices does not
 /// matter.
 ///
 /// @param triangle  A triangle of no area visits nothing.
 /// @param first     The part's upper left pixel, from 0 on.
 /// @param last      Its lower right one, below 2^22. Before `first` there is nothing to visit.
-/// @param emit      Called as emit(ivec2 pixel, vec3 weights), row by row, once for each pixel.
-///                  The weights are the corners' shares at the pixel's centre: >= 0, each within 2
-///                  ulp of its exact value (Eq. 2.4), and the same whatever the part.
-template <std::invocable<ivec2, vec3> Emit>
+/// @param emit      Called as emit(ivec2 pixel, Barycentrics), row by row, once for each pixel,
+///                  with the coordinates of its centre: >= 0, each within 2 ulp of its exact value
+///                  (Eq. 2.4), and the same whatever the part.
+template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
     if (triangle.twice_area == 0) return;
-    const auto [a, b, c] = triangle.corners;
+    const auto [a, b, c] = triangle.vertices;
     const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
     // The first centre at or after `low`, the last at or before `high`; >> rounds down.
     const ivec2 first_pixel = glm::max((low + (subpixels / 2 - 1)) >> subpixel_bits, first);
@@ -114,7 +117,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
     if (first_pixel.x > last_pixel.x) return;
 
     const int winding = triangle.twice_area > 0 ? 1 : -1;
-    // Opposite to its corner, a side's value is the corner's share of the area (Eq. 2.3).
+    // Opposite to its vertex, a side's value is the vertex's share of the area (Eq. 2.3).
     EdgeWalk edge_a(b, c, winding, first_pixel);
     EdgeWalk edge_b(c, a, winding, first_pixel);
     EdgeWalk edge_c(a, b, winding, first_pixel);
@@ -129,7 +132,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
         std::int64_t share_c = edge_c.value + left * edge_c.step_x;
         const int last_x = first_pixel.x + static_cast<int>(right);
         for (int x = first_pixel.x + static_cast<int>(left); x <= last_x; ++x) {
-            emit(ivec2(x, y), vec3(share_a, share_b, share_c) * per_area);  // Eq. 2.4
+            emit(ivec2(x, y), Barycentrics(share_a, share_b, share_c) * per_area);  // Eq. 2.4
             share_a += edge_a.step_x;
             share_b += edge_b.step_x;
             share_c += edge_c.step_x;
@@ -141,7 +144,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
 /// The same of a whole picture.
 ///
 /// @param size  Width and height in pixels, each 0 to 2^22.
-template <std::invocable<ivec2, vec3> Emit>
+template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
     fill_triangle(triangle, ivec2(0), size - 1, emit);
 }

@@ -12,7 +12,7 @@
 #include <type_traits>
 
 #include "02_triangle_fill/triangle.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 
@@ -29,20 +29,20 @@ struct FillVariant {
                       {"int32", EdgeNumber::int32},
                       {"float", EdgeNumber::float32},
                       {"double", EdgeNumber::float64}},
-                     "What edge functions are computed in; corners are snapped for the first two");
+                     "What edge functions are computed in; vertices are snapped for the first two");
         knobs.choice("--subpixel-bits", subpixel_bits,
                      {{"0", 0}, {"2", 2}, {"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
-                     "Corners are snapped to pixels divided by 2 so many times");
+                     "Vertices are snapped to pixels divided by 2 so many times");
     }
 };
 
 /// Visits the pixels whose centres a triangle covers, as fill_triangle does, but asks every pixel
 /// of the bounding box, and computes in `Number`. Whole numbers that are too large wrap around.
 ///
-/// @param corners  In pixels times `scale`, finite.
-/// @param emit     Called as emit(ivec2 pixel, vec3 weights).
+/// @param vertices  In pixels times `scale`, finite.
+/// @param emit     Called as emit(ivec2 pixel, vec3 barycentrics).
 template <typename Number, std::invocable<ivec2, vec3> Emit>
-void fill_bounding_box(const std::array<glm::vec<2, Number>, 3>& corners, Number scale, ivec2 size,
+void fill_bounding_box(const std::array<glm::vec<2, Number>, 3>& vertices, Number scale, ivec2 size,
                        Emit&& emit) {
     using Wrapping =
         typename std::conditional_t<std::is_integral_v<Number>, std::make_unsigned<Number>,
@@ -56,7 +56,7 @@ void fill_bounding_box(const std::array<glm::vec<2, Number>, 3>& corners, Number
     const auto sum = [](Number u, Number v) {
         return static_cast<Number>(static_cast<Wrapping>(u) + static_cast<Wrapping>(v));
     };
-    const auto [a, b, c] = corners;
+    const auto [a, b, c] = vertices;
     const Number twice_area = sum(product(difference(b.y, a.y), difference(c.x, a.x)),
                                   product(difference(a.x, b.x), difference(c.y, a.y)));
     if (twice_area == 0) return;
@@ -100,21 +100,21 @@ void fill_bounding_box(const std::array<glm::vec<2, Number>, 3>& corners, Number
 
 /// Fills the bounding box in the variant's numbers.
 ///
-/// @param corners  In pixels, not snapped. When a coordinate is not a number or reaches 2^30 steps,
+/// @param vertices In pixels, not snapped. When a coordinate is not a number or reaches 2^30 steps,
 ///                 nothing is visited.
 template <std::invocable<ivec2, vec3> Emit>
-void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>& corners,
+void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>& vertices,
                           ivec2 size, Emit&& emit) {
     const int bits = variant.subpixel_bits, scale_bits = std::max(bits, 1);  // centres are whole
     const double limit = std::ldexp(1.0, 30 - scale_bits);
-    for (const dvec2 p : corners)
+    for (const dvec2 p : vertices)
         if (!(std::abs(p.x) < limit && std::abs(p.y) < limit)) return;
     const auto snapped = [&]<typename Number>(Number one) {
         std::array<glm::vec<2, Number>, 3> whole;
         for (std::size_t i = 0; i < 3; ++i)
             for (const int axis : {0, 1})
-                whole[i][axis] = static_cast<Number>(std::llrint(std::ldexp(corners[i][axis], bits))
-                                                     << (scale_bits - bits));
+                whole[i][axis] = static_cast<Number>(
+                    std::llrint(std::ldexp(vertices[i][axis], bits)) << (scale_bits - bits));
         fill_bounding_box<Number>(whole, one << scale_bits, size, emit);
     };
     switch (variant.edges) {
@@ -123,24 +123,24 @@ void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>
         case EdgeNumber::int32:
             return snapped(std::int32_t{1});
         case EdgeNumber::float32:
-            return fill_bounding_box<float>({vec2(corners[0]), vec2(corners[1]), vec2(corners[2])},
-                                            1.0f, size, emit);
+            return fill_bounding_box<float>(
+                {vec2(vertices[0]), vec2(vertices[1]), vec2(vertices[2])}, 1.0f, size, emit);
         case EdgeNumber::float64:
-            return fill_bounding_box<double>(corners, 1.0, size, emit);
+            return fill_bounding_box<double>(vertices, 1.0, size, emit);
     }
 }
 
 /// fill_triangle, or when the variant asks for other numbers, fill_bounding_box_as.
 ///
 /// @param on_screen  The triangle as snap_triangle gives it, for fill_triangle.
-/// @param corners    The same in pixels, not snapped.
+/// @param vertices    The same in pixels, not snapped.
 template <std::invocable<ivec2, vec3> Emit>
 void fill(const FillVariant& variant, const ScreenTriangle& on_screen,
-          const std::array<dvec2, 3>& corners, ivec2 size, Emit&& emit) {
+          const std::array<dvec2, 3>& vertices, ivec2 size, Emit&& emit) {
     if (variant.edges == EdgeNumber::int64 && variant.subpixel_bits == subpixel_bits)
         fill_triangle(on_screen, size, emit);
     else
-        fill_bounding_box_as(variant, corners, size, emit);
+        fill_bounding_box_as(variant, vertices, size, emit);
 }
 
 }  // namespace rasterbook

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook {
 
@@ -47,21 +47,21 @@ class DepthBuffer {
     Image<float> depths_;
 };
 
-/// The depth inside a triangle: the corners' depths, weighted (Eq. 3.2).
+/// The depth inside a triangle: the vertices' depths, weighted (Eq. 3.2).
 ///
-/// Measured from the nearest corner, so that the error is small where the triangle's depths differ
-/// little, a triangle of one depth has exactly that depth everywhere, and the order of the corners
+/// Measured from the nearest vertex, so that the error is small where the triangle's depths differ
+/// little, a triangle of one depth has exactly that depth everywhere, and the order of the vertices
 /// does not change a single bit.
 class TriangleDepth {
   public:
-    /// @param depths  Of the three corners, finite.
+    /// @param depths  Of the three vertices, finite.
     explicit TriangleDepth(vec3 depths)
         : nearest_(std::min({depths.x, depths.y, depths.z})), beyond_nearest_(depths - nearest_) {}
 
-    /// @param weights  The corners' shares, >= 0, as fill_triangle gives them.
-    /// @return         Not nearer than the nearest corner.
-    float at(vec3 weights) const {
-        return nearest_ + glm::dot(weights, beyond_nearest_);  // Eq. 3.3
+    /// @param barycentrics  The vertices' shares, >= 0, as fill_triangle gives them.
+    /// @return         Not nearer than the nearest vertex.
+    float at(vec3 barycentrics) const {
+        return nearest_ + glm::dot(barycentrics, beyond_nearest_);  // Eq. 3.3
     }
 
   private:

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "common/lesson_app.hpp"
+#include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 

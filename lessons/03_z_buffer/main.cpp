@@ -5,15 +5,15 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "03_z_buffer/depth_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-#include "common/parallel_view.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/app/orthographic_view.hpp"
+#include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
 namespace {
 
-enum class Paint { flat, weights };
+enum class Paint { flat, barycentric };
 
 struct Options : LessonOptions {
     Paint paint = Paint::flat;
@@ -21,17 +21,16 @@ struct Options : LessonOptions {
     DepthVariant depth;
 
     void declare(Knobs& knobs) {
-        knobs.choice("--paint", paint, {{"flat", Paint::flat}, {"weights", Paint::weights}},
-                     "One colour for each triangle, or its three weights as red, green and blue");
-        knobs.flag("--depth", show_depth,
-                   "Show the depth buffer: near is bright, nothing is black");
+        knobs.choice(
+            "--paint", paint, {{"flat", Paint::flat}, {"barycentric", Paint::barycentric}},
+            "One colour for each triangle, or its three barycentrics as red, green and blue");
         depth.declare(knobs);
     }
 };
 
 template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
-    const ParallelView view(scene, options.size);
+    const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
@@ -39,9 +38,9 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
             counters.add(Counter::triangles_in);
-            const vec3 a = positions_screen[triangle.corners[0].position];
-            const vec3 b = positions_screen[triangle.corners[1].position];
-            const vec3 c = positions_screen[triangle.corners[2].position];
+            const vec3 a = positions_screen[triangle.vertices[0].position];
+            const vec3 b = positions_screen[triangle.vertices[1].position];
+            const vec3 c = positions_screen[triangle.vertices[2].position];
             const ScreenTriangle on_screen = snap_triangle(a, b, c);
             if (!is_front_facing(on_screen)) {
                 counters.add(Counter::triangles_culled_by_facing);
@@ -49,12 +48,12 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
             }
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
             const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-            fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 weights) {
+            fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 barycentrics) {
                 counters.add(Counter::fragments_tested);
-                const float z = options.depth.kept(triangle_depth.at(weights));
+                const float z = options.depth.kept(triangle_depth.at(barycentrics));
                 if (!depth.test_and_write(pixel, z)) return;
                 counters.add(Counter::fragments_shaded);
-                color[pixel] = options.paint == Paint::flat ? face_color : weights;
+                color[pixel] = options.paint == Paint::flat ? face_color : barycentrics;
             });
         }
     }

@@ -11,24 +11,24 @@
 #include <vector>
 
 #include "common/math/types.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
-/// A corner of what is left of a triangle.
-struct ClippedCorner {
+/// A vertex of what is left of a triangle.
+struct ClippedVertex {
     vec4 position_clip;
-    vec3 weights;  ///< Of the whole triangle's corners: this corner is their weighted sum.
+    vec3 barycentrics;  ///< Of the whole triangle's vertices: this vertex is their weighted sum.
 };
 
-using ClippedTriangle = std::array<ClippedCorner, 3>;
+using ClippedTriangle = std::array<ClippedVertex, 3>;
 
 constexpr int frustum_planes = 6;
 
 /// How far inside of one of the six planes a point is in NDC, times w: negative outside (Eq. 4.10).
 ///
 /// @param plane  0 to 5: left, right, bottom, top, near, far.
-constexpr float inside_by(int plane, vec4 position_clip) {
+constexpr float plane_distance(int plane, vec4 position_clip) {
     const float coordinate = position_clip[plane / 2];
     return position_clip.w + (plane % 2 == 0 ? coordinate : -coordinate);
 }
@@ -38,17 +38,17 @@ constexpr float inside_by(int plane, vec4 position_clip) {
 ///
 /// The way from b to a crosses it in the same point, bit for bit: triangles that share a side still
 /// share it when both are cut.
-inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedCorner& b,
+inline ClippedVertex crossing(const ClippedVertex& a, float a_by, const ClippedVertex& b,
                               float b_by) {
     // Eq. 4.12: products of what is large or tiny would leave the range of float.
     const float whole = a_by - b_by, share_of_a = -b_by / whole, share_of_b = a_by / whole;
     return {share_of_a * a.position_clip + share_of_b * b.position_clip,
-            share_of_a * a.weights + share_of_b * b.weights};
+            share_of_a * a.barycentrics + share_of_b * b.barycentrics};
 }
 
-/// The corners that cutting by six planes may leave: 9 of a convex polygon, but rounding may dent
-/// it a little, and then a plane may cut off every second corner and add two for each.
-constexpr std::size_t most_clipped_corners = 28;
+/// The vertices that cutting by six planes may leave: 9 of a convex polygon, but rounding may dent
+/// it a little, and then a plane may cut off every second vertex and add two for each.
+constexpr std::size_t max_clipped_vertices = 28;
 
 /// What is left of one triangle: a polygon, as a fan.
 class ClippedTriangles {
@@ -58,7 +58,7 @@ class ClippedTriangles {
     void add(const ClippedTriangle& triangle) { triangles_[count_++] = triangle; }
 
   private:
-    std::array<ClippedTriangle, most_clipped_corners - 2> triangles_;
+    std::array<ClippedTriangle, max_clipped_vertices - 2> triangles_;
     std::size_t count_ = 0;
 };
 
@@ -68,48 +68,48 @@ constexpr float clip_limit = 0x1p125f;
 /// The nearest point of the frustum to one that rounding has left a little outside of it: on the
 /// screen it then lies inside the picture and its depth between 0 and 1, or, with a w of 0,
 /// nowhere.
-inline vec4 into_frustum(vec4 position_clip) {
+inline vec4 clamped_to_frustum(vec4 position_clip) {
     const float w = std::max(position_clip.w, 0.0f);
     return {glm::clamp(vec3(position_clip), -w, w), w};
 }
 
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.13).
 ///
-/// @param corners  Clip space. When a coordinate is not a number or is not below clip_limit in
+/// @param vertices  Clip space. When a coordinate is not a number or is not below clip_limit in
 ///                 size, nothing is left.
 /// @return         The triangle itself, when it is all inside; nothing, when it is all outside of
-///                 one plane. No corner has a coordinate beyond its w, and no w is negative.
+///                 one plane. No vertex has a coordinate beyond its w, and no w is negative.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
-inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
+inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& vertices) {
     ClippedTriangles clipped;
     unsigned outside_any = 0, outside_all = ~0u;
-    for (const vec4 corner : corners) {
-        if (!glm::all(glm::lessThan(glm::abs(corner), vec4(clip_limit)))) return clipped;
+    for (const vec4 vertex : vertices) {
+        if (!glm::all(glm::lessThan(glm::abs(vertex), vec4(clip_limit)))) return clipped;
         unsigned outside = 0;
         for (int plane = 0; plane < frustum_planes; ++plane)
-            outside |= static_cast<unsigned>(inside_by(plane, corner) < 0) << plane;
+            outside |= static_cast<unsigned>(plane_distance(plane, vertex) < 0) << plane;
         outside_any |= outside;
         outside_all &= outside;
     }
     if (outside_all != 0) return clipped;
     const ClippedTriangle whole = {
-        {{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
+        {{vertices[0], {1, 0, 0}}, {vertices[1], {0, 1, 0}}, {vertices[2], {0, 0, 1}}}};
     if (outside_any == 0) {
         clipped.add(whole);
         return clipped;
     }
 
-    std::array<ClippedCorner, most_clipped_corners> polygon, rest;
+    std::array<ClippedVertex, max_clipped_vertices> polygon, rest;
     std::copy(whole.begin(), whole.end(), polygon.begin());
     std::size_t count = 3;
     for (int plane = 0; plane < frustum_planes; ++plane) {
         if ((outside_any >> plane & 1) == 0) continue;
         std::size_t rest_count = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            const ClippedCorner& from = polygon[i];
-            const ClippedCorner& to = polygon[i + 1 < count ? i + 1 : 0];
-            const float from_by = inside_by(plane, from.position_clip);
-            const float to_by = inside_by(plane, to.position_clip);
+            const ClippedVertex& from = polygon[i];
+            const ClippedVertex& to = polygon[i + 1 < count ? i + 1 : 0];
+            const float from_by = plane_distance(plane, from.position_clip);
+            const float to_by = plane_distance(plane, to.position_clip);
             if (from_by >= 0) rest[rest_count++] = from;
             if ((from_by >= 0) != (to_by >= 0))
                 rest[rest_count++] = crossing(from, from_by, to, to_by);
@@ -118,17 +118,17 @@ inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
         count = rest_count;
     }
     for (std::size_t i = 0; i < count; ++i)
-        polygon[i].position_clip = into_frustum(polygon[i].position_clip);
+        polygon[i].position_clip = clamped_to_frustum(polygon[i].position_clip);
     for (std::size_t i = 2; i < count; ++i) clipped.add({polygon[0], polygon[i - 1], polygon[i]});
     return clipped;
 }
 
-/// A triangle's corners in clip space.
-inline std::array<vec4, 3> corners_of(const Triangle& triangle,
-                                      const std::vector<vec4>& positions_clip) {
-    return {positions_clip[triangle.corners[0].position],
-            positions_clip[triangle.corners[1].position],
-            positions_clip[triangle.corners[2].position]};
+/// A triangle's vertices in clip space.
+inline std::array<vec4, 3> vertices_of(const Triangle& triangle,
+                                       const std::vector<vec4>& positions_clip) {
+    return {positions_clip[triangle.vertices[0].position],
+            positions_clip[triangle.vertices[1].position],
+            positions_clip[triangle.vertices[2].position]};
 }
 
 /// Whether nothing inside the box can be seen: all of its corners are outside of one plane
@@ -143,7 +143,7 @@ inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world
         const vec4 corner_clip = clip_from_world * vec4(corner, 1);
         unsigned outside = 0;
         for (int plane = 0; plane < frustum_planes; ++plane)
-            outside |= static_cast<unsigned>(inside_by(plane, corner_clip) < 0) << plane;
+            outside |= static_cast<unsigned>(plane_distance(plane, corner_clip) < 0) << plane;
         outside_all &= outside;
     }
     return outside_all != 0;
@@ -152,7 +152,7 @@ inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world
 /// A point on the screen in pixels, and its depth: 0 to 1 (Eq. 4.9).
 ///
 /// @param position_clip  Inside the frustum, w > 0. A w of 0 gives NaN, which snap_triangle
-/// refuses.
+///                       refuses.
 inline vec3 screen_from_clip(vec4 position_clip, ivec2 size) {
     const vec3 position_ndc = vec3(position_clip) / position_clip.w;
     return {(position_ndc.x + 1) * 0.5f * static_cast<float>(size.x),

@@ -5,10 +5,10 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
 #include "04_mvp/mvp_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
+#include "04_mvp/projection.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
@@ -20,11 +20,7 @@ struct Options : LessonOptions {
     MvpVariant mvp;
 
     Options() { model = "scene.obj"; }
-    void declare(Knobs& knobs) {
-        knobs.flag("--depth", show_depth,
-                   "Show the depth buffer: near is bright, nothing is black");
-        mvp.declare(knobs);
-    }
+    void declare(Knobs& knobs) { mvp.declare(knobs); }
 };
 
 template <typename CounterPolicy>
@@ -32,42 +28,21 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     if (options.mvp.clipping == Clipping::pixels)
         return render_by_pixels(options, scene, camera, counters);
-    const mat4 clip_from_world = camera.clip_from_world(options.size);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
-    for (const Mesh& mesh : scene.meshes) {
-        counters.add(Counter::meshes_in);
-        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
-            counters.add(Counter::meshes_culled_by_frustum);
-            continue;
-        }
-        const std::vector<vec4> positions_clip =
-            transform(options.mvp, camera, options.size, mesh.positions);
-        for (const Triangle& triangle : mesh.triangles) {
-            counters.add(Counter::triangles_in);
-            for (const ClippedTriangle& clipped :
-                 clip(options.mvp, corners_of(triangle, positions_clip), options.size)) {
-                const vec3 a = screen_from_clip(clipped[0].position_clip, options.size);
-                const vec3 b = screen_from_clip(clipped[1].position_clip, options.size);
-                const vec3 c = screen_from_clip(clipped[2].position_clip, options.size);
-                const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                if (!is_front_facing(on_screen)) {
-                    counters.add(Counter::triangles_culled_by_facing);
-                    continue;
-                }
-                const vec3 face_color =
-                    flat_color(mesh, triangle, scene.materials[triangle.material]);
-                const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 weights) {
-                    counters.add(Counter::fragments_tested);
-                    if (!depth.test_and_write(pixel, triangle_depth.at(weights))) return;
-                    counters.add(Counter::fragments_shaded);
-                    color[pixel] = face_color;
-                });
-            }
-        }
-    }
+    const auto draw = [&](const ProjectedTriangle& projected) {
+        const Material& material = scene.materials[projected.triangle.material];
+        const vec3 face_color = flat_color(projected.mesh, projected.triangle, material);
+
+        fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
+            counters.add(Counter::fragments_tested);
+            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+            counters.add(Counter::fragments_shaded);
+            color[pixel] = face_color;
+        });
+    };
+    for_each_visible_triangle(options.mvp, scene, camera, options.size, counters, draw);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }

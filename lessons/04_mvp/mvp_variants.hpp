@@ -15,8 +15,9 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
+#include "04_mvp/projection.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
 
 namespace rasterbook {
 
@@ -118,16 +119,16 @@ inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& came
 }
 
 /// Nothing is cut off.
-inline ClippedTriangle whole_triangle(const std::array<vec4, 3>& corners) {
-    return {{{corners[0], {1, 0, 0}}, {corners[1], {0, 1, 0}}, {corners[2], {0, 0, 1}}}};
+inline ClippedTriangle whole_triangle(const std::array<vec4, 3>& vertices) {
+    return {{{vertices[0], {1, 0, 0}}, {vertices[1], {0, 1, 0}}, {vertices[2], {0, 0, 1}}}};
 }
 
 /// The part of a triangle beyond the near plane: of that, fill_triangle draws what lies in the
 /// picture. A triangle that reaches too far for fill_triangle is cut by all six planes.
 ///
-/// @param corners  Clip space of a perspective.
+/// @param vertices  Clip space of a perspective.
 /// @param size     Of the picture, in pixels.
-inline ClippedTriangles clip_near(const std::array<vec4, 3>& corners, ivec2 size) {
+inline ClippedTriangles clip_near(const std::array<vec4, 3>& vertices, ivec2 size) {
     constexpr int near_plane = 4;
     // From the picture's middle, in halves of its size: a pixel less than fill_triangle takes.
     const vec2 guard = 2.0f * (coordinate_limit - 1.0f) / vec2(size) - 1.0f;
@@ -135,42 +136,54 @@ inline ClippedTriangles clip_near(const std::array<vec4, 3>& corners, ivec2 size
         return std::abs(p.x) < guard.x * p.w && std::abs(p.y) < guard.y * p.w;
     };
     ClippedTriangles clipped;
-    const auto are_all_outside = [&corners](int plane) {
-        return inside_by(plane, corners[0]) < 0 && inside_by(plane, corners[1]) < 0 &&
-               inside_by(plane, corners[2]) < 0;
+    const auto are_all_outside = [&vertices](int plane) {
+        return plane_distance(plane, vertices[0]) < 0 && plane_distance(plane, vertices[1]) < 0 &&
+               plane_distance(plane, vertices[2]) < 0;
     };
     for (int plane = 0; plane < frustum_planes; ++plane)
         if (are_all_outside(plane)) return clipped;
-    const ClippedTriangle whole = whole_triangle(corners);
-    std::array<ClippedCorner, 4> polygon;
+    const ClippedTriangle whole = whole_triangle(vertices);
+    std::array<ClippedVertex, 4> polygon;
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const ClippedCorner &from = whole[i], &to = whole[i < 2 ? i + 1 : 0];
-        const float from_by = inside_by(near_plane, from.position_clip);
-        const float to_by = inside_by(near_plane, to.position_clip);
+        const ClippedVertex &from = whole[i], &to = whole[i < 2 ? i + 1 : 0];
+        const float from_by = plane_distance(near_plane, from.position_clip);
+        const float to_by = plane_distance(near_plane, to.position_clip);
         if (from_by >= 0) polygon[count++] = from;
         if ((from_by >= 0) != (to_by >= 0)) polygon[count++] = crossing(from, from_by, to, to_by);
     }
     for (std::size_t i = 0; i < count; ++i)
-        if (!is_usable(polygon[i].position_clip)) return clip_triangle(corners);
+        if (!is_usable(polygon[i].position_clip)) return clip_triangle(vertices);
     for (std::size_t i = 2; i < count; ++i) clipped.add({polygon[0], polygon[i - 1], polygon[i]});
     return clipped;
 }
 
 /// clip_triangle, or the variant in its place.
-inline ClippedTriangles clip(const MvpVariant& variant, const std::array<vec4, 3>& corners,
+inline ClippedTriangles clip(const MvpVariant& variant, const std::array<vec4, 3>& vertices,
                              ivec2 size) {
-    return variant.clipping == Clipping::near_plane ? clip_near(corners, size)
-                                                    : clip_triangle(corners);
+    return variant.clipping == Clipping::near_plane ? clip_near(vertices, size)
+                                                    : clip_triangle(vertices);
 }
 
-/// A triangle in clip space with corners anywhere, also behind the camera: the planes through the
+/// for_each_visible_triangle, transformed and clipped as the variant has it; backs are culled.
+template <typename CounterPolicy, typename Visit>
+void for_each_visible_triangle(const MvpVariant& variant, const Scene& scene, const Camera& camera,
+                               ivec2 size, CounterPolicy& counters, Visit&& visit) {
+    for_each_visible_triangle(
+        scene, camera.clip_from_world(size), size, Culling::back_faces, counters, visit,
+        [&](const std::vector<vec3>& positions) {
+            return transform(variant, camera, size, positions);
+        },
+        [&](const std::array<vec4, 3>& vertices) { return clip(variant, vertices, size); });
+}
+
+/// A triangle in clip space with vertices anywhere, also behind the camera: the planes through the
 /// camera and its sides.
 ///
 /// @see Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997
 struct HomogeneousTriangle {
-    std::array<dvec3, 3> planes;  ///< Opposite to each corner; inside > 0 if the triangle is front.
-    double volume;                ///< Of the corners' (x, y, w): > 0 where seen counter-clockwise.
+    std::array<dvec3, 3> planes;  ///< Opposite to each vertex; inside > 0 if the triangle is front.
+    double volume;                ///< Of the vertices' (x, y, w): > 0 where seen counter-clockwise.
 
     explicit HomogeneousTriangle(const ClippedTriangle& triangle) {
         std::array<dvec3, 3> xyw;
@@ -198,8 +211,8 @@ void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) 
     // The box around the corners, or the whole picture if one of them is not in front.
     dvec2 low(size), high(0);
     bool all_in_front = true, all_behind = true;
-    for (const ClippedCorner& corner : triangle) {
-        const dvec4 p(corner.position_clip);
+    for (const ClippedVertex& vertex : triangle) {
+        const dvec4 p(vertex.position_clip);
         all_in_front &= p.w > 0;
         all_behind &= p.w <= 0;
         const dvec2 on_screen = (dvec2(p.x, -p.y) / p.w + 1.0) * 0.5 * dvec2(size);
@@ -248,7 +261,7 @@ Image<vec3> render_by_pixels(const Options& options, const Scene& scene, const C
         const auto positions_clip = transform(options.mvp, camera, options.size, mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
-            fill_homogeneous(whole_triangle(corners_of(triangle, positions_clip)), options.size,
+            fill_homogeneous(whole_triangle(vertices_of(triangle, positions_clip)), options.size,
                              [&](ivec2 pixel, float z) {
                                  counters.add(Counter::fragments_tested);
                                  if (!depth.test_and_write(pixel, z)) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a triangle's corners have, in between, in perspective. Introduced in lesson 05;
+/// Vertex attributes inside a triangle, in perspective. Introduced in lesson 05;
 /// derivation: docs/derivations/05_textures.md.
 #pragma once
 
@@ -10,72 +10,89 @@
 
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/clip.hpp"
+#include "04_mvp/projection.hpp"
 
 namespace rasterbook {
 
-/// The weighted sum of what three corners have (Eq. 5.1).
-template <typename Attribute>
-Attribute interpolate(const std::array<Attribute, 3>& corners, vec3 weights) {
-    return weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2];
+/// A vertex attribute inside a triangle: the sum of the three vertices' own, each times its
+/// barycentric coordinate (Eq. 5.1).
+template <typename Attribute, typename F>
+Attribute interpolate(const std::array<Attribute, 3>& of_vertices, Vec3<F> barycentrics) {
+    return barycentrics.x * of_vertices[0] + barycentrics.y * of_vertices[1] +
+           barycentrics.z * of_vertices[2];
 }
 
-/// The shares that a triangle's corners have in a fragment.
-struct FragmentWeights {
-    vec3 here;    ///< At the pixel's centre; their sum is 1 but for rounding.
-    vec3 step_x;  ///< How fast they change here, a pixel to the right.
-    vec3 step_y;  ///< The same, a pixel down.
+/// Perspective-correct barycentric coordinates, and their derivatives.
+template <typename F>
+struct PerspectiveBarycentrics {
+    Vec3<F> here;  ///< At the pixel's centre; their sum is 1 but for rounding.
+    Vec3<F> ddx;   ///< Per pixel to the right.
+    Vec3<F> ddy;   ///< Per pixel down.
+};
+using FragmentBarycentrics = PerspectiveBarycentrics<float>;
+
+/// What all pixels of a triangle have in common: the numerators of Eq. 5.3, linear on the screen.
+struct PerspectiveSetup {
+    vec3 inverse_w;  ///< 1/w of the clipped piece's vertices, times the least w.
+    /// Of those vertices: barycentric coordinates in the whole triangle, times inverse_w.
+    std::array<vec3, 3> numerators;
+    vec3 numerators_ddx, numerators_ddy;
+    bool is_whole;  ///< Nothing was clipped off: the numerators are a diagonal matrix.
 };
 
-/// A corner whose w is more than 2^80 times the least one counts as that far away: on the side
-/// between two such corners all shares would become 0, and there is a division by their sum.
-constexpr float least_nearness = 0x1p-80f;
+/// Robust: a vertex whose w is more than 2^80 times the least one counts as that far away. On the
+/// side between two such vertices all numerators would become 0, and there is a division by their
+/// sum.
+constexpr float min_inverse_w = 0x1p-80f;
 
-/// From weights on the screen, of a clipped piece's corners, to weights on the surface, of the
-/// whole triangle's.
-class PerspectiveWeights {
-  public:
-    /// @param on_screen  The piece on the screen.
-    /// @param clipped    The same piece in clip space, w > 0: with a w of 0 it has no area on the
-    ///                   screen, and no fragments.
-    PerspectiveWeights(const ScreenTriangle& on_screen, const ClippedTriangle& clipped) {
-        // Only the proportions of the w count; those to the least one do not overflow.
-        const float least_w = std::min(
-            {clipped[0].position_clip.w, clipped[1].position_clip.w, clipped[2].position_clip.w});
-        const auto nearness = [&](std::size_t i) {
-            return std::max(least_w / clipped[i].position_clip.w, least_nearness);
-        };
-        nearness_ = {nearness(0), nearness(1), nearness(2)};
-        const mat3 weights(clipped[0].weights, clipped[1].weights, clipped[2].weights);
-        is_whole_ = weights == mat3(1);
-        shares_ = {nearness_.x * weights[0], nearness_.y * weights[1], nearness_.z * weights[2]};
+/// @param clipped  With w > 0: a piece with a w of 0 has no area on the screen, and no fragments.
+inline PerspectiveSetup perspective_setup(const ScreenTriangle& on_screen,
+                                          const ClippedTriangle& clipped) {
+    // Only the ratios of the w count; those to the least one do not overflow.
+    const float least_w = std::min(
+        {clipped[0].position_clip.w, clipped[1].position_clip.w, clipped[2].position_clip.w});
+    const auto inverse_w = [&](std::size_t i) {
+        return std::max(least_w / clipped[i].position_clip.w, min_inverse_w);
+    };
+    PerspectiveSetup setup;
+    setup.inverse_w = {inverse_w(0), inverse_w(1), inverse_w(2)};
+    setup.is_whole =
+        mat3(clipped[0].barycentrics, clipped[1].barycentrics, clipped[2].barycentrics) == mat3(1);
+    for (std::size_t i = 0; i < 3; ++i)
+        setup.numerators[i] = setup.inverse_w[static_cast<int>(i)] * clipped[i].barycentrics;
 
-        // How weights change on the screen: Eq. 2.5 over the area, as in Eq. 2.4.
-        const dvec2 a(on_screen.corners[0]), b(on_screen.corners[1]), c(on_screen.corners[2]);
-        const double per_area = subpixels / static_cast<double>(on_screen.twice_area);
-        shares_step_x_ = shares_ * vec3(per_area * dvec3(c.y - b.y, a.y - c.y, b.y - a.y));
-        shares_step_y_ = shares_ * vec3(per_area * dvec3(b.x - c.x, c.x - a.x, a.x - b.x));
-    }
+    // How barycentric coordinates change on the screen: Eq. 2.5 over the area, as in Eq. 2.4.
+    const dvec2 a(on_screen.vertices[0]), b(on_screen.vertices[1]), c(on_screen.vertices[2]);
+    const double per_area = subpixels / static_cast<double>(on_screen.twice_area);
+    setup.numerators_ddx =
+        interpolate(setup.numerators, vec3(per_area * dvec3(c.y - b.y, a.y - c.y, b.y - a.y)));
+    setup.numerators_ddy =
+        interpolate(setup.numerators, vec3(per_area * dvec3(b.x - c.x, c.x - a.x, a.x - b.x)));
+    return setup;
+}
 
-    /// @param screen_weights  Of the piece's corners, as fill_triangle gives them.
-    /// @return                Weights >= 0, each within 16 ulp of its exact value; 22 ulp in a
-    ///                        piece that was cut, taking its corners' weights as they are.
-    FragmentWeights at(vec3 screen_weights) const {
-        // Eq. 5.3; the matrix is diagonal for a triangle that is not clipped, and nearly all are.
-        const vec3 shares = is_whole_ ? nearness_ * screen_weights : shares_ * screen_weights;
-        const float per_sum = 1 / sum(shares);
-        const vec3 here = shares * per_sum;  // Eq. 5.2
-        // Eq. 5.7
-        return {here, (shares_step_x_ - here * sum(shares_step_x_)) * per_sum,
-                (shares_step_y_ - here * sum(shares_step_y_)) * per_sum};
-    }
+inline PerspectiveSetup perspective_setup(const ProjectedTriangle& projected) {
+    return perspective_setup(projected.on_screen, projected.clipped);
+}
 
-  private:
-    static float sum(vec3 v) { return v.x + v.y + v.z; }
-
-    vec3 nearness_;  ///< 1/w of the piece's corners, times the least w.
-    mat3 shares_;    ///< Columns: the weights of the piece's corners, times their nearness.
-    bool is_whole_;
-    vec3 shares_step_x_, shares_step_y_;
-};
+/// From barycentric coordinates on the screen to those on the surface, of the whole triangle
+/// (Eq. 5.3).
+///
+/// @param on_screen  Of the clipped piece, as fill_triangle gives them.
+/// @return           Coordinates >= 0, each within 16 ulp of its exact value; 22 ulp in a piece
+///                   that was cut, taking its vertices' coordinates as they are.
+template <typename F>
+PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup, Vec3<F> on_screen) {
+    const auto sum = [](Vec3<F> v) { return v.x + v.y + v.z; };
+    const Vec3<F> numerators = setup.is_whole ? Vec3<F>(setup.inverse_w) * on_screen
+                                              : on_screen.x * Vec3<F>(setup.numerators[0]) +
+                                                    on_screen.y * Vec3<F>(setup.numerators[1]) +
+                                                    on_screen.z * Vec3<F>(setup.numerators[2]);
+    const F inverse_sum = F(1.0f) / sum(numerators);
+    const Vec3<F> here = numerators * inverse_sum;  // Eq. 5.2
+    const Vec3<F> ddx(setup.numerators_ddx), ddy(setup.numerators_ddy);
+    return {here, (ddx - here * sum(ddx)) * inverse_sum,  // Eq. 5.7
+            (ddy - here * sum(ddy)) * inverse_sum};
+}
 
 }  // namespace rasterbook

@@ -5,11 +5,10 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
+#include "04_mvp/projection.hpp"
+#include "05_textures/textures.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
@@ -21,58 +20,49 @@ struct Options : LessonOptions {
     TextureVariant texture;
 
     Options() { model = "scene.obj"; }
-    void declare(Knobs& knobs) {
-        knobs.flag("--depth", show_depth,
-                   "Show the depth buffer: near is bright, nothing is black");
-        texture.declare(knobs);
-    }
+    void declare(Knobs& knobs) { texture.declare(knobs); }
 };
 
+/// What is made once, before the first picture.
+struct Assets {
+    Scene scene;
+    MaterialTextures textures;
+};
+
+Assets make_assets(Scene scene, const Options& options) {
+    MaterialTextures textures = load_diffuse_textures(scene, options.texture);
+    return {std::move(scene), std::move(textures)};
+}
+
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const TexturedScene& scene, CounterPolicy& counters) {
+Image<vec3> render(const Options& options, const Assets& assets, CounterPolicy& counters) {
+    const auto& [scene, textures] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
-    for (const Mesh& mesh : scene.meshes) {
-        counters.add(Counter::meshes_in);
-        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
-            counters.add(Counter::meshes_culled_by_frustum);
-            continue;
-        }
-        const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
-        for (const Triangle& triangle : mesh.triangles) {
-            counters.add(Counter::triangles_in);
-            const Material& material = scene.materials[triangle.material];
-            const Texture* texture = scene.diffuse_textures[triangle.material].get();
-            const std::array<vec2, 3> uvs = uvs_of(mesh, triangle, material.diffuse_map);
-            for (const ClippedTriangle& clipped :
-                 clip_triangle(corners_of(triangle, positions_clip))) {
-                const vec3 a = screen_from_clip(clipped[0].position_clip, options.size);
-                const vec3 b = screen_from_clip(clipped[1].position_clip, options.size);
-                const vec3 c = screen_from_clip(clipped[2].position_clip, options.size);
-                const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                if (!is_front_facing(on_screen)) {
-                    counters.add(Counter::triangles_culled_by_facing);
-                    continue;
-                }
-                const vec3 face_color = flat_color(mesh, triangle, material);
-                const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                MappedWeights mapped(options.texture, on_screen, clipped);
-                fill_in_bands(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
-                    counters.add(Counter::fragments_tested);
-                    if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
-                    counters.add(Counter::fragments_shaded);
-                    color[pixel] = face_color;
-                    if (texture == nullptr) return;
-                    counters.add(Counter::texture_samples);
-                    const FragmentUv uv = fragment_uv(uvs, mapped.at(pixel, screen_weights));
-                    color[pixel] *= vec3(sample(*texture, options.texture.filter, uv));
-                });
-            }
-        }
-    }
+    const auto draw = [&](const ProjectedTriangle& projected) {
+        const Material& material = scene.materials[projected.triangle.material];
+        const vec3 face_color = flat_color(projected.mesh, projected.triangle, material);
+        const Texture* const texture = textures[projected.triangle.material].get();
+        const std::array<vec2, 3> uvs =
+            uvs_of(projected.mesh, projected.triangle, material.diffuse_map);
+        MappedBarycentrics mapped(options.texture, projected.on_screen, projected.clipped);
+
+        fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
+            counters.add(Counter::fragments_tested);
+            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+            counters.add(Counter::fragments_shaded);
+            color[pixel] = face_color;
+            if (texture == nullptr) return;
+            counters.add(Counter::texture_samples);
+            const FragmentUv uv = fragment_uv(uvs, mapped.at(pixel, on_screen));
+            color[pixel] *= vec3(sample(*texture, options.texture.filter, uv));
+        });
+    };
+    for_each_visible_triangle(scene, clip_from_world, options.size, Culling::back_faces, counters,
+                              draw);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
@@ -80,9 +70,7 @@ Image<vec3> render(const Options& options, const TexturedScene& scene, CounterPo
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_lesson<Options, TexturedScene>(
-        argc, argv, "05_textures", "Draws a scene with textures.",
-        [](const auto& options, const auto& scene, auto& counters) {
-            return render(options, scene, counters);
-        });
+    return run_lesson<Options>(argc, argv, "05_textures", "Draws a scene with textures.",
+                               make_assets,
+                               [](auto&... arguments) { return render(arguments...); });
 }

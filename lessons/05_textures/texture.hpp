@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "05_textures/interpolation.hpp"
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 #include "common/math/color.hpp"
+#include "common/math/functions.hpp"
 
 namespace rasterbook {
 
@@ -48,25 +49,25 @@ inline float wrapped(float coordinate, Wrap wrap) {
     return std::max(0.0f, std::min(there_and_back, 2 - there_and_back));
 }
 
-/// A place in the picture: x from 0 at its left to 1 at its right, y from 0 at its upper border to
-/// 1 at its lower one (Eq. 5.5).
-inline vec2 place_from_uv(vec2 uv, Wrap wrap) {
+/// A position in the picture: x from 0 at its left to 1 at its right, y from 0 at its upper border
+/// to 1 at its lower one (Eq. 5.5).
+inline vec2 texture_position(vec2 uv, Wrap wrap) {
     return {wrapped(uv.x, wrap), 1 - wrapped(uv.y, wrap)};
 }
 
-/// The texel in which a place lies.
+/// The texel in which a position lies.
 ///
-/// @param place  0 to 1.
-inline vec4 sample_nearest(const TextureLevel& level, vec2 place) {
-    const ivec2 texel(place * vec2(level.size));  // not negative, so this rounds down
+/// @param position  0 to 1.
+inline vec4 sample_nearest(const TextureLevel& level, vec2 position) {
+    const ivec2 texel(position * vec2(level.size));  // not negative, so this rounds down
     return level.texels[glm::min(texel, level.size - 1) + 1];
 }
 
-/// The mean of the four texels around a place, by how near their centres are (Eq. 5.6).
+/// The mean of the four texels around a position, by how near their centres are (Eq. 5.6).
 ///
-/// @param place  0 to 1.
-inline vec4 sample_bilinear(const TextureLevel& level, vec2 place) {
-    const vec2 from_first_center = place * vec2(level.size) + 0.5f;      // the border's first texel
+/// @param position  0 to 1.
+inline vec4 sample_bilinear(const TextureLevel& level, vec2 position) {
+    const vec2 from_first_center = position * vec2(level.size) + 0.5f;   // the border's first texel
     const ivec2 first = glm::min(ivec2(from_first_center), level.size);  // beyond 2^23 + 0.5 rounds
     const vec2 share = from_first_center - vec2(first);
     const vec4* const upper = &level.texels[first];
@@ -79,58 +80,57 @@ inline vec4 sample_bilinear(const TextureLevel& level, vec2 place) {
 
 /// The level at which a pixel's footprint is one texel long, by its longer side (Eq. 5.8).
 ///
-/// @param step_x,step_y  How fast uv changes here, a pixel to the right and a pixel down.
-/// @param size           Of level 0, in texels.
+/// @param ddx,ddy  How fast uv changes here, a pixel to the right and a pixel down.
+/// @param size     Of level 0, in texels.
 /// @return               0 where the footprint is a texel or less, and where any of the four
 ///                       numbers is NaN; else it may be infinite.
-inline float level_of_detail(vec2 step_x, vec2 step_y, ivec2 size) {
-    const vec2 across = step_x * vec2(size), down = step_y * vec2(size);
+inline float level_of_detail(vec2 ddx, vec2 ddy, ivec2 size) {
+    const vec2 across = ddx * vec2(size), down = ddy * vec2(size);
     const float across_squared = glm::dot(across, across), down_squared = glm::dot(down, down);
     // std::max(25, NaN) is 25; a sum is NaN where either is.
     if (std::isnan(across_squared + down_squared)) return 0;
     const float longer_squared = std::max(across_squared, down_squared);
-    return longer_squared > 1 ? 0.5f * std::log2(longer_squared) : 0.0f;
+    return longer_squared > 1 ? 0.5f * log2(longer_squared) : 0.0f;
 }
 
-/// The mean of what two levels have at a place, by how near they are to `level` (Eq. 5.10).
+/// The mean of what two levels have at a position, by how near they are to `level` (Eq. 5.10).
 ///
-/// @param place  0 to 1.
+/// @param position  0 to 1.
 /// @param level  >= 0, infinite too; beyond the last level it is the last one.
-inline vec4 sample_trilinear(const Texture& texture, vec2 place, float level) {
+inline vec4 sample_trilinear(const Texture& texture, vec2 position, float level) {
     const auto last = static_cast<float>(texture.levels.size() - 1);
     level = std::min(level, last);
     const auto finer = static_cast<std::size_t>(level);
-    const vec4 in_finer = sample_bilinear(texture.levels[finer], place);
+    const vec4 in_finer = sample_bilinear(texture.levels[finer], position);
     const float share = level - static_cast<float>(finer);
     if (share == 0) return in_finer;
-    const vec4 in_coarser = sample_bilinear(texture.levels[finer + 1], place);
+    const vec4 in_coarser = sample_bilinear(texture.levels[finer + 1], position);
     return in_finer + share * (in_coarser - in_finer);
 }
 
 /// Where on a texture a fragment lies, and how fast that changes.
 struct FragmentUv {
-    vec2 here, step_x, step_y;  ///< As in FragmentWeights.
+    vec2 here, ddx, ddy;  ///< As in FragmentBarycentrics.
 };
 
-/// @param uvs  Of the triangle's corners.
-inline FragmentUv fragment_uv(const std::array<vec2, 3>& uvs, const FragmentWeights& weights) {
-    return {interpolate(uvs, weights.here), interpolate(uvs, weights.step_x),
-            interpolate(uvs, weights.step_y)};
+/// @param uvs  Of the triangle's vertices.
+inline FragmentUv fragment_uv(const std::array<vec2, 3>& uvs, const FragmentBarycentrics& at) {
+    return {interpolate(uvs, at.here), interpolate(uvs, at.ddx), interpolate(uvs, at.ddy)};
 }
 
 /// The texture's colour, linear, and opacity in a fragment.
 inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) {
-    const vec2 place = place_from_uv(uv.here, texture.wrap);
-    if (filter == Filter::nearest) return sample_nearest(texture.levels[0], place);
-    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], place);
-    const float level = level_of_detail(uv.step_x, uv.step_y, texture.levels[0].size);
-    return sample_trilinear(texture, place, level);
+    const vec2 position = texture_position(uv.here, texture.wrap);
+    if (filter == Filter::nearest) return sample_nearest(texture.levels[0], position);
+    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], position);
+    const float level = level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size);
+    return sample_trilinear(texture, position, level);
 }
 
 /// A picture half as wide and high, rounded down, but at least 1: each texel is the mean of what it
 /// covers (Eq. 5.9). A picture of one colour keeps it exactly: what double rounds is far below half
 /// a step of float.
-inline Image<vec4> halved(const Image<vec4>& picture) {
+inline Image<vec4> downsampled(const Image<vec4>& picture) {
     using lengths = glm::vec<2, std::int64_t>;
     // In whole numbers: a texel of the picture is `to` long, one of its half `from`.
     const lengths from(picture.size()), to = glm::max(from / lengths(2), lengths(1));
@@ -173,7 +173,7 @@ inline TextureLevel with_border(const Image<vec4>& picture, Wrap wrap) {
 inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
     Texture texture{wrap, {with_border(picture, wrap)}};
     while (picture.size() != ivec2(1)) {
-        picture = halved(picture);
+        picture = downsampled(picture);
         texture.levels.push_back(with_border(picture, wrap));
     }
     return texture;

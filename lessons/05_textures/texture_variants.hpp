@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include "05_textures/texture.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 
@@ -67,46 +67,48 @@ struct TextureVariant : TextureOptions {
     }
 };
 
-/// PerspectiveWeights, or what the variant puts in its place: the weights on the screen, or a
-/// division only every so many pixels of a row, and straight lines between.
+/// perspective_correct(), or what the variant puts in its place: the coordinates on the screen, or
+/// a division only every so many pixels of a row, and straight lines between.
 ///
 /// @see Abrash, "Michael Abrash's Graphics Programming Black Book", 1997, chapter 63: every 16.
-class MappedWeights {
+class MappedBarycentrics {
   public:
-    MappedWeights(const TextureVariant& variant, const ScreenTriangle& on_screen,
-                  const ClippedTriangle& clipped)
+    MappedBarycentrics(const TextureVariant& variant, const ScreenTriangle& on_screen,
+                       const ClippedTriangle& clipped)
         : mapping_(variant.mapping),
-          whole_from_piece_(clipped[0].weights, clipped[1].weights, clipped[2].weights),
+          whole_from_piece_(clipped[0].barycentrics, clipped[1].barycentrics,
+                            clipped[2].barycentrics),
           is_whole_(whole_from_piece_ == mat3(1)),
-          exact_(on_screen, variant.mapping == affine ? without_perspective(clipped) : clipped),
+          exact_(perspective_setup(
+              on_screen, variant.mapping == affine ? without_perspective(clipped) : clipped)),
           edges_(edges_of(on_screen)),
           row_edges_(edges_),
           per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(on_screen.twice_area)))) {
-        if (mapping_ == affine) begin_ = exact_.at({1, 0, 0});  // for the steps: all are the same
+        if (mapping_ == affine)
+            begin_ = perspective_correct(exact_, vec3(1, 0, 0));  // for the steps: all are the same
     }
 
-    /// @param pixel           As fill_triangle gives them, in its order or that of fill_in_bands;
-    ///                        some may be left out.
-    /// @param screen_weights  The same.
-    FragmentWeights at(ivec2 pixel, vec3 screen_weights) {
-        if (mapping_ == 1) return exact_.at(screen_weights);
+    /// @param pixel           As fill_triangle gives them, in its order; some may be left out.
+    /// @param screen_barycentrics  The same.
+    FragmentBarycentrics at(ivec2 pixel, vec3 screen_barycentrics) {
+        if (mapping_ == 1) return perspective_correct(exact_, screen_barycentrics);
         if (mapping_ == affine)
-            return {is_whole_ ? screen_weights : whole_from_piece_ * screen_weights, begin_.step_x,
-                    begin_.step_y};
+            return {is_whole_ ? screen_barycentrics : whole_from_piece_ * screen_barycentrics,
+                    begin_.ddx, begin_.ddy};
         if (pixel.y != row_) begin_row(pixel.y);
-        if (pixel.x >= span_end_) begin_span(pixel.x, screen_weights);
+        if (pixel.x >= span_end_) begin_span(pixel.x, screen_barycentrics);
         const auto from_begin = static_cast<float>(pixel.x - span_begin_);
-        return {begin_.here + from_begin * span_step_, begin_.step_x, begin_.step_y};
+        return {begin_.here + from_begin * span_step_, begin_.ddx, begin_.ddy};
     }
 
   private:
     static ClippedTriangle without_perspective(ClippedTriangle clipped) {
-        for (ClippedCorner& corner : clipped) corner.position_clip.w = 1;
+        for (ClippedVertex& vertex : clipped) vertex.position_clip.w = 1;
         return clipped;
     }
 
     static std::array<EdgeWalk, 3> edges_of(const ScreenTriangle& triangle) {
-        const auto [a, b, c] = triangle.corners;
+        const auto [a, b, c] = triangle.vertices;
         const int winding = is_front_facing(triangle) ? 1 : -1;
         return {EdgeWalk(b, c, winding, {0, 0}), EdgeWalk(c, a, winding, {0, 0}),
                 EdgeWalk(a, b, winding, {0, 0})};
@@ -125,19 +127,19 @@ class MappedWeights {
 
     /// From x to mapping_ pixels further, but not beyond the row's last one: w may be anything
     /// there.
-    void begin_span(int x, vec3 screen_weights) {
+    void begin_span(int x, vec3 screen_barycentrics) {
         // One span begins where another ended, but for pixels that were left out.
-        begin_ = x == span_end_ ? end_ : exact_.at(screen_weights);
+        begin_ = x == span_end_ ? end_ : perspective_correct(exact_, screen_barycentrics);
         const int length = std::min(mapping_, row_last_ - x);
         span_begin_ = x, span_end_ = x + std::max(length, 1);
         span_step_ = vec3(0);
         if (length < 1) return;
-        end_ = exact_.at(screen_weights_at(span_end_));
+        end_ = perspective_correct(exact_, screen_barycentrics_at(span_end_));
         span_step_ = (end_.here - begin_.here) / static_cast<float>(length);
     }
 
     /// What fill_triangle gives in the row's pixel x, bit for bit.
-    vec3 screen_weights_at(int x) const {
+    vec3 screen_barycentrics_at(int x) const {
         const auto share = [&](const EdgeWalk& edge) { return edge.value + x * edge.step_x; };
         return vec3(share(row_edges_[0]), share(row_edges_[1]), share(row_edges_[2])) * per_area_;
     }
@@ -147,12 +149,12 @@ class MappedWeights {
     int mapping_;
     mat3 whole_from_piece_;
     bool is_whole_;
-    PerspectiveWeights exact_;
+    PerspectiveSetup exact_;
     std::array<EdgeWalk, 3> edges_, row_edges_;  ///< From column 0, of row 0 and of this row.
     float per_area_;
     int row_ = none, row_last_ = none;  ///< The row, and its last pixel.
     int span_begin_ = none, span_end_ = none;
-    FragmentWeights begin_{}, end_{};  ///< Of the span; `end_` at span_end_.
+    FragmentBarycentrics begin_{}, end_{};  ///< Of the span; `end_` at span_end_.
     vec3 span_step_{0};
 };
 
@@ -179,8 +181,8 @@ inline CodedLevel make_coded_level(const Image<u8vec4>& picture, Wrap wrap) {
 ///
 /// @param read  Called as read(u8vec4 code): what the mean is taken of.
 template <std::invocable<u8vec4> Read>
-vec4 sample_bilinear(const CodedLevel& level, vec2 place, Read&& read) {
-    const vec2 from_first_center = place * vec2(level.size) + 0.5f;
+vec4 sample_bilinear(const CodedLevel& level, vec2 position, Read&& read) {
+    const vec2 from_first_center = position * vec2(level.size) + 0.5f;
     const ivec2 first(from_first_center);
     const vec2 share = from_first_center - vec2(first);
     const u8vec4* const upper = &level.codes[first];
@@ -218,18 +220,18 @@ class DecodingTable {
 };
 
 /// Each of the four texels is looked up in a table.
-inline vec4 sample_by_table(const CodedLevel& level, vec2 place, const DecodingTable& table) {
-    return sample_bilinear(level, place, table);
+inline vec4 sample_by_table(const CodedLevel& level, vec2 position, const DecodingTable& table) {
+    return sample_bilinear(level, position, table);
 }
 
 /// Each of the four texels is decoded with its power.
-inline vec4 sample_by_power(const CodedLevel& level, vec2 place) {
-    return sample_bilinear(level, place, [](u8vec4 c) { return decoded_exactly(undecoded(c)); });
+inline vec4 sample_by_power(const CodedLevel& level, vec2 position) {
+    return sample_bilinear(level, position, [](u8vec4 c) { return decoded_exactly(undecoded(c)); });
 }
 
 /// The codes' mean is decoded, which is not the mean of what they stand for.
-inline vec4 sample_then_decode(const CodedLevel& level, vec2 place) {
-    return decoded_exactly(sample_bilinear(level, place, undecoded));
+inline vec4 sample_then_decode(const CodedLevel& level, vec2 position) {
+    return decoded_exactly(sample_bilinear(level, position, undecoded));
 }
 
 }  // namespace rasterbook

@@ -13,25 +13,25 @@
 #include <vector>
 
 #include "common/math/numerics.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
 /// The direction out of a triangle's front, length 1; up for a triangle of no area.
 inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle) {
     // double: products of floats may overflow or vanish
-    const dvec3 a = mesh.positions[triangle.corners[0].position];
-    const dvec3 b = mesh.positions[triangle.corners[1].position];
-    const dvec3 c = mesh.positions[triangle.corners[2].position];
+    const dvec3 a = mesh.positions[triangle.vertices[0].position];
+    const dvec3 b = mesh.positions[triangle.vertices[1].position];
+    const dvec3 c = mesh.positions[triangle.vertices[2].position];
     return vec3(normalize_or(glm::cross(b - a, c - a), dvec3(0, 1, 0)));
 }
 
-/// The angle between the two sides at a triangle's corner, 0 to pi; 0 for a triangle of no area,
+/// The angle between the two sides at a triangle's vertex, 0 to pi; 0 for a triangle of no area,
 /// which would otherwise count with pi for a normal that means nothing.
-inline float corner_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t corner) {
-    const dvec3 here = mesh.positions[triangle.corners[corner].position];
-    const dvec3 u = dvec3(mesh.positions[triangle.corners[(corner + 1) % 3].position]) - here;
-    const dvec3 v = dvec3(mesh.positions[triangle.corners[(corner + 2) % 3].position]) - here;
+inline float vertex_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t vertex) {
+    const dvec3 here = mesh.positions[triangle.vertices[vertex].position];
+    const dvec3 u = dvec3(mesh.positions[triangle.vertices[(vertex + 1) % 3].position]) - here;
+    const dvec3 v = dvec3(mesh.positions[triangle.vertices[(vertex + 2) % 3].position]) - here;
     const double twice_area = glm::length(glm::cross(u, v));
     return twice_area > 0 ? static_cast<float>(std::atan2(twice_area, glm::dot(u, v))) : 0.0f;
 }
@@ -46,26 +46,26 @@ struct FaceAround {
     float angle_radians;  ///< Between the face's sides there.
 };
 
-/// The normal of a triangle's corner, before it is scaled, from the faces around it (Eq. 6.9).
+/// The normal of a triangle's vertex, before it is scaled, from the faces around it (Eq. 6.9).
 class SmoothNormals {
   public:
     explicit SmoothNormals(const Mesh& mesh) : begin_(mesh.positions.size() + 1, 0) {
         for (const Triangle& triangle : mesh.triangles)
-            for (const Corner& corner : triangle.corners) ++begin_[corner.position + 1];
+            for (const Vertex& vertex : triangle.vertices) ++begin_[vertex.position + 1];
         for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
         around_.resize(begin_.back());
         std::vector<std::size_t> next = begin_;
         for (const Triangle& triangle : mesh.triangles)
             for (std::size_t i = 0; i < 3; ++i)
-                around_[next[triangle.corners[i].position]++] = {
-                    face_normal(mesh, triangle), corner_angle_radians(mesh, triangle, i)};
+                around_[next[triangle.vertices[i].position]++] = {
+                    face_normal(mesh, triangle), vertex_angle_radians(mesh, triangle, i)};
     }
 
     /// The mean of the normals of the faces around a position, weighted by their angles there.
     ///
     /// @param position        Index into the mesh's positions. A place that the file has twice is
     ///                        two positions, whose faces do not meet.
-    /// @param normal_of_face  Of the face whose corner it is; what lies beyond a sharp edge, as
+    /// @param normal_of_face  Of the face whose vertex it is; what lies beyond a sharp edge, as
     ///                        seen from this face, does not count.
     vec3 at(std::uint32_t position, vec3 normal_of_face) const {
         vec3 sum(0);
@@ -81,33 +81,38 @@ class SmoothNormals {
     std::vector<FaceAround> around_;
 };
 
-/// Gives each corner a normal of length 1: the one of the file, or else the one that the faces
+/// Gives each vertex a normal of length 1: the one of the file, or else the one that the faces
 /// around it have. Where there is no direction, it is that of the face.
 ///
-/// A triangle of no area faces up: without normals of the file, its corners get the mean of what
+/// A triangle of no area faces up: without normals of the file, its vertices get the mean of what
 /// faces nearly up around them, or up.
 ///
 /// @see Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", 1998
 inline void complete_normals(Mesh& mesh) {
     const auto misses_one = [](const Triangle& triangle) {
-        return std::ranges::any_of(triangle.corners,
-                                   [](const Corner& corner) { return corner.normal == no_index; });
+        return std::ranges::any_of(triangle.vertices,
+                                   [](const Vertex& vertex) { return vertex.normal == no_index; });
     };
     std::optional<SmoothNormals> smooth;
     if (std::ranges::any_of(mesh.triangles, misses_one)) smooth.emplace(mesh);
 
-    std::vector<vec3> normals;  // one for each corner of each triangle
+    std::vector<vec3> normals;  // one for each vertex of each triangle
     normals.reserve(3 * mesh.triangles.size());
     for (Triangle& triangle : mesh.triangles) {
         const vec3 of_face = face_normal(mesh, triangle);
-        for (Corner& corner : triangle.corners) {
-            const vec3 normal = corner.normal != no_index ? mesh.normals[corner.normal]
-                                                          : smooth->at(corner.position, of_face);
-            corner.normal = static_cast<std::uint32_t>(normals.size());
+        for (Vertex& vertex : triangle.vertices) {
+            const vec3 normal = vertex.normal != no_index ? mesh.normals[vertex.normal]
+                                                          : smooth->at(vertex.position, of_face);
+            vertex.normal = static_cast<std::uint32_t>(normals.size());
             normals.push_back(normalize_or(normal, of_face));
         }
     }
     mesh.normals = std::move(normals);
+}
+
+/// The same for all meshes of a scene.
+inline void complete_normals(Scene& scene) {
+    for (Mesh& mesh : scene.meshes) complete_normals(mesh);
 }
 
 }  // namespace rasterbook

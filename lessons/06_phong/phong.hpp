@@ -4,102 +4,133 @@
 /// derivation: docs/derivations/06_phong.md.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <span>
 
 #include "06_phong/light.hpp"
-#include "common/math/types.hpp"
-#include "common/mesh.hpp"
+#include "common/math/functions.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
 /// The direction into which a mirror sends light that comes from `toward_light` (Eq. 6.2).
 ///
 /// @param normal,toward_light  Length 1.
-inline vec3 reflected(vec3 normal, vec3 toward_light) {
-    return 2 * glm::dot(normal, toward_light) * normal - toward_light;
+template <typename F>
+Vec3<F> reflected(Vec3<F> normal, Vec3<F> toward_light) {
+    return F(2.0f) * glm::dot(normal, toward_light) * normal - toward_light;
 }
-
-/// How a highlight falls off: by the angle between mirror direction and eye, or between the normal
-/// and the direction halfway from light to eye.
-enum class Highlight { phong, blinn };
-
-/// The cosine that a highlight is a power of: 0 to 1 (Eq. 6.3 and 6.4). Whether light comes
-/// from the front, N.L > 0, is not asked here but by reflected_light().
-///
-/// @param normal,toward_light,toward_eye  Length 1.
-inline float highlight_cosine(Highlight highlight, vec3 normal, vec3 toward_light,
-                              vec3 toward_eye) {
-    // Light and eye opposite: there is no halfway, and no highlight either.
-    const float cosine = highlight == Highlight::phong
-                             ? glm::dot(reflected(normal, toward_light), toward_eye)
-                             : glm::dot(normal, unit_or(toward_light + toward_eye, vec3(0)));
-    // Not above 1 by rounding: with a great exponent, the power of that would be infinite.
-    return std::min(std::max(0.0f, cosine), 1.0f);
-}
-
-/// What a surface sends to the eye, before it is coloured by the material.
-struct ReflectedLight {
-    vec3 diffuse{0};
-    vec3 specular{0};
-};
 
 /// A point of a surface, and who looks at it.
+template <typename F>
 struct SurfacePoint {
-    vec3 position_world;
-    vec3 normal_world;  ///< Length 1.
-    vec3 toward_eye;    ///< Length 1; of no meaning where there is no highlight.
+    Vec3<F> position_world;
+    Vec3<F> normal_world;  ///< Length 1.
+    Vec3<F> toward_eye;    ///< Length 1; of no meaning where there is no highlight.
 };
 
-/// The light of all lights, evenly reflected (Eq. 6.1) and as highlights (Eq. 6.3). None of it
-/// comes from behind: only lights with N.L > 0 count.
-///
-/// @param power  Called as power(cosine) for each light that counts, with a cosine from 0 to 1; not
-///               called if !has_highlight. The one of TriangleLight gives 0 for a highlight that
-///               nobody could see.
-template <typename Power>
-ReflectedLight reflected_light(std::span<const Light> lights, const SurfacePoint& point,
-                               bool has_highlight, Highlight highlight, Power&& power) {
-    ReflectedLight sum;
-    for (const Light& light : lights) {
-        const Incoming incoming = incoming_light(light, point.position_world);
-        const float cosine = glm::dot(point.normal_world, incoming.toward);
-        if (!(cosine > 0)) continue;
-        sum.diffuse += cosine * incoming.color;  // Eq. 6.1
-        if (!has_highlight) continue;
-        sum.specular += power(highlight_cosine(highlight, point.normal_world, incoming.toward,
-                                               point.toward_eye)) *
-                        incoming.color;
+/// The cosine that Phong's highlight is a power of: 0 to 1 (Eq. 6.3).
+template <typename F>
+F phong_cosine(const SurfacePoint<F>& point, Vec3<F> toward_light) {
+    const Vec3<F> mirrored = reflected(point.normal_world, toward_light);
+    // Not above 1 by rounding: with a great exponent, the power of that would be infinite.
+    return clamp(glm::dot(mirrored, point.toward_eye), F(0.0f), F(1.0f));
+}
+
+/// A highlight darker than this is none. Nobody could see it, and its products with colours stay
+/// far from subnormal numbers, with which processors are slow.
+constexpr float min_highlight = 0x1p-26f;
+
+/// Phong's highlight (Eq. 6.3): the cosine between the mirrored light and the eye, to a power.
+struct PhongHighlight {
+    bool is_on;       ///< Whether the material has one.
+    float shininess;  ///< The power, Ns, >= 0.
+
+    /// @return  0 to 1. What lies behind the surface is not asked here but by add_light().
+    template <typename F>
+    F operator()(const SurfacePoint<F>& point, Vec3<F> toward_light) const {
+        const F highlight = power(phong_cosine(point, toward_light), F(shininess));
+        return select(highlight < F(min_highlight), F(0.0f), highlight);
     }
+};
+
+/// What a surface sends to the eye, before it is coloured by the material.
+template <typename F>
+struct LightSum {
+    Vec3<F> diffuse{F(0.0f)};
+    Vec3<F> specular{F(0.0f)};
+};
+using ReflectedLight = LightSum<float>;
+
+/// Adds one light: evenly reflected (Eq. 6.1), and as a highlight (Eq. 6.3). A surface that is
+/// turned away, N.L <= 0, gets nothing.
+///
+/// @param visibility  0 to 1: how much of the light reaches the point.
+/// @param highlight   PhongHighlight, or another that is called as it is.
+template <typename F, typename Highlight>
+void add_light(LightSum<F>& sum, const Light& light, const SurfacePoint<F>& point, F visibility,
+               const Highlight& highlight) {
+    const Incoming<F> incoming = incoming_light(light, point.position_world);
+    const F cosine = glm::dot(point.normal_world, incoming.toward);
+    const auto is_lit = cosine > F(0.0f);
+    if (!any_of(is_lit)) return;
+    const Vec3<F> arriving = visibility * incoming.color;
+    sum.diffuse += select(is_lit, cosine, F(0.0f)) * arriving;
+    if (!highlight.is_on) return;
+    sum.specular += select(is_lit, highlight(point, incoming.toward), F(0.0f)) * arriving;
+}
+
+/// The light of all lights.
+///
+/// @param visibility  Called as visibility(l), the number of a light.
+template <typename F, typename Highlight, typename Visibility>
+LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
+                            const Highlight& highlight, const Visibility& visibility) {
+    LightSum<F> sum;
+    for (std::size_t l = 0; l < lights.size(); ++l)
+        add_light(sum, lights[l], point, F(visibility(l)), highlight);
     return sum;
 }
 
+/// The same where nothing stands between the lights and the point.
+template <typename F, typename Highlight>
+LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
+                            const Highlight& highlight) {
+    return reflected_light(lights, point, highlight, [](std::size_t) { return 1.0f; });
+}
+
 /// The colours of a surface in one fragment; linear.
-struct SurfaceColor {
-    vec3 ambient, diffuse, specular, emission;
+template <typename F>
+struct FragmentColor {
+    Vec3<F> ambient, diffuse, specular, emission;
 
-    /// Colours what is reflected evenly: the same surface for light from lamps and from all around.
-    void tint(vec3 color) { ambient *= color, diffuse *= color; }
+    /// Colours what is reflected evenly: the same surface for light from lights and from all
+    /// around.
+    void tint(Vec3<F> color) { ambient *= color, diffuse *= color; }
 };
+using SurfaceColor = FragmentColor<float>;
 
-/// A material's own colours. Of the light from all around it reflects at most as much as of a
-/// lamp's: many exporters write Ka = 1 for everything.
+/// A material's own colours. Of the ambient light it reflects at most as much as of a light's: many
+/// exporters write Ka = 1 for everything.
 inline SurfaceColor surface_color(const Material& material) {
     return {glm::min(material.ambient, material.diffuse), material.diffuse, material.specular,
             material.emission};
 }
 
 /// What a fragment of illum 0 sends to the eye: its colour, whatever the light.
-inline vec3 unlit(const SurfaceColor& color) { return color.emission + color.diffuse; }
+template <typename F>
+Vec3<F> unlit(const FragmentColor<F>& color) {
+    return color.emission + color.diffuse;
+}
 
 /// All the light that a fragment sends to the eye (Eq. 6.5); it may exceed 1.
 ///
-/// @param color          Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
-/// @param ambient_light  0 to 1.
-/// @param light          0 to 10.
-inline vec3 phong(const SurfaceColor& color, vec3 ambient_light, const ReflectedLight& light) {
-    return color.emission + color.ambient * ambient_light + color.diffuse * light.diffuse +
+/// @param color     Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
+/// @param ambient   Light from all around, 0 to 1.
+/// @param light     0 to 10.
+template <typename F>
+Vec3<F> phong(const FragmentColor<F>& color, vec3 ambient, const LightSum<F>& light) {
+    return color.emission + color.ambient * Vec3<F>(ambient) + color.diffuse * light.diffuse +
            color.specular * light.specular;
 }
 

@@ -11,19 +11,22 @@
 #include <span>
 
 #include "05_textures/interpolation.hpp"
-#include "06_phong/lit_points.hpp"
-#include "06_phong/lit_scene.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
-#include "common/lesson_app.hpp"
+#include "06_phong/surface.hpp"
+#include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 
-/// Light is computed once for a face, for its corners, or for each pixel.
+/// Light is computed once for a face, for its vertices, or for each pixel.
 enum class Shading { flat, gouraud, phong };
 
+/// How a highlight falls off: by the angle between mirror direction and eye, or between the normal
+/// and the direction halfway from light to eye.
+enum class Highlight { phong, blinn };
+
 /// How the power of a highlight is computed.
-enum class Power { in_float, in_double, squarings, schlick };
+enum class Power { polynomial, in_double, squarings, schlick };
 
 /// What is done with a normal that is interpolated: scaled to length 1, scaled by an approximate
 /// root, or nothing.
@@ -35,10 +38,12 @@ struct LightOptions {
     bool two_sided = false;
     bool all_effects = false;
 
+    Culling culling() const { return two_sided ? Culling::none : Culling::back_faces; }
+
     void declare(Knobs& knobs) {
         knobs.choice("--light", key_light,
-                     {{"sun", LightKind::directional},
-                      {"lamp", LightKind::point},
+                     {{"directional", LightKind::directional},
+                      {"point", LightKind::point},
                       {"spot", LightKind::spot}},
                      "What the scene is lit by");
         knobs.flag("--two-sided", two_sided, "Draw the backs of faces, too");
@@ -50,19 +55,19 @@ struct LightOptions {
 struct ShadingVariant : LightOptions {
     Shading shading = Shading::phong;
     Highlight highlight = Highlight::phong;
-    Power power = Power::in_float;
+    Power power = Power::polynomial;
     NormalScaling normals = NormalScaling::exact;
 
     void declare(Knobs& knobs) {
         knobs.choice(
             "--shading", shading,
             {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}},
-            "Light is computed once for a face, for its corners, or for each pixel");
+            "Light is computed once for a face, for its vertices, or for each pixel");
         knobs.choice("--highlight", highlight,
                      {{"phong", Highlight::phong}, {"blinn", Highlight::blinn}},
                      "Highlights by the mirror direction, or by the halfway one");
         knobs.choice("--power", power,
-                     {{"float", Power::in_float},
+                     {{"polynomial", Power::polynomial},
                       {"double", Power::in_double},
                       {"squarings", Power::squarings},
                       {"schlick", Power::schlick}},
@@ -110,10 +115,10 @@ inline float power_as(Power power, float x, float exponent) {
             return power_by_squarings(x, exponent);
         case Power::schlick:
             return power_by_schlick(x, exponent);
-        case Power::in_float:
+        case Power::polynomial:
             break;
     }
-    return std::pow(x, exponent);
+    return rasterbook::power(x, exponent);
 }
 
 /// v times 1/|v| from a guess by its bits and one step of Newton's: within .18%.
@@ -125,157 +130,81 @@ inline vec3 unit_approximate(vec3 v) {
     return v * (guess * (1.5f - 0.5f * squared * guess * guess));
 }
 
-/// A highlight below 2 to the power of minus this is none: no power is computed for it.
-constexpr float unseen_bits = 26;
-
-/// The least cosine of a highlight that can be seen. Schlick's curve has no such end: it is still
-/// .05 where the power of 90 is unseen.
-inline float least_seen_cosine(Power power, float exponent) {
-    return power == Power::schlick ? 0.0f : std::exp2(-unseen_bits / exponent);
+/// The cosine that Blinn's highlight is a power of: 0 to 1 (Eq. 6.4).
+inline float blinn_cosine(const SurfacePoint<float>& point, vec3 toward_light) {
+    // Light and eye opposite: there is no halfway, and no highlight either.
+    const vec3 halfway = unit_or(toward_light + point.toward_eye, vec3(0));
+    return clamp(glm::dot(point.normal_world, halfway), 0.0f, 1.0f);
 }
 
-/// The light on a triangle: computed for each fragment, or before, for its corners or once.
-class TriangleLight {
-  public:
-    /// @param mesh     Each corner has a normal of length 1.
-    /// @param is_back  The triangle is seen from behind: its normals point to the other side.
-    TriangleLight(const ShadingVariant& variant, std::span<const Light> lights, vec3 eye_world,
-                  const Mesh& mesh, const Triangle& triangle, bool is_back,
-                  const TriangleSurface& surface)
-        : variant_(variant),
-          lights_(lights),
-          eye_world_(eye_world),
-          has_highlight_(surface.effects.highlight),
-          shininess_(surface.material.shininess),
-          least_cosine_(has_highlight_ ? least_seen_cosine(variant.power, shininess_) : 1.0f),
-          at_once_(variant.shading == Shading::phong && variant.highlight == Highlight::phong &&
-                   variant.normals == NormalScaling::exact) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Corner corner = triangle.corners[i];
-            positions_[i] = mesh.positions[corner.position];
-            normals_[i] = is_back ? -mesh.normals[corner.normal] : mesh.normals[corner.normal];
-        }
-        if (!surface.effects.light || variant.shading == Shading::phong) return;
-        if (variant.shading == Shading::gouraud)
-            for (std::size_t i = 0; i < 3; ++i)
-                set_corner(i, reflected(positions_[i], normals_[i]));
-        else
-            set_corner(0, reflected(interpolate(positions_, vec3(1.0f / 3)),
-                                    face_normal(mesh, triangle) * (is_back ? -1.0f : 1.0f)));
-    }
+/// PhongHighlight, or what the variant puts in its place.
+struct VariantHighlight {
+    bool is_on;
+    float shininess;
+    Highlight highlight;
+    Power power;
 
-    /// @param weights  Of the corners.
-    template <typename CounterPolicy>
-    ReflectedLight at(vec3 weights, CounterPolicy& counters) const {
-        count(counters);
-        if (variant_.shading == Shading::flat) return {diffuse_[0], specular_[0]};
-        if (variant_.shading == Shading::gouraud)
-            return {interpolate(diffuse_, weights), interpolate(specular_, weights)};
-        const vec3 normal = interpolate(normals_, weights);
-        return reflected(interpolate(positions_, weights), scaled(normal));
+    float operator()(const SurfacePoint<float>& point, vec3 toward_light) const {
+        const float cosine = highlight == Highlight::blinn ? blinn_cosine(point, toward_light)
+                                                           : phong_cosine(point, toward_light);
+        const float result = power_as(power, cosine, shininess);
+        // Schlick's curve has no such end: it is still .05 where the power of 90 is unseen.
+        return result < min_highlight && power != Power::schlick ? 0.0f : result;
     }
-
-    /// Adds a fragment to those that are lit together.
-    ///
-    /// @param weights  Of the corners.
-    /// @param points   Fewer than most_points.
-    template <typename CounterPolicy>
-    void add(vec3 weights, LitPoints& points, CounterPolicy& counters) const {
-        const std::size_t i = points.count++;
-        if (!at_once_) return points.set_light(i, at(weights, counters));
-        count(counters);
-        points.position_world.set(i, interpolate(positions_, weights));
-        points.normal_world.set(i, interpolate(normals_, weights));
-    }
-
-    /// Adds fragments to those that are lit together, of which there is none yet.
-    template <typename CounterPolicy>
-    void add(const ManyWeights& weights, LitPoints& points, CounterPolicy& counters) const {
-        if (!at_once_) {
-            for (std::size_t i = 0; i < weights.count; ++i) add(weights.here[i], points, counters);
-            return;
-        }
-        const std::array positions = positions_, normals = normals_;
-        points.count = weights.count;
-        for (std::size_t i = 0; i < weights.count; ++i) {
-            points.position_world.set(i, interpolate(positions, weights.here[i]));
-            points.normal_world.set(i, interpolate(normals, weights.here[i]));
-        }
-        for (std::size_t i = 0; i < weights.count; ++i) count(counters);
-    }
-
-    /// The light on all of them: the same bits as of at(), sooner.
-    void compute(LitPoints& points) const {
-        compute(points, [](std::size_t, std::size_t) { return 1.0f; });
-    }
-
-    /// The same, where not all light arrives.
-    ///
-    /// @param share  As of reflect_light().
-    template <typename Share>
-    void compute(LitPoints& points, const Share& share) const {
-        if (!at_once_) return;
-        const auto reflect = [&](bool has_highlight) {
-            return reflect_light(
-                lights_, eye_world_, has_highlight, points,
-                [this](float cosine) { return power(cosine); }, share);
-        };
-        // Compiled twice: the second time without all that a highlight takes.
-        if (has_highlight_ ? reflect(true) : reflect(false)) return;
-        for (std::size_t i = 0; i < points.count; ++i) {
-            ReflectedLight sum;
-            for (std::size_t l = 0; l < lights_.size(); ++l) {
-                const ReflectedLight light =
-                    reflected(lights_.subspan(l, 1), points.position_world[i],
-                              scaled(points.normal_world[i]));
-                sum.diffuse += share(l, i) * light.diffuse;
-                sum.specular += share(l, i) * light.specular;
-            }
-            points.set_light(i, sum);
-        }
-    }
-
-  private:
-    template <typename CounterPolicy>
-    void count(CounterPolicy& counters) const {
-        counters.add(Counter::fragments_lit);
-        if (has_highlight_) counters.add(Counter::highlights);
-    }
-
-    void set_corner(std::size_t i, const ReflectedLight& light) {
-        diffuse_[i] = light.diffuse, specular_[i] = light.specular;
-    }
-
-    vec3 scaled(vec3 normal) const {
-        if (variant_.normals == NormalScaling::none) return normal;
-        if (variant_.normals == NormalScaling::approximate) return unit_approximate(normal);
-        return unit_or(normal, normals_[0]);  // Eq. 6.8
-    }
-
-    ReflectedLight reflected(vec3 position, vec3 normal) const {
-        return reflected(lights_, position, normal);
-    }
-
-    ReflectedLight reflected(std::span<const Light> lights, vec3 position, vec3 normal) const {
-        const vec3 toward_eye = has_highlight_ ? unit_or(eye_world_ - position, normal) : vec3(0);
-        const SurfacePoint point{position, normal, toward_eye};
-        return reflected_light(lights, point, has_highlight_, variant_.highlight,
-                               [this](float cosine) { return power(cosine); });
-    }
-
-    float power(float cosine) const {
-        return cosine < least_cosine_ ? 0.0f : power_as(variant_.power, cosine, shininess_);
-    }
-
-    ShadingVariant variant_;
-    std::span<const Light> lights_;
-    vec3 eye_world_;
-    bool has_highlight_;
-    float shininess_;
-    float least_cosine_;  ///< Of a highlight that can be seen.
-    bool at_once_;        ///< Light is the one that reflect_light() computes.
-    std::array<vec3, 3> positions_, normals_;
-    std::array<vec3, 3> diffuse_, specular_;  ///< For Gouraud at the corners; for flat the first.
 };
+
+inline VariantHighlight highlight_of(const ShadingVariant& variant,
+                                     const TriangleSurface& surface) {
+    return {surface.effects[Effect::highlight], surface.material.shininess, variant.highlight,
+            variant.power};
+}
+
+/// Scales a point's normal as the variant has it, in place of Eq. 6.8.
+///
+/// @param normal  Interpolated.
+inline void scale_normal(const ShadingVariant& variant, vec3 normal, SurfacePoint<float>& point) {
+    if (variant.normals == NormalScaling::none) point.normal_world = normal;
+    if (variant.normals == NormalScaling::approximate)
+        point.normal_world = unit_approximate(normal);
+}
+
+/// For flat and Gouraud shading: light that is computed before the pixels are visited, once, or at
+/// each vertex.
+struct VertexLighting {
+    Shading shading;
+    std::array<vec3, 3> diffuse{}, specular{};  ///< For flat shading the first.
+
+    bool is_used() const { return shading != Shading::phong; }
+
+    ReflectedLight at(Barycentrics barycentrics) const {
+        if (shading == Shading::flat) return {diffuse[0], specular[0]};
+        return {interpolate(diffuse, barycentrics), interpolate(specular, barycentrics)};
+    }
+};
+
+inline VertexLighting light_vertices(const ShadingVariant& variant, std::span<const Light> lights,
+                                     vec3 eye_world, const TriangleSurface& surface,
+                                     const ProjectedTriangle& projected) {
+    VertexLighting result{variant.shading};
+    if (!surface.effects[Effect::light] || !result.is_used()) return result;
+    const auto light = [&](std::size_t i, Barycentrics at, vec3 normal) {
+        NoCounters uncounted;
+        SurfacePoint<float> point = surface_point(surface, at, normal, eye_world, uncounted);
+        point.normal_world = normal;  // it has length 1 already
+        const ReflectedLight sum = reflected_light(lights, point, highlight_of(variant, surface));
+        result.diffuse[i] = sum.diffuse, result.specular[i] = sum.specular;
+    };
+    if (variant.shading == Shading::flat) {
+        const vec3 front = face_normal(projected.mesh, projected.triangle);
+        light(0, Barycentrics(1.0f / 3), projected.is_back_facing ? -front : front);
+        return result;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        Barycentrics vertex(0);
+        vertex[static_cast<int>(i)] = 1;
+        light(i, vertex, surface.normals_world[i]);
+    }
+    return result;
+}
 
 }  // namespace rasterbook

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 07: light in bands, and outlines.
+/// Lesson 07: light in tones, and outlines.
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/lit_scene.hpp"
-#include "06_phong/many_samples.hpp"
+#include "04_mvp/projection.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "07_toon/assets.hpp"
 #include "07_toon/toon_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
@@ -25,77 +23,57 @@ struct Options : LessonOptions {
     ToonVariant shading;
 
     Options() { model = "figure.obj", orbit.distance = 2.75f, orbit.pitch_degrees = 13; }
-    void declare(Knobs& knobs) {
-        knobs.flag("--depth", show_depth,
-                   "Show the depth buffer: near is bright, nothing is black");
-        texture.declare(knobs);
-        shading.declare(knobs);
-    }
+    void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
 };
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy& counters) {
+Image<vec3> render(const Options& options, const ToonAssets& assets, CounterPolicy& counters) {
+    const auto& [scene, textures, effects, hull_normals] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
     Image<vec3> color(options.size, paper_color);
     DepthBuffer depth(options.size);
-    Outlines outlines(options.shading, camera, options.size);
+    Image<vec3> normals;
+    if (options.shading.outline == Outline::edges) normals = Image<vec3>(options.size, vec3(0));
 
-    for (const Mesh& mesh : scene.meshes) {
-        counters.add(Counter::meshes_in);
-        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
-            counters.add(Counter::meshes_culled_by_frustum);
-            continue;
-        }
-        const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
-        for (const Triangle& triangle : mesh.triangles) {
-            counters.add(Counter::triangles_in);
-            const TriangleSurface surface(scene, mesh, triangle);
-            for (const ClippedTriangle& clipped :
-                 clip_triangle(corners_of(triangle, positions_clip))) {
-                const vec3 a = screen_from_clip(clipped[0].position_clip, options.size);
-                const vec3 b = screen_from_clip(clipped[1].position_clip, options.size);
-                const vec3 c = screen_from_clip(clipped[2].position_clip, options.size);
-                const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                const bool is_back = !is_front_facing(on_screen);
-                if (is_back && !options.shading.two_sided) {
-                    counters.add(Counter::triangles_culled_by_facing);
-                    continue;
-                }
-                const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                const PerspectiveWeights perspective(on_screen, clipped);
-                const TriangleLight light(ShadingVariant{options.shading}, lights,
-                                          camera.position_world, mesh, triangle, is_back, surface);
-                const auto shade = [&](const ManyFragments& fragments) {
-                    const ManyWeights weights = weights_of(fragments, perspective);
-                    const auto own = surface.colors(weights, options.texture.filter, counters);
-                    ToonPoints points;
-                    if (surface.effects.light)
-                        points.add(light, weights, options.shading.smooth, counters);
-                    points.compute(light, options.shading.smooth);
-                    for (std::size_t i = 0; i < fragments.count; ++i)
-                        color[fragments.pixels[i]] =
-                            surface.effects.light
-                                ? points.painted(i, options.shading, own[i], counters)
-                                : unlit(own[i]);
-                    if (!outlines.need_fragments()) return;
-                    for (std::size_t i = 0; i < fragments.count; ++i)
-                        outlines.add(fragments.pixels[i], mesh, triangle, is_back, weights.here[i],
-                                     color, counters);
-                };
-                Fragments visible(shade);
-                fill_in_bands(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
-                    counters.add(Counter::fragments_tested);
-                    if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
-                    counters.add(Counter::fragments_shaded);
-                    visible.add(pixel, screen_weights);
-                });
-                visible.finish();
+    const auto draw = [&](const ProjectedTriangle& projected) {
+        const TriangleSurface surface =
+            triangle_surface(scene, textures, effects[projected.triangle.material], projected);
+        const PerspectiveSetup setup = perspective_setup(projected);
+        const auto light_at = [&](Barycentrics at) {
+            const vec3 normal = interpolate(surface.normals_world, at);
+            const SurfacePoint<float> point =
+                surface_point(surface, at, normal, camera.position_world, counters);
+            return reflected_light(lights, point, highlight_of(surface));
+        };
+
+        fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
+            counters.add(Counter::fragments_tested);
+            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+            counters.add(Counter::fragments_shaded);
+            const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
+            const SurfaceColor base_color =
+                surface_color(surface, on_surface, options.texture.filter, counters);
+            color[pixel] = unlit(base_color);
+            if (surface.effects[Effect::light]) {
+                counters.add(Counter::toon_fragments);
+                const int tones = options.shading.tones;
+                color[pixel] =
+                    options.shading.smooth
+                        ? smooth_toon(base_color, toon_ambient_light, light_at(on_surface.here),
+                                      light_at(on_surface.here + on_surface.ddx),
+                                      light_at(on_surface.here + on_surface.ddy), tones)
+                        : toon(base_color, toon_ambient_light, light_at(on_surface.here), tones);
             }
-        }
-    }
-    outlines.draw(scene, options.samples_per_side, depth, color, counters);
+            add_to_outline(options.shading, surface, on_surface.here, camera.position_world, pixel,
+                           normals, color, counters);
+        });
+    };
+    for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
+                              counters, draw);
+    draw_outlines(options.shading, scene, hull_normals, camera, options.samples_per_side, normals,
+                  depth, color, counters);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
@@ -103,9 +81,7 @@ Image<vec3> render(const Options& options, const ToonScene& scene, CounterPolicy
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_lesson<Options, ToonScene>(
-        argc, argv, "07_toon", "Draws a scene as a comic does.",
-        [](const auto& options, const auto& scene, auto& counters) {
-            return render(options, scene, counters);
-        });
+    return run_lesson<Options>(argc, argv, "07_toon", "Draws a scene as a comic does.",
+                               make_toon_assets<Options>,
+                               [](auto&... arguments) { return render(arguments...); });
 }

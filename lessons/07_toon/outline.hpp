@@ -18,9 +18,10 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
-#include "06_phong/light.hpp"
+#include "04_mvp/projection.hpp"
 #include "06_phong/normals.hpp"
-#include "common/counters.hpp"
+#include "common/app/counters.hpp"
+#include "common/math/functions.hpp"
 
 namespace rasterbook {
 
@@ -37,8 +38,8 @@ inline std::vector<vec3> hull_normals(const Mesh& mesh) {
     std::vector<vec3> sums(mesh.positions.size(), vec3(0));
     for (const Triangle& triangle : mesh.triangles)
         for (std::size_t i = 0; i < 3; ++i)
-            sums[triangle.corners[i].position] +=
-                corner_angle_radians(mesh, triangle, i) * face_normal(mesh, triangle);
+            sums[triangle.vertices[i].position] +=
+                vertex_angle_radians(mesh, triangle, i) * face_normal(mesh, triangle);
 
     const auto place = [&](std::size_t i) {  // its bits: NaN has a place in their order, too
         return std::bit_cast<std::array<std::uint32_t, 3>>(mesh.positions[i] + 0.0f);  // -0 is 0
@@ -72,9 +73,9 @@ inline vec4 pushed(vec4 position_clip, vec4 normal_clip, float width_px, ivec2 s
 
 /// Whether a face shows the eye its back (Eq. 7.10). In double, where products do not overflow.
 inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3 eye_world) {
-    const dvec3 a = mesh.positions[triangle.corners[0].position];
-    const dvec3 b = mesh.positions[triangle.corners[1].position];
-    const dvec3 c = mesh.positions[triangle.corners[2].position];
+    const dvec3 a = mesh.positions[triangle.vertices[0].position];
+    const dvec3 b = mesh.positions[triangle.vertices[1].position];
+    const dvec3 c = mesh.positions[triangle.vertices[2].position];
     return glm::dot(a - dvec3(eye_world), glm::cross(b - a, c - a)) > 0;
 }
 
@@ -100,14 +101,12 @@ void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera&
     for (const Triangle& triangle : mesh.triangles) {
         // Asked of the body: pushing may turn a small face around.
         if (!is_seen_from_behind(mesh, triangle, camera.position_world)) continue;
-        for (const ClippedTriangle& clipped : clip_triangle(corners_of(triangle, positions_clip))) {
-            const vec3 a = screen_from_clip(clipped[0].position_clip, size);
-            const vec3 b = screen_from_clip(clipped[1].position_clip, size);
-            const vec3 c = screen_from_clip(clipped[2].position_clip, size);
-            const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-            fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 pixel, vec3 screen_weights) {
+        for (const ClippedTriangle& clipped :
+             clip_triangle(vertices_of(triangle, positions_clip))) {
+            const ProjectedTriangle back = project(mesh, triangle, clipped, size);
+            fill_triangle(back.on_screen, size, [&](ivec2 pixel, Barycentrics barycentrics) {
                 counters.add(Counter::outline_tests);
-                if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
+                if (!depth.test_and_write(pixel, back.depth.at(barycentrics))) return;
                 counters.add(Counter::outline_pixels);
                 color[pixel] = ink;
             });
@@ -124,10 +123,10 @@ struct EdgeThresholds {
     float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
 };
 
-/// How near what is seen in a pixel is: 1 / w, which of a plane is linear on the screen (Eq. 7.11).
+/// 1/w of what is seen in a pixel, which on a plane is linear on the screen (Eq. 7.11).
 ///
 /// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, and nothing is as far.
-inline float nearness(float depth, const Camera& camera) {
+inline float inverse_w(float depth, const Camera& camera) {
     if (depth == DepthBuffer::cleared) return 0;
     return 1 / camera.near - depth * (1 / camera.near - 1 / camera.far);
 }
@@ -174,15 +173,15 @@ void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Came
             counters.add(Counter::outline_tests);
             // At the border, those of the next pixel that has neighbours on all sides.
             const ivec2 center = glm::clamp(pixel, ivec2(reach), size - 1 - reach);
-            const auto near_at = [&](ivec2 offset) {
-                return nearness(depth.depths()[center + reach * offset], camera);
+            const auto inverse_w_at = [&](ivec2 offset) {
+                return inverse_w(depth.depths()[center + reach * offset], camera);
             };
             const auto normal_at = [&](ivec2 offset) { return normals[center + reach * offset]; };
             const float bend =
-                std::hypot(second_difference(near_at, x), second_difference(near_at, y));
+                std::hypot(second_difference(inverse_w_at, x), second_difference(inverse_w_at, y));
             const vec3 turn_x = sobel(normal_at, x), turn_y = sobel(normal_at, y);
             const float turn = std::sqrt(glm::dot(turn_x, turn_x) + glm::dot(turn_y, turn_y));
-            if (bend > thresholds.depth * near_at(ivec2(0)) || turn > thresholds.normals) {
+            if (bend > thresholds.depth * inverse_w_at(ivec2(0)) || turn > thresholds.normals) {
                 counters.add(Counter::outline_pixels);
                 color[pixel] = ink;
             }

@@ -4,16 +4,14 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/many_samples.hpp"
+#include "04_mvp/projection.hpp"
 #include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "08_normal_maps/assets.hpp"
+#include "08_normal_maps/normal_mapping.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
@@ -27,76 +25,47 @@ struct Options : LessonOptions {
     NormalMapVariant normal_map;
 
     Options() { model = "scene_bumpy.obj"; }
-    void declare(Knobs& knobs) {
-        knobs.flag("--depth", show_depth,
-                   "Show the depth buffer: near is bright, nothing is black");
-        texture.declare(knobs);
-        shading.declare(knobs);
-        normal_map.declare(knobs);
-    }
+    void declare(Knobs& knobs) { declare_all(knobs, texture, shading, normal_map); }
 };
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolicy& counters) {
+Image<vec3> render(const Options& options, const NormalMapAssets& assets, CounterPolicy& counters) {
+    const auto& [scene, textures, normal_maps, effects] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::array lights = studio_lights(options.shading.key_light, scene.bounds(), low_key);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
-    for (const Mesh& mesh : scene.meshes) {
-        counters.add(Counter::meshes_in);
-        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
-            counters.add(Counter::meshes_culled_by_frustum);
-            continue;
-        }
-        if (!scene.tangents_of(mesh).empty()) counters.add(Counter::meshes_with_tangents);
-        const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
-        for (const Triangle& triangle : mesh.triangles) {
-            counters.add(Counter::triangles_in);
-            const TriangleSurface surface(scene, mesh, triangle);
-            for (const ClippedTriangle& clipped :
-                 clip_triangle(corners_of(triangle, positions_clip))) {
-                const vec3 a = screen_from_clip(clipped[0].position_clip, options.size);
-                const vec3 b = screen_from_clip(clipped[1].position_clip, options.size);
-                const vec3 c = screen_from_clip(clipped[2].position_clip, options.size);
-                const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                const bool is_back = !is_front_facing(on_screen);
-                if (is_back && !options.shading.two_sided) {
-                    counters.add(Counter::triangles_culled_by_facing);
-                    continue;
-                }
-                const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                const PerspectiveWeights perspective(on_screen, clipped);
-                const TriangleRelief relief(options.normal_map, scene, mesh, triangle, is_back);
-                const TriangleLight light(ShadingVariant{options.shading}, lights,
-                                          camera.position_world, mesh, triangle, is_back, surface);
-                const auto shade = [&](const ManyFragments& fragments) {
-                    const ManyWeights weights = weights_of(fragments, perspective);
-                    const auto own = surface.colors(weights, options.texture.filter, counters);
-                    BumpyPoints points;
-                    if (surface.effects.light) {
-                        light.add(weights, points, counters);
-                        relief.add(weights, options.texture.filter, points, counters);
-                    }
-                    relief.tilt(points);
-                    light.compute(points);
-                    for (std::size_t i = 0; i < fragments.count; ++i)
-                        color[fragments.pixels[i]] =
-                            surface.effects.light ? phong(own[i], ambient_light, points.light(i))
-                                                  : unlit(own[i]);
-                };
-                Fragments visible(shade);
-                fill_in_bands(on_screen, options.size, [&](ivec2 pixel, vec3 screen_weights) {
-                    counters.add(Counter::fragments_tested);
-                    if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
-                    counters.add(Counter::fragments_shaded);
-                    visible.add(pixel, screen_weights);
-                });
-                visible.finish();
+    const auto draw = [&](const ProjectedTriangle& projected) {
+        const TriangleSurface surface =
+            triangle_surface(scene, textures, effects[projected.triangle.material], projected);
+        const PerspectiveSetup setup = perspective_setup(projected);
+        const TriangleNormalMap normal_map =
+            triangle_normal_map(options.normal_map, scene, normal_maps, projected);
+
+        fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
+            counters.add(Counter::fragments_tested);
+            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+            counters.add(Counter::fragments_shaded);
+            const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
+            const SurfaceColor base_color =
+                surface_color(surface, on_surface, options.texture.filter, counters);
+            if (!surface.effects[Effect::light]) {
+                color[pixel] = unlit(base_color);
+                return;
             }
-        }
-    }
+            const vec3 normal = normal_mapped(normal_map, options.normal_map, on_surface,
+                                              interpolate(surface.normals_world, on_surface.here),
+                                              options.texture.filter, counters);
+            const SurfacePoint<float> point =
+                surface_point(surface, on_surface.here, normal, camera.position_world, counters);
+            const ReflectedLight reflected = reflected_light(lights, point, highlight_of(surface));
+            color[pixel] = phong(base_color, ambient_light, reflected);
+        });
+    };
+    for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
+                              counters, draw);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
@@ -104,9 +73,7 @@ Image<vec3> render(const Options& options, const BumpyScene& scene, CounterPolic
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_lesson<Options, BumpyScene>(
-        argc, argv, "08_normal_maps", "Draws a scene with relief from normal maps.",
-        [](const auto& options, const auto& scene, auto& counters) {
-            return render(options, scene, counters);
-        });
+    return run_lesson<Options>(argc, argv, "08_normal_maps", "Draws a scene with normal maps.",
+                               make_normal_map_assets<Options>,
+                               [](auto&... arguments) { return render(arguments...); });
 }

@@ -9,16 +9,16 @@
 #include <cstdint>
 
 #include "08_normal_maps/normal_map.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 
-/// Tangents are computed once for a face; for its corners, from all faces around them; or for each
+/// Tangents are computed once for a face; for its vertices, from all faces around them; or for each
 /// pixel, from the face's sides and the normal there.
 enum class FrameOf { face, vertex, pixel };
 
-/// The frames between corners are made orthonormal, or are as they are mixed.
-enum class Orthonormal { at_pixels, at_corners };
+/// The frames between vertices are made orthonormal, or are as they are mixed.
+enum class Orthonormal { at_pixels, at_vertices };
 
 /// What `norm` names: normals in the frames of the surface, or as they stand in the model; or
 /// neither `norm` nor `map_Bump` is read.
@@ -49,10 +49,10 @@ struct NormalMapVariant {
         knobs.choice(
             "--frame", frame,
             {{"face", FrameOf::face}, {"vertex", FrameOf::vertex}, {"pixel", FrameOf::pixel}},
-            "Tangents are computed for a face, for its corners, or for each pixel");
+            "Tangents are computed for a face, for its vertices, or for each pixel");
         knobs.choice("--orthonormal", orthonormal,
-                     {{"pixels", Orthonormal::at_pixels}, {"corners", Orthonormal::at_corners}},
-                     "Frames are made orthonormal at each pixel, or only at the corners");
+                     {{"pixels", Orthonormal::at_pixels}, {"vertices", Orthonormal::at_vertices}},
+                     "Frames are made orthonormal at each pixel, or only at the vertices");
         knobs.choice("--normal-map", space,
                      {{"tangent", MapSpace::tangent},
                       {"object", MapSpace::object},

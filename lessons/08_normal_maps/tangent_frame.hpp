@@ -15,10 +15,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "06_phong/light.hpp"
 #include "06_phong/normals.hpp"
+#include "common/math/functions.hpp"
 #include "common/math/numerics.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
@@ -33,10 +33,10 @@ struct UvDirections {
 /// by the inverse of a 2x2 matrix (Eq. 8.3). Its determinant has the sign of the handedness
 /// (Eq. 8.4). With handedness 0, both directions are 0.
 ///
-/// @param positions,uvs  Of the corners. Any numbers: with a uv that is not finite, the handedness
+/// @param positions,uvs  Of the vertices. Any numbers: with a uv that is not finite, the handedness
 ///          is 0; with a position that is not, it is that of the uvs, and both directions are 0.
 /// @return  Of one texture and surface whatever its size. The sides are taken from the first
-///          corner: another one that comes first changes roundings. In double, an error of 2^-51
+///          vertex: another one that comes first changes roundings. In double, an error of 2^-51
 ///          times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is
 ///          exact where the differences of the uvs are: between numbers that are 0 or less than
 ///          2^29 times each other.
@@ -58,24 +58,30 @@ inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
 /// What is left of v when all that leads along the normal is taken away (Eq. 8.5).
 ///
 /// @param normal  Length 1.
-inline vec3 across(vec3 v, vec3 normal) { return v - glm::dot(v, normal) * normal; }
+template <typename F>
+Vec3<F> across(Vec3<F> v, Vec3<F> normal) {
+    return v - glm::dot(v, normal) * normal;
+}
 
 /// A direction across n: along the axis to which n leans least, as far as n lets it.
 ///
 /// @param n  Length 1.
 /// @return   Length 1.
-inline vec3 any_across(vec3 n) {
-    const vec3 size = glm::abs(n);
-    const vec3 axis = size.x <= size.y && size.x <= size.z ? vec3(1, 0, 0)
-                      : size.y <= size.z                   ? vec3(0, 1, 0)
-                                                           : vec3(0, 0, 1);
+template <typename F>
+Vec3<F> any_orthogonal(Vec3<F> n) {
+    const Vec3<F> size(max(n.x, -n.x), max(n.y, -n.y), max(n.z, -n.z));
+    const Vec3<F> x(vec3(1, 0, 0)), y(vec3(0, 1, 0)), z(vec3(0, 0, 1));
+    const Vec3<F> axis =
+        select((size.x <= size.y) & (size.x <= size.z), x, select(size.y <= size.z, y, z));
     return unit_or(across(axis, n), axis);
 }
 
-/// Three directions at right angles, each of length 1.
-struct TangentFrame {
-    vec3 tangent, bitangent, normal;
+/// Three directions at right angles, each of length 1: the TBN basis.
+template <typename F>
+struct TangentBasis {
+    Vec3<F> tangent, bitangent, normal;
 };
+using TangentFrame = TangentBasis<float>;
 
 /// More of the square of a tangent's length than this has to be left across the normal for one step
 /// to be exact enough: the tangent stood less than 30 degrees away from what it becomes.
@@ -86,62 +92,66 @@ constexpr float hardly_any = 0x1p-40f;
 
 /// What is left of a tangent across the normal, scaled to length 1 (Eq. 8.5).
 ///
-/// In the usual case (the square of what is left is above `mostly` times the tangent's and above
-/// 1e-30, the tangent's is below 1e30) this takes the steps of Eq. 8.5 and no others, with the
-/// tangent as it is: TriangleRelief takes them for many points at once, and promises the same bits.
-///
 /// @param tangent  Any numbers.
 /// @param normal   Length 1.
-/// @return         any_across(normal) where nothing is left: the tangent is 0, not finite, or
+/// @return         any_orthogonal(normal) where nothing is left: the tangent is 0, not finite, or
 ///                 parallel to the normal but for `hardly_any` of its square.
-inline vec3 unit_across(vec3 tangent, vec3 normal) {
-    const vec3 left = across(tangent, normal);
-    const float of_length = glm::dot(left, left), of_all = glm::dot(tangent, tangent);
-    if (of_length > mostly * of_all && of_length > 1e-30f && of_all < 1e30f)
-        return left * (1 / std::sqrt(of_length));
-    // Roundings of the whole tangent count more in the little that is left: take away theirs, too.
-    const vec3 little = across(unit_or(tangent, normal), normal);
-    if (!(glm::dot(little, little) > hardly_any)) return any_across(normal);
-    return unit_or(across(unit_or(little, normal), normal), normal);
+template <typename F>
+Vec3<F> unit_orthogonal(Vec3<F> tangent, Vec3<F> normal) {
+    const Vec3<F> left = across(tangent, normal);
+    const F left_squared = glm::dot(left, left), squared = glm::dot(tangent, tangent);
+    const Vec3<F> unit = left * (F(1.0f) / sqrt(left_squared));
+    const auto is_usable =
+        (left_squared > F(mostly) * squared) & (left_squared > F(1e-30f)) & (squared < F(1e30f));
+    if (all_of(is_usable)) return unit;
+    // Robust: roundings of the whole tangent count more in the little that is left. Take away
+    // theirs, too.
+    const Vec3<F> little = across(unit_or(tangent, normal), normal);
+    const Vec3<F> less = unit_or(across(unit_or(little, normal), normal), normal);
+    const auto is_something = glm::dot(little, little) > F(hardly_any);
+    return select(is_usable, unit, select(is_something, less, any_orthogonal(normal)));
 }
 
 /// The frame at a point (Eq. 8.5).
 ///
-/// @param tangent     Any numbers; where it has no direction across the normal, any_across() has.
+/// @param tangent     Any numbers; where it has no direction across the normal, any_orthogonal()
+/// has.
 /// @param normal      Of any length; where it has no direction, up.
 /// @param handedness  -1 or 1.
 /// @return            Orthonormal within 2^-20, also for numbers that are not finite.
-inline TangentFrame tangent_frame(vec3 tangent, vec3 normal, float handedness) {
-    const vec3 n = unit_or(normal, vec3(0, 1, 0));
-    const vec3 t = unit_across(tangent, n);
+template <typename F>
+TangentBasis<F> tangent_frame(Vec3<F> tangent, Vec3<F> normal, F handedness) {
+    const Vec3<F> n = unit_or(normal, Vec3<F>(vec3(0, 1, 0)));
+    const Vec3<F> t = unit_orthogonal(tangent, n);
     return {t, handedness * glm::cross(n, t), n};
 }
 
-/// What one corner adds to the tangent that it shares with others.
+/// What one vertex adds to the tangent that it shares with others.
 struct TangentShare {
     std::array<std::uint32_t, 9> key;  ///< Those with the same bits share a tangent.
-    std::uint32_t normal;              ///< Index of the corner's normal.
+    std::uint32_t normal;              ///< Index of the vertex's normal.
     std::array<std::int64_t, 3> share;
 };
 
-/// A triangle's share at one of its corners: its angle there, along its tangent (Eq. 8.6), in whole
-/// numbers of 2^-40. Which corner of the triangle comes first in the file does not change a bit.
+/// A triangle's share at one of its vertices: its angle there, along its tangent (Eq. 8.6), in
+/// whole numbers of 2^-40. Which vertex of the triangle comes first in the file does not change a
+/// bit.
 ///
-/// @param mesh  As complete_normals() leaves it: each corner has a normal of its own.
-/// @param uvs   Of the triangle's corners.
+/// @param mesh  As complete_normals() leaves it: each vertex has a normal of its own.
+/// @param uvs   Of the triangle's vertices.
 /// @return      A share of 0 where there is no direction across the normal.
 inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
-                                  const std::array<vec2, 3>& uvs, std::size_t corner) {
-    const std::size_t next = (corner + 1) % 3, last = (corner + 2) % 3;
+                                  const std::array<vec2, 3>& uvs, std::size_t vertex) {
+    const std::size_t next = (vertex + 1) % 3, last = (vertex + 2) % 3;
     const auto position = [&](std::size_t i) {
-        return mesh.positions[triangle.corners[i].position];
+        return mesh.positions[triangle.vertices[i].position];
     };
-    // Seen from this corner, as if it were the first one.
+    // Seen from this vertex, as if it were the first one.
     const auto [tangent, bitangent, handedness] = uv_directions(
-        {position(corner), position(next), position(last)}, {uvs[corner], uvs[next], uvs[last]});
-    const std::uint32_t normal = triangle.corners[corner].normal;
-    const vec3 p = position(corner), n = mesh.normals[normal];
-    const vec2 uv = uvs[corner];
+        {position(vertex), position(next), position(last)}, {uvs[vertex], uvs[next], uvs[last]});
+    const std::uint32_t normal = triangle.vertices[vertex].normal;
+    const vec3 p = position(vertex), n = mesh.normals[normal];
+    const vec2 uv = uvs[vertex];
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
     TangentShare own{{bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z), bits(uv.x),
                       bits(uv.y), handedness < 0 ? 1u : 0u},
@@ -149,32 +159,32 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
                      {0, 0, 0}};
     const vec3 left = across(tangent, n);
     if (!(glm::dot(left, left) > hardly_any)) return own;
-    const double angle_radians = corner_angle_radians(mesh, triangle, corner);
-    const dvec3 share = angle_radians * dvec3(unit_across(tangent, n));
+    const double angle_radians = vertex_angle_radians(mesh, triangle, vertex);
+    const dvec3 share = angle_radians * dvec3(unit_orthogonal(tangent, n));
     own.share = {std::llround(0x1p40 * share.x), std::llround(0x1p40 * share.y),
                  std::llround(0x1p40 * share.z)};
     return own;
 }
 
-/// A tangent for each corner: the mean of those of the triangles around it, weighted by their
-/// angles there (Eq. 8.6). Corners with the same place, normal and uv share one, but for those with
-/// the other handedness: a mirrored texture has tangents that point against each other.
+/// A tangent for each vertex: the mean of those of the triangles around it, weighted by their
+/// angles there (Eq. 8.6). Vertices with the same place, normal and uv share one, but for those
+/// with the other handedness: a mirrored texture has tangents that point against each other.
 ///
 /// Sums of whole numbers have no order: neither that of the triangles nor that of the vertices
 /// changes a bit. There may be 2^20 triangles in one place.
 ///
-/// @param mesh    As complete_normals() leaves it: each corner has a normal of its own.
+/// @param mesh    As complete_normals() leaves it: each vertex has a normal of its own.
 /// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
 /// @return        For each of the mesh's normals: tangent, of length 1 and across the normal, and
 ///                handedness, that of the triangles, -1 or 1; 1 where theirs is 0. Where no
-///                triangle has a direction across the normal, the tangent is any_across().
+///                triangle has a direction across the normal, the tangent is any_orthogonal().
 template <std::invocable<const Triangle&> UvsOf>
 std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
     std::vector<TangentShare> shares;
     shares.reserve(3 * mesh.triangles.size());
     for (const Triangle& triangle : mesh.triangles)
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            shares.push_back(tangent_share(mesh, triangle, uvs_of(triangle), corner));
+        for (std::size_t vertex = 0; vertex < 3; ++vertex)
+            shares.push_back(tangent_share(mesh, triangle, uvs_of(triangle), vertex));
     std::ranges::sort(shares, {}, &TangentShare::key);
 
     std::vector<vec4> tangents(mesh.normals.size(), vec4(0));
@@ -183,7 +193,8 @@ std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
         auto end = begin;
         for (; end != shares.end() && end->key == begin->key; ++end)
             for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += end->share[axis];
-        const vec3 tangent = unit_across(vec3(sum[0], sum[1], sum[2]), mesh.normals[begin->normal]);
+        const vec3 tangent =
+            unit_orthogonal(vec3(sum[0], sum[1], sum[2]), mesh.normals[begin->normal]);
         for (; begin != end; ++begin)
             tangents[begin->normal] = vec4(tangent, begin->key.back() == 1 ? -1 : 1);
     }

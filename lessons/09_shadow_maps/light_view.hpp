@@ -14,14 +14,14 @@
 #include "04_mvp/clip.hpp"
 #include "04_mvp/transform.hpp"
 #include "06_phong/light.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
 /// The matrices under which a light's depth maps are drawn.
 struct LightViews {
     std::array<mat4, 6> clip_from_world{};
-    std::size_t count = 0;  ///< 0: nothing can throw a shadow on anything; 1; 6: see cube_face().
+    std::size_t count = 0;  ///< 0: nothing can cast a shadow on anything; 1; 6: see cube_face().
     bool is_perspective = false;
 };
 
@@ -39,10 +39,11 @@ inline dmat4 crop(dvec3 low, dvec3 high) {
     return translation(-(high + low) / (high - low)) * scaling(scale);
 }
 
-/// Nearer to a lamp or spot than this share of the farthest caster or receiver, nothing casts.
-constexpr double least_near = 0.001;
+/// Nearer to a point light or spotlight than this share of the farthest caster or receiver, nothing
+/// casts.
+constexpr double min_near_share = 0.001;
 
-/// A spot whose light ends farther than this from its axis gets six maps, as a lamp.
+/// A spotlight whose light ends farther than this from its axis gets six maps, as a point light.
 constexpr float widest_spot_radians = 75 * std::numbers::pi_v<float> / 180;
 
 /// A box in the light's view: x right, y up, z the way from the light, w 1 (or the same after the
@@ -72,8 +73,8 @@ inline LightBox box_in(const dmat4& view_from_world, const Bounds& bounds) {
 /// Where a shadow can begin and end: sideways where there are both casters and receivers, and from
 /// the nearest caster to where casters or receivers end (Eq. 9.3).
 ///
-/// z grows towards the light, as view space does. In a spot's NDC, where it grows the other way,
-/// only x and y of the result are of use.
+/// z grows towards the light, as view space does. In a spotlight's NDC, where it grows the other
+/// way, only x and y of the result are of use.
 ///
 /// @return  Not usable, low above high, where there can be no shadow.
 inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers) {
@@ -82,8 +83,8 @@ inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers
     return region;
 }
 
-/// Texels by which each map reaches beyond what it is for, on each side: what is looked up around a
-/// point near the border lies inside. One more than the largest look-up takes.
+/// Texels by which each map reaches beyond what it is for, on each side: the shadow test
+/// of a point near the border lies inside. One more than the largest PCF kernel takes.
 constexpr int margin_texels = 4;
 
 /// By how much the margin makes a map wider (Eq. 9.3).
@@ -110,11 +111,12 @@ inline dmat4 looking(dvec3 eye, dvec3 direction) {
     return look_at(dvec3(0), direction, dvec3(0, 1, 0)) * translation(-eye);
 }
 
-/// The sun's map: parallel to its light, and of what casts on what receives (Eq. 9.1).
+/// A directional light's map: an orthographic projection along its light, fitted to what casts on
+/// what receives (Eq. 9.1).
 ///
 /// @return  Of count 0 when no receiver lies behind a caster, as the light goes.
-inline LightViews sun_views(const Light& light, const Bounds& casters, const Bounds& receivers,
-                            int size) {
+inline LightViews directional_light_views(const Light& light, const Bounds& casters,
+                                          const Bounds& receivers, int size) {
     const dmat4 view = looking(casters.center(), -light.direction_world);
     const LightBox caster_box = box_in(view, casters), receiver_box = box_in(view, receivers);
     const LightBox region = shadow_region(caster_box, receiver_box);
@@ -137,14 +139,14 @@ struct DepthRange {
 /// @param farthest        Where casters or receivers end, whichever comes first, > 0.
 inline DepthRange depth_range(double nearest_caster, double farthest) {
     const double far = 1.002 * farthest;
-    return {std::max(0.998 * nearest_caster, least_near * far), far};
+    return {std::max(0.998 * nearest_caster, min_near_share * far), far};
 }
 
-/// A spot's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
+/// A spotlight's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
 ///
-/// @return  Of count 0 when in front of the spot and in its cone no receiver lies behind a caster.
-inline LightViews spot_views(const Light& light, const Bounds& casters, const Bounds& receivers,
-                             int size) {
+/// @return  Of count 0 when in front of the light and in its cone no receiver lies behind a caster.
+inline LightViews spotlight_views(const Light& light, const Bounds& casters,
+                                  const Bounds& receivers, int size) {
     const dvec3 eye = light.position_world;
     const dmat4 view = looking(eye, light.direction_world);
     const LightBox caster_box = box_in(view, casters), receiver_box = box_in(view, receivers);
@@ -179,16 +181,16 @@ inline LightViews spot_views(const Light& light, const Bounds& casters, const Bo
 }
 
 /// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5). A 0 of
-/// either sign is positive: no way at all is +x.
-inline std::size_t cube_face(vec3 way) {
-    const vec3 size = glm::abs(way);
+/// either sign is positive: no direction at all is +x.
+inline std::size_t cube_face(vec3 direction) {
+    const vec3 size = glm::abs(direction);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    return static_cast<std::size_t>(2 * axis + (way[axis] < 0));
+    return static_cast<std::size_t>(2 * axis + (direction[axis] < 0));
 }
 
-/// A lamp's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
-inline LightViews lamp_views(const Light& light, const Bounds& casters, const Bounds& receivers,
-                             int size) {
+/// A point light's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
+inline LightViews point_light_views(const Light& light, const Bounds& casters,
+                                    const Bounds& receivers, int size) {
     const dvec3 eye = light.position_world;
     // Of the boxes, not of triangles: to a box's farthest corner, and to the point in it or on it
     // that is nearest.
@@ -225,10 +227,11 @@ inline LightViews light_views(const Light& light, const Bounds& casters, const B
                               int size) {
     const auto is_usable = [](const Bounds& b) { return LightBox{b.min, b.max}.is_usable(); };
     if (!is_usable(casters) || !is_usable(receivers)) return {};
-    if (light.kind == LightKind::directional) return sun_views(light, casters, receivers, size);
+    if (light.kind == LightKind::directional)
+        return directional_light_views(light, casters, receivers, size);
     if (light.kind == LightKind::spot && light.cos_none > std::cos(widest_spot_radians))
-        return spot_views(light, casters, receivers, size);
-    return lamp_views(light, casters, receivers, size);
+        return spotlight_views(light, casters, receivers, size);
+    return point_light_views(light, casters, receivers, size);
 }
 
 }  // namespace rasterbook

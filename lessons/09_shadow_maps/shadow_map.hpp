@@ -16,25 +16,26 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/clip.hpp"
+#include "04_mvp/projection.hpp"
 #include "04_mvp/transform.hpp"
-#include "common/counters.hpp"
+#include "common/app/counters.hpp"
 #include "common/math/numerics.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
-/// A look-up averages up to 2 * 3 + 1 texels a side.
-constexpr int most_pcf_radius = 3;
+/// A shadow test averages up to 2 * 3 + 1 texels a side.
+constexpr int max_pcf_radius = 3;
 
-/// By how much fill_triangle may see a corner beside its place, in texels: half a snapping step.
+/// By how much fill_triangle may see a vertex beside its place, in texels: half a snapping step.
 constexpr double snapping = 0.5 / subpixels;
 
-/// Roundings on the way from a corner to a map's depth and to a fragment's: at most 64 of 2^-24,
+/// Roundings on the way from a vertex to a map's depth and to a fragment's: at most 64 of 2^-24,
 /// relative to the sizes of what is added up (Eq. 9.15).
 constexpr double rounding = 64 * 0x1p-24;
 
-/// Depths between 0 and 1 have 24 digits or more; the fill's weights and the depth's sum round a
-/// few times.
+/// Depths between 0 and 1 have 24 digits or more; the fill's barycentrics and the depth's sum round
+/// a few times.
 constexpr double depth_quanta = 8 * 0x1p-24;
 
 /// The depth of what a light sees first, for each texel; 1 where it sees nothing.
@@ -47,14 +48,14 @@ struct ShadowMap {
     double rounding_texels;  ///< By how much a place may be off, times w (Eq. 9.15).
     double rounding_depth;   ///< By how much a depth may be off, times w.
     double slope_in_middle;  ///< |dz/dx| + |dz/dy| of a surface tilted by arctan 2.
-    DepthBuffer depths;      ///< With most_pcf_radius texels around it, in which nothing is seen.
+    DepthBuffer depths;      ///< With max_pcf_radius texels around it, in which nothing is seen.
 
     /// @param reach  World space: a box around all casters and receivers.
     ShadowMap(const mat4& clip, bool perspective, int texels, const Bounds& reach)
         : ShadowMap(clip, perspective, texels, reach,
-                    DepthBuffer(ivec2(texels + 2 * most_pcf_radius))) {}
+                    DepthBuffer(ivec2(texels + 2 * max_pcf_radius))) {}
 
-    /// @param memory  Becomes `depths`: of texels + 2 most_pcf_radius a side.
+    /// @param memory  Becomes `depths`: of texels + 2 max_pcf_radius a side.
     ShadowMap(const mat4& clip, bool perspective, int texels, const Bounds& reach,
               DepthBuffer memory)
         : size(texels),
@@ -98,7 +99,7 @@ struct ShadowMap {
 /// written or not; nothing else is counted.
 ///
 /// @param casts  Called as casts(material), an index into Scene::materials: whether triangles of it
-///               throw shadows.
+///               cast shadows.
 template <typename Casts, typename CounterPolicy>
 void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
     if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
@@ -106,14 +107,12 @@ void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy
     const std::vector<vec4> positions_clip = transform(map.clip_from_world, mesh.positions);
     for (const Triangle& triangle : mesh.triangles) {
         if (!casts(triangle.material)) continue;
-        for (const ClippedTriangle& clipped : clip_triangle(corners_of(triangle, positions_clip))) {
-            const vec3 a = screen_from_clip(clipped[0].position_clip, size);
-            const vec3 b = screen_from_clip(clipped[1].position_clip, size);
-            const vec3 c = screen_from_clip(clipped[2].position_clip, size);
-            const TriangleDepth depth(vec3(a.z, b.z, c.z));
-            fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 texel, vec3 weights) {
+        for (const ClippedTriangle& clipped :
+             clip_triangle(vertices_of(triangle, positions_clip))) {
+            const ProjectedTriangle caster = project(mesh, triangle, clipped, size);
+            fill_triangle(caster.on_screen, size, [&](ivec2 texel, Barycentrics barycentrics) {
                 counters.add(Counter::shadow_fragments);
-                map.depths.test_and_write(texel + most_pcf_radius, depth.at(weights));
+                map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(barycentrics));
             });
         }
     }
@@ -122,7 +121,7 @@ void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy
 /// What keeps a lit surface from shadowing itself.
 enum class Bias { none, constant, slope, plane, normal };
 
-/// What a look-up has to know of the triangle on which a shadow falls.
+/// What a shadow test has to know of the triangle on which a shadow falls.
 struct Receiver {
     vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
     float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.10); leaks: Eq. 9.14.
@@ -134,30 +133,30 @@ struct Receiver {
 /// A plane's slopes beyond which a depth passes through all of the map within a texel. Such a
 /// surface is seen edge-on by the light, gets hardly any, and all of that. Bias::normal needs no
 /// such limit.
-constexpr double most_slope = 1;
+constexpr double max_slope = 1;
 
 /// Fits the bias to a triangle.
 ///
 /// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
 /// lit of a triangle of no area, edge-on (with Bias::normal: only if it contains the light), not
 /// finite, or turned away from the light: that one gets no light anyway, or next to none by normals
-/// that are mixed between its corners.
+/// that are mixed between its vertices.
 ///
-/// @param radius   Of the look-up's square of texels: 0 to most_pcf_radius.
-/// @param corners  World space.
+/// @param radius   Of the PCF kernel: 0 to max_pcf_radius.
+/// @param vertices  World space.
 /// @param outward  Any vector to that side of the triangle which is seen.
 inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
-                         const std::array<vec3, 3>& corners, vec3 outward) {
+                         const std::array<vec3, 3>& vertices, dvec3 outward) {
     Receiver result;
     const double reach_texels = radius + 0.5;  // to the farthest texel's centre: Eq. 9.9
     if (bias == Bias::constant)
         result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
     if (bias == Bias::none || bias == Bias::constant) return result;
 
-    const dvec3 a = corners[0], b = corners[1], c = corners[2];
+    const dvec3 a = vertices[0], b = vertices[1], c = vertices[2];
     dvec3 normal = normalize_or(glm::cross(b - a, c - a), dvec3(0));
     dvec4 plane = map.plane_from_world * dvec4(normal, -glm::dot(normal, a));  // Eq. 9.8
-    if (glm::dot(normal, dvec3(outward)) < 0) plane = -plane, normal = -normal;
+    if (glm::dot(normal, outward) < 0) plane = -plane, normal = -normal;
     if (!(plane.z < 0)) {  // Depth is less towards the light.
         result.bias = 2;
         return result;
@@ -179,7 +178,7 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
         return result;
     }
     const double slope = across / along;
-    if (!(slope <= most_slope)) {  // also 0/0
+    if (!(slope <= max_slope)) {  // also 0/0
         result.bias = 2;
         return result;
     }
@@ -194,12 +193,12 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
 /// The share of a square of texels, around a point's place in the map, from which it is lit: 0 to 1
 /// (Eq. 9.7 and 9.13).
 ///
-/// @tparam radius         0 to most_pcf_radius: 1, 9, 25 or 49 texels.
+/// @tparam radius         0 to max_pcf_radius: 1, 9, 25 or 49 texels.
 /// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
 ///                        lit.
 template <int radius>
-float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
-    static_assert(radius >= 0 && radius <= most_pcf_radius);
+float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+    static_assert(radius >= 0 && radius <= max_pcf_radius);
     const mat4& m = map.texels_from_world;
     float w = 1, per_w = 1;
     if (map.is_perspective) w = (m * vec4(position_world, 1)).w;  // Eq. 9.12
@@ -221,7 +220,7 @@ float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_wo
     const Image<float>& depths = map.depths.depths();
     float lit = 0;
     for (int y = -radius; y <= radius; ++y) {
-        const float* const texels = &depths[{column + most_pcf_radius, row + y + most_pcf_radius}];
+        const float* const texels = &depths[{column + max_pcf_radius, row + y + max_pcf_radius}];
         const float depth_in_row = depth + receiver.slope.y * static_cast<float>(y);
         for (int x = -radius; x <= radius; ++x) {
             // Beyond the last caster: as far as nothing.
@@ -232,6 +231,21 @@ float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_wo
     }
     constexpr int side = 2 * radius + 1;
     return lit / (side * side);
+}
+
+/// The same for a radius that is known only when the program runs.
+inline float pcf_visibility(const ShadowMap& map, int radius, const Receiver& receiver,
+                            vec3 position_world) {
+    switch (radius) {
+        case 0:
+            return pcf_visibility<0>(map, receiver, position_world);
+        case 1:
+            return pcf_visibility<1>(map, receiver, position_world);
+        case 2:
+            return pcf_visibility<2>(map, receiver, position_world);
+        default:
+            return pcf_visibility<3>(map, receiver, position_world);
+    }
 }
 
 }  // namespace rasterbook

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How fine depth maps are and how they are looked up, to be seen with `--shadow-size`, `--bias`
+/// How fine depth maps are and how they are tested, to be seen with `--shadow-size`, `--bias`
 /// and `--pcf`, and measured in docs/accuracy/09_shadow_maps.md.
 #pragma once
 
 #include "09_shadow_maps/shadow_map.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 
 struct ShadowVariant {
     int size = 2048;  ///< Texels a side.
     Bias bias = Bias::slope;
-    int pcf = 3;  ///< A look-up asks pcf * pcf texels: 1, 3, 5 or 7.
+    int pcf = 3;  ///< A shadow test has pcf * pcf taps: 1, 3, 5 or 7.
 
     int radius() const { return pcf / 2; }
 

@@ -3,25 +3,15 @@
 /// Lesson 10: threads.
 #include <optional>
 
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/many_samples.hpp"
 #include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "09_shadow_maps/assets.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/lesson_app.hpp"
 
 using namespace rasterbook;
 
@@ -38,82 +28,69 @@ struct Options : LessonOptions {
 
     Options() { model = "scene_bumpy.obj"; }
     void declare(Knobs& knobs) {
-        knobs.flag("--depth", show_depth,
-                   "Show the depth buffer: near is bright, nothing is black");
-        texture.declare(knobs);
-        shading.declare(knobs);
-        normal_map.declare(knobs);
-        shadow.declare(knobs);
-        threads.declare(knobs);
+        declare_all(knobs, texture, shading, normal_map, shadow, threads);
     }
 };
 
 template <typename Pool, typename CounterPolicy>
-Image<vec3> render(const Options& options, const ShadowedScene& scene, Pool& pool,
+Image<vec3> render(const Options& options, const ShadowAssets& assets, Pool& pool,
                    CounterPolicy& total) {
+    const auto& [scene, textures, normal_maps, effects, shadow_bounds] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::array lights = raking_lights(options.shading.key_light, scene.bounds());
     WorkerCounters<CounterPolicy> counters_of(pool.size());
-    const Shadows shadows = draw_shadows(pool, options.threads, options.shadow,
-                                         options.shading.all_effects, scene, lights, counters_of);
+    const ShadowMaps shadow_maps =
+        draw_shadow_maps(pool, options.threads, options.shadow, options.shading.all_effects, scene,
+                         shadow_bounds, lights, counters_of);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
 
-    std::vector<const Mesh*> meshes;
-    for (const Mesh& mesh : scene.meshes) {
-        total.add(Counter::meshes_in);
-        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
-            total.add(Counter::meshes_culled_by_frustum);
-            continue;
-        }
-        if (!scene.tangents_of(mesh).empty()) total.add(Counter::meshes_with_tangents);
-        meshes.push_back(&mesh);
-    }
-    const Parts parts = options.threads.parts_of(options.size, pool.size());
-    const BinnedTriangles triangles(
-        pool, meshes, clip_from_world, parts, options.shading.two_sided,
-        [](std::size_t) { return true; }, counters_of);
-    pool.run(parts.count(), [&](std::size_t part, std::size_t worker) {
-        CounterPolicy& counters = counters_of[worker];
-        clear_part(color, depth, parts[part]);
-        for (const Chunk& chunk : triangles.chunks)
-            for (const std::size_t index : chunk.of(part)) {
-                const auto& [mesh, triangle, clipped, on_screen, depths, is_back] =
-                    chunk.triangles[index];
-                const TriangleSurface surface(scene, mesh, triangle);
-                const TriangleDepth triangle_depth(depths);
-                const PerspectiveWeights perspective(on_screen, clipped);
-                const TriangleRelief relief(options.normal_map, scene, mesh, triangle, is_back);
-                const TriangleLight light(ShadingVariant{options.shading}, lights,
-                                          camera.position_world, mesh, triangle, is_back, surface);
-                TriangleShadows shadow(shadows, mesh, triangle);
-                const auto shade = [&](const ManyFragments& fragments) {
-                    const ManyWeights weights = weights_of(fragments, perspective);
-                    const auto own = surface.colors(weights, options.texture.filter, counters);
-                    BumpyPoints points;
-                    if (surface.effects.light) {
-                        light.add(weights, points, counters);
-                        relief.add(weights, options.texture.filter, points, counters);
-                    }
-                    shadow.look_up(points, counters);
-                    relief.tilt(points);
-                    light.compute(points, shadow);
-                    for (std::size_t i = 0; i < fragments.count; ++i)
-                        color[fragments.pixels[i]] =
-                            surface.effects.light ? phong(own[i], ambient_light, points.light(i))
-                                                  : unlit(own[i]);
-                };
-                Fragments visible(shade);
-                fill_part(on_screen, parts[part], [&](ivec2 pixel, vec3 screen_weights) {
-                    counters.add(Counter::fragments_tested);
-                    if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
-                    counters.add(Counter::fragments_shaded);
-                    visible.add(pixel, screen_weights);
-                });
-                visible.finish();
+    const auto draw = [&](const ProjectedTriangle& projected, const Tile& tile,
+                          CounterPolicy& counters) {
+        const TriangleSurface surface =
+            triangle_surface(scene, textures, effects[projected.triangle.material], projected);
+        const PerspectiveSetup setup = perspective_setup(projected);
+        const TriangleNormalMap normal_map =
+            triangle_normal_map(options.normal_map, scene, normal_maps, projected);
+        TriangleReceiver receiver = triangle_receiver(surface.positions_world);  // keeps biases
+
+        fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
+            counters.add(Counter::fragments_tested);
+            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+            counters.add(Counter::fragments_shaded);
+            const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
+            const SurfaceColor base_color =
+                surface_color(surface, on_surface, options.texture.filter, counters);
+            if (!surface.effects[Effect::light]) {
+                color[pixel] = unlit(base_color);
+                return;
             }
-        if (options.threads.show) tint(color, parts[part], worker);
+            const vec3 smooth_normal = interpolate(surface.normals_world, on_surface.here);
+            const vec3 normal = normal_mapped(normal_map, options.normal_map, on_surface,
+                                              smooth_normal, options.texture.filter, counters);
+            const SurfacePoint<float> point =
+                surface_point(surface, on_surface.here, normal, camera.position_world, counters);
+            const auto visibility = [&](std::size_t light) {
+                return light_visibility(shadow_maps, light, receiver, point.position_world,
+                                        smooth_normal, counters);
+            };
+            const ReflectedLight reflected =
+                reflected_light(lights, point, highlight_of(surface), visibility);
+            color[pixel] = phong(base_color, ambient_light, reflected);
+        });
+    };
+    const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
+    const BinnedTriangles triangles(pool, meshes_in_view(scene, clip_from_world, total),
+                                    clip_from_world, tiling, options.shading.culling(),
+                                    counters_of);
+    pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
+        const Tile tile = tiling[i];
+        clear_tile(color, depth, tile);
+        for (const TriangleBatch& batch : triangles.batches)
+            for (const std::size_t index : batch.of(i))
+                draw(batch.triangles[index], tile, counters_of[worker]);
+        if (options.threads.show) tint(color, tile, worker);
     });
     counters_of.add_to(total);
     if (options.show_depth) return depth_picture(depth);
@@ -123,11 +100,11 @@ Image<vec3> render(const Options& options, const ShadowedScene& scene, Pool& poo
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_lesson<Options, ShadowedScene>(
+    return run_lesson<Options>(
         argc, argv, "10_threading", "Draws the same picture with several threads.",
-        [](const auto& options, const auto& scene, auto& counters) {
+        make_shadow_assets<Options>, [](const auto& options, const auto& assets, auto& counters) {
             thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
-            return render(options, scene, *pool, counters);
+            return render(options, assets, *pool, counters);
         });
 }

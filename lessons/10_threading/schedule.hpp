@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How long tasks take when several workers share them out: foretold from what each takes alone.
+/// How long tasks take when several workers share them out: predicted from what each takes alone.
 /// Introduced in lesson 10; derivation: docs/derivations/10_threading.md.
 #pragma once
 

@@ -9,7 +9,6 @@
 #include <cstddef>
 
 #include "02_triangle_fill/triangle.hpp"
-#include "05_textures/bands.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook {
@@ -25,7 +24,7 @@ struct PixelBox {
 /// The pixels whose centres lie in the box around a triangle: all that it may cover, and some more
 /// (Eq. 10.6).
 inline PixelBox box_around(const ScreenTriangle& triangle) {
-    const auto [a, b, c] = triangle.corners;
+    const auto [a, b, c] = triangle.vertices;
     const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
     return {(low + (subpixels / 2 - 1)) >> subpixel_bits, (high - subpixels / 2) >> subpixel_bits};
 }
@@ -36,7 +35,7 @@ inline PixelBox common_box(const PixelBox& a, const PixelBox& b) {
 }
 
 /// The pixels of one task: of a box, the first row and each `row_step`-th after it.
-struct Part {
+struct Tile {
     PixelBox box;
     int row_step = 1;
 };
@@ -44,18 +43,18 @@ struct Part {
 /// How to split a picture.
 enum class Split { rows, interleaved, tiles };
 
-/// A picture in parts. Each pixel is in just one.
-class Parts {
+/// A picture in tiles, or in rows that stand for them. Each pixel is in just one.
+class Tiling {
   public:
-    /// @param size     Of the picture, each side >= 0. Without pixels there are no parts.
-    /// @param workers  At least 1. Rows and interleaved rows make one part for each, or one a row
+    /// @param size     Of the picture, each side >= 0. Without pixels there are no tiles.
+    /// @param workers  At least 1. Rows and interleaved rows make one tile for each, or one a row
     ///                 where there are fewer rows than workers.
-    /// @param tile     Pixels along a tile's side, at least 1.
-    Parts(Split split, ivec2 size, std::size_t workers, int tile)
-        : split_(split), size_(size), tile_(tile) {
-        assert(workers >= 1 && tile >= 1);
+    /// @param tile_size  Pixels along a tile's side, at least 1.
+    Tiling(Split split, ivec2 size, std::size_t workers, int tile_size)
+        : split_(split), size_(size), tile_size_(tile_size) {
+        assert(workers >= 1 && tile_size >= 1);
         if (size.x <= 0 || size.y <= 0) return;
-        const auto ceiling = [&](int side) { return (side - 1) / tile + 1; };
+        const auto ceiling = [&](int side) { return (side - 1) / tile_size + 1; };
         columns_ = split == Split::tiles ? ceiling(size.x) : 1;
         rows_ = split == Split::tiles
                     ? ceiling(size.y)
@@ -67,21 +66,21 @@ class Parts {
         return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
     }
 
-    /// @param part  From 0 to count() - 1.
-    Part operator[](std::size_t part) const {
-        const int column = static_cast<int>(part % static_cast<std::size_t>(columns_));
-        const int row = static_cast<int>(part / static_cast<std::size_t>(columns_));
+    /// @param tile  From 0 to count() - 1.
+    Tile operator[](std::size_t tile) const {
+        const int column = static_cast<int>(tile % static_cast<std::size_t>(columns_));
+        const int row = static_cast<int>(tile / static_cast<std::size_t>(columns_));
         const ivec2 end = size_ - 1;
         if (split_ == Split::interleaved) return {{{0, row}, end}, rows_};  // Eq. 10.4
         if (split_ == Split::tiles) {                                       // Eq. 10.5
-            const ivec2 first = tile_ * ivec2(column, row);
-            return {{first, glm::min(first + (tile_ - 1), end)}};
+            const ivec2 first = tile_size_ * ivec2(column, row);
+            return {{first, glm::min(first + (tile_size_ - 1), end)}};
         }
         const int height = size_.y / rows_;  // Eq. 10.3
         return {{{0, row * height}, {end.x, row + 1 < rows_ ? (row + 1) * height - 1 : end.y}}};
     }
 
-    /// Calls take(part) once for each part that has a pixel in the box.
+    /// Calls take(tile) once for each tile that has a pixel in the box.
     template <typename Take>
     void for_each_in(const PixelBox& box, Take&& take) const {
         const auto [first, last] = common_box(box, {ivec2(0), size_ - 1});
@@ -91,9 +90,9 @@ class Parts {
                 take(static_cast<std::size_t>(y % rows_));
             return;
         }
-        const int height = split_ == Split::tiles ? tile_ : size_.y / rows_;
+        const int height = split_ == Split::tiles ? tile_size_ : size_.y / rows_;
         const auto row_of = [&](int y) { return std::min(y / height, rows_ - 1); };
-        const auto column_of = [&](int x) { return split_ == Split::tiles ? x / tile_ : 0; };
+        const auto column_of = [&](int x) { return split_ == Split::tiles ? x / tile_size_ : 0; };
         for (int row = row_of(first.y); row <= row_of(last.y); ++row)
             for (int column = column_of(first.x); column <= column_of(last.x); ++column)
                 take(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
@@ -103,17 +102,17 @@ class Parts {
   private:
     Split split_;
     ivec2 size_;
-    int tile_;
-    int columns_ = 0, rows_ = 0;  ///< Of parts.
+    int tile_size_;
+    int columns_ = 0, rows_ = 0;  ///< Of tiles.
 };
 
-/// Visits what of a part lies in a box, as boxes of whole rows: of interleaved rows, each is one.
+/// Visits what of a tile lies in a box, as boxes of whole rows: of interleaved rows, each is one.
 ///
 /// @param visit  Called as visit(PixelBox), never with an empty one.
 template <typename Visit>
-void for_each_strip(const Part& part, const PixelBox& box, Visit&& visit) {
-    PixelBox strip = common_box(part.box, box);
-    const int skipped = strip.first.y - part.box.first.y, step = part.row_step;
+void for_each_strip(const Tile& tile, const PixelBox& box, Visit&& visit) {
+    PixelBox strip = common_box(tile.box, box);
+    const int skipped = strip.first.y - tile.box.first.y, step = tile.row_step;
     strip.first.y += (step - skipped % step) % step;
     if (strip.is_empty()) return;
     const int end = strip.last.y;
@@ -124,17 +123,17 @@ void for_each_strip(const Part& part, const PixelBox& box, Visit&& visit) {
     }
 }
 
-/// Visits all of a part.
+/// Visits all of a tile.
 template <typename Visit>
-void for_each_strip(const Part& part, Visit&& visit) {
-    for_each_strip(part, part.box, visit);
+void for_each_strip(const Tile& tile, Visit&& visit) {
+    for_each_strip(tile, tile.box, visit);
 }
 
-/// As fill_in_bands, of a part of a picture.
+/// As fill_triangle, of a tile.
 template <typename Emit>
-void fill_part(const ScreenTriangle& triangle, const Part& part, Emit&& emit) {
-    for_each_strip(part, box_around(triangle), [&](const PixelBox& strip) {
-        fill_in_bands(triangle, strip.first, strip.last, emit);
+void fill_tile(const ScreenTriangle& triangle, const Tile& tile, Emit&& emit) {
+    for_each_strip(tile, box_around(triangle), [&](const PixelBox& strip) {
+        fill_triangle(triangle, strip.first, strip.last, emit);
     });
 }
 

@@ -12,9 +12,9 @@
 #include <glm/trigonometric.hpp>
 
 #include "10_threading/split.hpp"
-#include "common/image.hpp"
-#include "common/lesson_app.hpp"
-#include "common/threads.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/app/threads.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook {
 
@@ -25,7 +25,7 @@ struct ThreadOptions {
     bool show = false;
 
     void declare(Knobs& knobs) {
-        knobs.number("--threads", threads, 1, most_threads, "How many threads draw");
+        knobs.number("--threads", threads, 1, max_threads, "How many threads draw");
         knobs.choice(
             "--split", split,
             {{"rows", Split::rows}, {"interleaved", Split::interleaved}, {"tiles", Split::tiles}},
@@ -34,7 +34,7 @@ struct ThreadOptions {
         knobs.flag("--show-threads", show, "Tint each pixel by the thread that drew it");
     }
 
-    Parts parts_of(ivec2 size, std::size_t workers) const { return {split, size, workers, tile}; }
+    Tiling tiling_of(ivec2 size, std::size_t workers) const { return {split, size, workers, tile}; }
 };
 
 /// A worker's colour, linear: all are equally bright to the eye, and hues a golden angle apart, so
@@ -56,16 +56,16 @@ inline vec3 color_of(std::size_t worker) {
                     vec3(0));
 }
 
-/// Gives a part of a picture its worker's colour; what is bright stays brighter than what is dark.
-/// A part that is a box has a darker upper and left border.
-inline void tint(Image<vec3>& picture, const Part& part, std::size_t worker) {
+/// Gives a tile its worker's colour; what is bright stays brighter than what is dark.
+/// A tile that is a box has a darker upper and left border.
+inline void tint(Image<vec3>& picture, const Tile& tile, std::size_t worker) {
     constexpr float least = 0.10f, most_white = 0.5f, border = 0.4f;
     const vec3 color = color_of(worker);
-    for_each_strip(part, [&](const PixelBox& strip) {
+    for_each_strip(tile, [&](const PixelBox& strip) {
         for (int y = strip.first.y; y <= strip.last.y; ++y)
             for (int x = strip.first.x; x <= strip.last.x; ++x) {
                 const bool is_border =
-                    part.row_step == 1 && (x == strip.first.x || y == strip.first.y);
+                    tile.row_step == 1 && (x == strip.first.x || y == strip.first.y);
                 vec3& pixel = picture[{x, y}];
                 const float light = glm::dot(pixel, vec3(0.2126f, 0.7152f, 0.0722f));
                 const vec3 tinted = glm::mix(color, vec3(1), std::min(0.7f * light, most_white));

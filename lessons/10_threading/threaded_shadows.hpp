@@ -8,33 +8,33 @@
 #include <vector>
 
 #include "03_z_buffer/depth_buffer.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
+#include "09_shadow_maps/shadows.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/split.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
-#include "common/backdrop.hpp"
-#include "common/counters.hpp"
+#include "common/app/counters.hpp"
+#include "common/image/backdrop.hpp"
 
 namespace rasterbook {
 
-/// Clears a part of a picture and its depths.
-inline void clear_part(Image<vec3>& color, DepthBuffer& depth, const Part& part) {
-    for_each_strip(part, [&](const PixelBox& strip) {
+/// Clears a tile and its depths.
+inline void clear_tile(Image<vec3>& color, DepthBuffer& depth, const Tile& tile) {
+    for_each_strip(tile, [&](const PixelBox& strip) {
         draw_backdrop(color, strip.first, strip.last);
         depth.clear(strip.first, strip.last);
     });
 }
 
-/// Clears what of a map's depths belongs to a part of its texels. The border around the map belongs
-/// to the parts that touch it.
-inline void clear_part(ShadowMap& map, const Part& part) {
+/// Clears what of a map's depths belongs to a tile of its texels. The border around the map belongs
+/// to the tiles that touch it.
+inline void clear_tile(ShadowMap& map, const Tile& tile) {
     const ivec2 last_texel(map.size - 1);
-    for_each_strip(part, [&](const PixelBox& strip) {
-        ivec2 first = strip.first + most_pcf_radius, last = strip.last + most_pcf_radius;
+    for_each_strip(tile, [&](const PixelBox& strip) {
+        ivec2 first = strip.first + max_pcf_radius, last = strip.last + max_pcf_radius;
         for (int axis = 0; axis < 2; ++axis) {
-            if (strip.first[axis] == 0) first[axis] -= most_pcf_radius;
-            if (strip.last[axis] == last_texel[axis]) last[axis] += most_pcf_radius;
+            if (strip.first[axis] == 0) first[axis] -= max_pcf_radius;
+            if (strip.last[axis] == last_texel[axis]) last[axis] += max_pcf_radius;
         }
         map.depths.clear(first, last);
     });
@@ -44,53 +44,50 @@ inline void clear_part(ShadowMap& map, const Part& part) {
 /// count of fragments, as by draw_casters().
 ///
 /// @param pool      Has size() and run() as ThreadPool does.
-/// @param parts     Of a picture of map.size * map.size.
+/// @param tiling   Of a picture of map.size * map.size.
 /// @param is_drawn  Else the map is cleared only.
 /// @param counters  One for each worker of the pool.
 template <typename Pool, typename CounterPolicy>
-void draw_map(Pool& pool, ShadowMap& map, const ShadowedScene& scene, const Parts& parts,
-              bool is_drawn, WorkerCounters<CounterPolicy>& counters) {
+void draw_map(Pool& pool, ShadowMap& map, const Scene& scene, const Tiling& tiling, bool is_drawn,
+              WorkerCounters<CounterPolicy>& counters) {
     std::vector<const Mesh*> meshes;
     for (const Mesh& mesh : scene.meshes)
         if (is_drawn && !is_outside_frustum(mesh.bounds, map.clip_from_world))
             meshes.push_back(&mesh);
     WorkerCounters<NoCounters> uncounted(pool.size());
-    const auto casts = [&](std::size_t material) { return scene.casts(material); };
-    const BinnedTriangles casters(pool, meshes, map.clip_from_world, parts, true, casts, uncounted);
-    pool.run(parts.count(), [&](std::size_t part, std::size_t worker) {
+    const auto casts = [&](std::size_t material) {
+        return casts_shadows(scene.materials[material]);
+    };
+    const BinnedTriangles casters(pool, meshes, map.clip_from_world, tiling, Culling::none, casts,
+                                  uncounted);
+    pool.run(tiling.count(), [&](std::size_t tile, std::size_t worker) {
         CounterPolicy& own_counters = counters[worker];
-        clear_part(map, parts[part]);
-        for (const Chunk& chunk : casters.chunks)
-            for (const std::size_t i : chunk.of(part)) {
-                const ReadyTriangle& ready = chunk.triangles[i];
-                const TriangleDepth depth(ready.depths);
-                fill_part(ready.on_screen, parts[part], [&](ivec2 texel, vec3 weights) {
+        clear_tile(map, tiling[tile]);
+        for (const TriangleBatch& batch : casters.batches)
+            for (const std::size_t i : batch.of(tile)) {
+                const ProjectedTriangle& caster = batch.triangles[i];
+                fill_tile(caster.on_screen, tiling[tile], [&](ivec2 texel, Barycentrics at) {
                     own_counters.add(Counter::shadow_fragments);
-                    map.depths.test_and_write(texel + most_pcf_radius, depth.at(weights));
+                    map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(at));
                 });
             }
     });
 }
 
-/// The depth maps of all lights, as lesson 09 draws them.
+/// The shadow maps of all lights, as lesson 09 draws them.
 ///
 /// @param counters  One for each worker of the pool.
-/// @param casts     For each light, whether it throws shadows.
+/// @param casts     For each light, whether it casts shadows.
 template <typename Pool, typename CounterPolicy>
-Shadows draw_shadows(Pool& pool, const ThreadOptions& threads, const ShadowVariant& variant,
-                     bool all_effects, const ShadowedScene& scene, std::span<const Light> lights,
-                     WorkerCounters<CounterPolicy>& counters,
-                     std::span<const bool> casts = light_casts) {
-    const Parts parts = threads.parts_of(ivec2(variant.size), pool.size());
-    return {variant,
-            all_effects,
-            scene,
-            lights,
-            counters[0],
-            [&](ShadowMap& map, bool is_drawn) {
-                draw_map(pool, map, scene, parts, is_drawn, counters);
-            },
-            casts};
+ShadowMaps draw_shadow_maps(Pool& pool, const ThreadOptions& threads, const ShadowVariant& variant,
+                            bool all_effects, const Scene& scene, const ShadowBounds& bounds,
+                            std::span<const Light> lights, WorkerCounters<CounterPolicy>& counters,
+                            std::span<const bool> casts = light_casts) {
+    const Tiling tiling = threads.tiling_of(ivec2(variant.size), pool.size());
+    return draw_shadow_maps(variant, all_effects, scene, bounds, lights, casts, counters[0],
+                            [&](ShadowMap& map, bool is_drawn) {
+                                draw_map(pool, map, scene, tiling, is_drawn, counters);
+                            });
 }
 
 }  // namespace rasterbook

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook {
@@ -18,7 +18,7 @@ namespace rasterbook {
 /// Whether a surface with holes is there (Eq. 11.7).
 ///
 /// @param opacity  Any number; of NaN, there is a hole.
-inline bool is_there(float opacity, float cutoff) { return opacity >= cutoff; }
+inline bool passes_alpha_test(float opacity, float cutoff) { return opacity >= cutoff; }
 
 /// A colour over what lies behind it (Eq. 11.8): exactly itself with an opacity of 1, exactly what
 /// lies behind with one of 0.
@@ -29,43 +29,43 @@ inline vec3 over(vec3 color, float opacity, vec3 behind) {
     return opacity * color + (1 - opacity) * behind;
 }
 
-/// One layer in one pixel.
-struct Layer {
+/// A transparent fragment: one surface in one pixel.
+struct TransparentFragment {
     ivec2 pixel;
     float depth;
     float opacity;  ///< 0 to 1.
     vec3 color;
 };
 
-/// The layers of a part of a picture, gathered in any order, drawn from back to front.
+/// The transparent fragments of a tile, gathered in any order, blended from back to front.
 ///
 /// Sorted in each pixel by themselves: triangles that cut through each other, or overlap in a ring,
 /// have no order as a whole.
-class Layers {
+class TransparentFragments {
   public:
-    void add(const Layer& layer) { layers_.push_back(layer); }
+    void add(const TransparentFragment& fragment) { fragments_.push_back(fragment); }
 
-    bool empty() const { return layers_.empty(); }
+    bool empty() const { return fragments_.empty(); }
 
-    /// Draws all of them over the picture (Eq. 11.9). Of two layers at the same depth, that which
-    /// was added first lies on top: it is the first that stays in the depth buffer, too.
-    void draw_over(Image<vec3>& color) {
-        order_.resize(layers_.size());
+    /// Blends all of them over the picture (Eq. 11.9). Of two fragments at the same depth, the
+    /// one that was added first lies on top: it is the first that stays in the depth buffer, too.
+    void blend_over(Image<vec3>& color) {
+        order_.resize(fragments_.size());
         for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint32_t>(i);
         std::ranges::sort(order_, [this](std::uint32_t a, std::uint32_t b) {
-            const Layer &first = layers_[a], &second = layers_[b];
+            const TransparentFragment &first = fragments_[a], &second = fragments_[b];
             return std::tuple(first.pixel.y, first.pixel.x, second.depth, b) <
                    std::tuple(second.pixel.y, second.pixel.x, first.depth, a);
         });
         for (const std::uint32_t i : order_) {
-            vec3& pixel = color[layers_[i].pixel];
-            pixel = over(layers_[i].color, layers_[i].opacity, pixel);
+            vec3& pixel = color[fragments_[i].pixel];
+            pixel = over(fragments_[i].color, fragments_[i].opacity, pixel);
         }
-        layers_.clear();
+        fragments_.clear();
     }
 
   private:
-    std::vector<Layer> layers_;
+    std::vector<TransparentFragment> fragments_;
     std::vector<std::uint32_t> order_;
 };
 

@@ -17,8 +17,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "04_mvp/camera.hpp"
-#include "common/lesson_app.hpp"
-#include "common/mesh.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 

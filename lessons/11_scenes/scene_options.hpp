@@ -11,7 +11,7 @@
 
 #include "05_textures/texture_variants.hpp"
 #include "09_shadow_maps/shadow_variants.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 

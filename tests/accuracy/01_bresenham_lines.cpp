@@ -9,7 +9,7 @@
 
 #include "01_bresenham_lines/line_variants.hpp"
 #include "accuracy/accuracy.hpp"
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 #include "support/exact_area.hpp"
 
 using namespace rasterbook;
@@ -85,7 +85,7 @@ Errors coverage_errors(LineMethod method, const std::vector<Line>& lines, int si
         const dvec2 along = 0.5 * glm::normalize(dvec2(line.b - line.a));
         const dvec2 across(along.y, -along.x);
         const dvec2 from = dvec2(line.a) + 0.5 - along, to = dvec2(line.b) + 0.5 + along;
-        const std::vector<dvec2> band = {from - across, from + across, to + across, to - across};
+        const std::vector<dvec2> strip = {from - across, from + across, to + across, to - across};
         const ivec2 low = glm::max(glm::min(line.a, line.b) - 1, ivec2(0));
         const ivec2 high = glm::min(glm::max(line.a, line.b) + 1, ivec2(side - 1));
         const double reach = 2 * std::max(line.extent().x, line.extent().y) + 1.0;
@@ -93,7 +93,7 @@ Errors coverage_errors(LineMethod method, const std::vector<Line>& lines, int si
             for (int x = low.x; x <= high.x; ++x) {
                 if (static_cast<double>(doubled_distance(line, {x, y})) > 2 * reach) continue;
                 float& coverage = drawn[{x, y}];
-                const double area = area_in_pixel(band, {x, y});
+                const double area = area_in_pixel(strip, {x, y});
                 if (area > 0 || coverage > 0) {
                     const double error = std::abs(double{coverage} - area);
                     greatest = std::max(greatest, error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Triangles: how finely corners are snapped, what edge functions are computed in, and how many
+/// Triangles: how finely vertices are snapped, what edge functions are computed in, and how many
 /// samples a pixel has.
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include "02_triangle_fill/triangle_variants.hpp"
 #include "accuracy/accuracy.hpp"
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 #include "common/math/numerics.hpp"
 #include "support/exact_area.hpp"
 #include "support/triangulations.hpp"
@@ -23,17 +23,17 @@ using namespace rasterbook::test;
 
 namespace {
 
-using Corners = std::array<dvec2, 3>;
+using Vertices = std::array<dvec2, 3>;
 constexpr ivec2 picture_size(256);
 
 /// Triangles anywhere in the picture, counter-clockwise, their corners on 2^-20 pixel.
-std::vector<Corners> random_triangles(int count) {
+std::vector<Vertices> random_triangles(int count) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> any(0, 256 << 20);
-    std::vector<Corners> triangles;
+    std::vector<Vertices> triangles;
     while (std::ssize(triangles) < count) {
-        Corners t;
-        for (dvec2& corner : t) corner = dvec2(any(random), any(random)) / double{1 << 20};
+        Vertices t;
+        for (dvec2& vertex : t) vertex = dvec2(any(random), any(random)) / double{1 << 20};
         const dvec2 u = t[1] - t[0], v = t[2] - t[0];
         if (u.y * v.x - u.x * v.y < 0) std::swap(t[1], t[2]);
         triangles.push_back(t);
@@ -41,31 +41,32 @@ std::vector<Corners> random_triangles(int count) {
     return triangles;
 }
 
-/// Whether a pixel's centre lies inside a triangle with corners on 2^-20 pixel: exact. (None of
+/// Whether a pixel's centre lies inside a triangle with vertices on 2^-20 pixel: exact. (None of
 /// the random triangles has a centre on a side.)
-bool is_inside(const Corners& corners, ivec2 pixel) {
+bool is_inside(const Vertices& vertices, ivec2 pixel) {
     using Point = glm::vec<2, std::int64_t>;
     const Point p = (Point(pixel) * std::int64_t{2} + std::int64_t{1}) << std::int64_t{19};
     for (std::size_t i = 0; i < 3; ++i) {
-        const Point from(corners[i] * double{1 << 20}), to(corners[(i + 1) % 3] * double{1 << 20});
+        const Point from(vertices[i] * double{1 << 20}),
+            to(vertices[(i + 1) % 3] * double{1 << 20});
         const Point side = to - from, way = p - from;
         if (int128{side.y} * way.x - int128{side.x} * way.y <= 0) return false;
     }
     return true;
 }
 
-double covered_pixels(const std::vector<Corners>& triangles) {
+double covered_pixels(const std::vector<Vertices>& triangles) {
     double covered = 0;
-    for (const Corners& t : triangles)
+    for (const Vertices& t : triangles)
         for (int y = 0; y < picture_size.y; ++y)
             for (int x = 0; x < picture_size.x; ++x) covered += is_inside(t, {x, y});
     return covered;
 }
 
 /// Pixels that are drawn and should not be, or the other way round, for each triangle.
-double wrong_pixels(const FillVariant& variant, const std::vector<Corners>& triangles) {
+double wrong_pixels(const FillVariant& variant, const std::vector<Vertices>& triangles) {
     double wrong = 0;
-    for (const Corners& t : triangles) {
+    for (const Vertices& t : triangles) {
         Image<std::uint8_t> hits(picture_size, 0);
         fill_bounding_box_as(variant, t, picture_size, [&](ivec2 pixel, vec3) { ++hits[pixel]; });
         for (int y = 0; y < picture_size.y; ++y)
@@ -105,7 +106,7 @@ double fan_errors(const FillVariant& variant, float radius) {
 }
 
 /// Draws with samples_per_side^2 samples a pixel; adds up their shares.
-void add_coverage(Image<float>& coverage, const Corners& t, int samples_per_side) {
+void add_coverage(Image<float>& coverage, const Vertices& t, int samples_per_side) {
     const float n = static_cast<float>(samples_per_side), share = 1 / (n * n);
     fill_triangle(snap_triangle(vec2(t[0]) * n, vec2(t[1]) * n, vec2(t[2]) * n),
                   picture_size * samples_per_side,
@@ -113,9 +114,9 @@ void add_coverage(Image<float>& coverage, const Corners& t, int samples_per_side
 }
 
 /// Of the coverage of the pixels that a triangle's border crosses.
-Errors coverage_errors(int samples_per_side, const std::vector<Corners>& triangles) {
+Errors coverage_errors(int samples_per_side, const std::vector<Vertices>& triangles) {
     double sum_of_squares = 0, greatest = 0, pixels = 0;
-    for (const Corners& t : triangles) {
+    for (const Vertices& t : triangles) {
         Image<float> coverage(picture_size, 0.0f);
         add_coverage(coverage, t, samples_per_side);
         for (int y = 0; y < picture_size.y; ++y)
@@ -135,14 +136,15 @@ Errors coverage_errors(int samples_per_side, const std::vector<Corners>& triangl
 }  // namespace
 
 int main(int argc, char** argv) {
-    static const std::vector<Corners> triangles = random_triangles(100);
+    static const std::vector<Vertices> triangles = random_triangles(100);
     static Image<std::uint8_t> hits(picture_size, 0);
     static Image<float> coverage(picture_size, 0.0f);
     const double covered = covered_pixels(triangles);
     const auto emit = [](ivec2 pixel, vec3) { ++hits[pixel]; };
     const auto fill_boxes = [=](const FillVariant& variant) {
         return [=] {
-            for (const Corners& t : triangles) fill_bounding_box_as(variant, t, picture_size, emit);
+            for (const Vertices& t : triangles)
+                fill_bounding_box_as(variant, t, picture_size, emit);
         };
     };
 
@@ -177,7 +179,7 @@ int main(int argc, char** argv) {
         add_variant("samples",
                     std::to_string(per_side * per_side) + (per_side > 1 ? " samples" : " sample"),
                     covered, coverage_errors(per_side, triangles), [=] {
-                        for (const Corners& t : triangles) add_coverage(coverage, t, per_side);
+                        for (const Vertices& t : triangles) add_coverage(coverage, t, per_side);
                     });
     return measure_variants(argc, argv);
 }

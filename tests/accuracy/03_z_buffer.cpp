@@ -12,7 +12,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "03_z_buffer/depth_variants.hpp"
 #include "accuracy/accuracy.hpp"
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;

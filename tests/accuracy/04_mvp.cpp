@@ -13,6 +13,7 @@
 
 #include "04_mvp/mvp_variants.hpp"
 #include "accuracy/accuracy.hpp"
+#include "support/projected.hpp"
 #include "support/seen_by_rays.hpp"
 
 using namespace rasterbook;
@@ -84,32 +85,29 @@ constexpr ivec2 picture_size(256);
 /// Draws a triangle as the lesson does; calls emit(pixel) where its depth is that of something
 /// seen.
 template <typename Emit>
-void draw(const MvpVariant& variant, const std::array<vec4, 3>& corners, Emit&& emit) {
+void draw(const MvpVariant& variant, const std::array<vec4, 3>& vertices, Emit&& emit) {
     if (variant.clipping == Clipping::pixels)
-        return fill_homogeneous(whole_triangle(corners), picture_size, [&](ivec2 pixel, float z) {
+        return fill_homogeneous(whole_triangle(vertices), picture_size, [&](ivec2 pixel, float z) {
             if (z < DepthBuffer::cleared) emit(pixel);
         });
-    for (const ClippedTriangle& clipped : clip(variant, corners, picture_size)) {
-        const vec3 a = screen_from_clip(clipped[0].position_clip, picture_size);
-        const vec3 b = screen_from_clip(clipped[1].position_clip, picture_size);
-        const vec3 c = screen_from_clip(clipped[2].position_clip, picture_size);
-        const ScreenTriangle on_screen = snap_triangle(a, b, c);
-        if (!is_front_facing(on_screen)) continue;
-        const TriangleDepth depth(vec3(a.z, b.z, c.z));
-        fill_triangle(on_screen, picture_size, [&](ivec2 pixel, vec3 weights) {
-            if (depth.at(weights) < DepthBuffer::cleared) emit(pixel);
-        });
+    for (const ClippedTriangle& clipped : clip(variant, vertices, picture_size)) {
+        const ProjectedTriangle triangle = projected(clipped, picture_size);
+        if (triangle.is_back_facing) continue;
+        fill_triangle(triangle.on_screen, picture_size,
+                      [&](ivec2 pixel, Barycentrics barycentrics) {
+                          if (triangle.depth.at(barycentrics) < DepthBuffer::cleared) emit(pixel);
+                      });
     }
 }
 
 /// Pixels of a million, of those that should be drawn, that are drawn and should not be, or the
 /// other way round, or twice.
-double wrong_of_a_million(const MvpVariant& variant, const std::vector<ClipCorners>& triangles) {
+double wrong_of_a_million(const MvpVariant& variant, const std::vector<ClipVertices>& triangles) {
     double wrong = 0, seen = 0;
-    for (const ClipCorners& corners : triangles) {
+    for (const ClipVertices& vertices : triangles) {
         Image<std::uint8_t> hits(picture_size, 0);
-        draw(variant, corners, [&](ivec2 pixel) { ++hits[pixel]; });
-        const RaySeen rays(corners);
+        draw(variant, vertices, [&](ivec2 pixel) { ++hits[pixel]; });
+        const RaySeen rays(vertices);
         for (int y = 0; y < picture_size.y; ++y)
             for (int x = 0; x < picture_size.x; ++x) {
                 const bool expected = rays.is_seen({x, y}, picture_size);
@@ -120,7 +118,7 @@ double wrong_of_a_million(const MvpVariant& variant, const std::vector<ClipCorne
     return 1e6 * wrong / seen;
 }
 
-void add_clippings(const char* comparison, const std::vector<ClipCorners>& triangles) {
+void add_clippings(const char* comparison, const std::vector<ClipVertices>& triangles) {
     static Image<std::uint8_t> hits(picture_size, 0);
     const std::pair<const char*, Clipping> clippings[] = {
         {"six", Clipping::six_planes}, {"near", Clipping::near_plane}, {"pixel", Clipping::pixels}};
@@ -128,8 +126,8 @@ void add_clippings(const char* comparison, const std::vector<ClipCorners>& trian
         const MvpVariant variant{.clipping = clipping};
         add_variant(comparison, name, static_cast<double>(triangles.size()),
                     {{"wrong of a million", wrong_of_a_million(variant, triangles)}}, [=] {
-                        for (const ClipCorners& corners : triangles)
-                            draw(variant, corners, [](ivec2 pixel) { ++hits[pixel]; });
+                        for (const ClipVertices& vertices : triangles)
+                            draw(variant, vertices, [](ivec2 pixel) { ++hits[pixel]; });
                     });
     }
 }

@@ -15,24 +15,26 @@
 #include "04_mvp/clip.hpp"
 #include "05_textures/texture_variants.hpp"
 #include "accuracy/accuracy.hpp"
-#include "common/image_io.hpp"
+#include "common/image/image_io.hpp"
+#include "support/projected.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
 
 namespace {
 
-/// A rectangle on the screen: two triangles, whose corners have uvs.
+/// A rectangle on the screen: two triangles, whose vertices have uvs.
 struct Rectangle {
     std::vector<ClippedTriangle> triangles;
     std::vector<std::array<vec2, 3>> uvs;
 
-    /// @param corners  Counter-clockwise on the screen, all inside the frustum.
-    Rectangle(const std::array<vec4, 4>& corners, const std::array<vec2, 4>& corner_uvs) {
+    /// @param vertices  Counter-clockwise on the screen, all inside the frustum.
+    Rectangle(const std::array<vec4, 4>& vertices, const std::array<vec2, 4>& vertex_uvs) {
         for (std::size_t i = 1; i <= 2; ++i) {
-            triangles.push_back(
-                {{{corners[0], {1, 0, 0}}, {corners[i], {0, 1, 0}}, {corners[i + 1], {0, 0, 1}}}});
-            uvs.push_back({corner_uvs[0], corner_uvs[i], corner_uvs[i + 1]});
+            triangles.push_back({{{vertices[0], {1, 0, 0}},
+                                  {vertices[i], {0, 1, 0}},
+                                  {vertices[i + 1], {0, 0, 1}}}});
+            uvs.push_back({vertex_uvs[0], vertex_uvs[i], vertex_uvs[i + 1]});
         }
     }
 };
@@ -42,13 +44,10 @@ template <typename Emit>
 void draw(const TextureVariant& variant, const Rectangle& rectangle, ivec2 size, Emit&& emit) {
     for (std::size_t i = 0; i < rectangle.triangles.size(); ++i) {
         const ClippedTriangle& clipped = rectangle.triangles[i];
-        const ScreenTriangle on_screen =
-            snap_triangle(screen_from_clip(clipped[0].position_clip, size),
-                          screen_from_clip(clipped[1].position_clip, size),
-                          screen_from_clip(clipped[2].position_clip, size));
-        MappedWeights mapped(variant, on_screen, clipped);
-        fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-            emit(pixel, fragment_uv(rectangle.uvs[i], mapped.at(pixel, screen_weights)));
+        const ScreenTriangle on_screen = projected(clipped, size).on_screen;
+        MappedBarycentrics mapped(variant, on_screen, clipped);
+        fill_triangle(on_screen, size, [&](ivec2 pixel, Barycentrics screen_barycentrics) {
+            emit(pixel, fragment_uv(rectangle.uvs[i], mapped.at(pixel, screen_barycentrics)));
         });
     }
 }
@@ -86,7 +85,7 @@ void add_mappings() {
         });
         add_variant("footprint", name, pixels, errors, [=] {
             draw(variant, wall, size, [](ivec2 pixel, const FragmentUv& uv) {
-                sink[pixel] = uv.here + uv.step_x + uv.step_y;
+                sink[pixel] = uv.here + uv.ddx + uv.ddy;
             });
         });
     }
@@ -149,14 +148,14 @@ struct Floor {
     static Rectangle strip(int upper, int lower) {
         const std::array<ivec2, 4> places = {ivec2(0, lower), ivec2(size.x, lower),
                                              ivec2(size.x, upper), ivec2(0, upper)};
-        std::array<vec4, 4> corners;
+        std::array<vec4, 4> vertices;
         std::array<vec2, 4> uvs;
         for (std::size_t i = 0; i < 4; ++i) {
             const dvec2 share = dvec2(places[i]) / dvec2(size);
-            corners[i] = vec4(dvec4(2 * share.x - 1, 1 - 2 * share.y, 0, 1) / share.y);
+            vertices[i] = vec4(dvec4(2 * share.x - 1, 1 - 2 * share.y, 0, 1) / share.y);
             uvs[i] = vec2(uv_at(dvec2(places[i])));
         }
-        return {corners, uvs};
+        return {vertices, uvs};
     }
 
     /// 1024 samples a pixel, one in each square of a grid of 32 x 32.
@@ -185,7 +184,8 @@ void add_filters() {
     static std::vector<Material> materials;
     for (const std::string name : {"checker", "tiles"}) {
         const Image<u8vec4> codes = asset(name);
-        materials.push_back({name, make_texture(halved(linear_from_srgb8(codes)), Wrap::repeat),
+        materials.push_back({name,
+                             make_texture(downsampled(linear_from_srgb8(codes)), Wrap::repeat),
                              Floor::seen(light_of(codes))});
     }
     static Image<vec4> sink(Floor::size);

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <random>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "06_phong/shading_variants.hpp"
@@ -31,22 +31,18 @@ const LitSphere& fine() {
 
 void add_places() {
     static Image<float> picture(LitSphere::size, 0);
-    const std::tuple<const char*, Shading, Points> places[] = {
-        {"flat", Shading::flat, Points::together},
-        {"Gouraud", Shading::gouraud, Points::together},
-        {"Phong", Shading::phong, Points::together},
-        {"Phong one by one", Shading::phong, Points::one_by_one}};
-    for (const auto& [name, shading, place] : places)
+    for (const auto& [name, shading] : {std::pair("flat", Shading::flat),
+                                        {"Gouraud", Shading::gouraud},
+                                        {"Phong", Shading::phong}})
         for (const LitSphere* sphere : {&coarse(), &fine()}) {
             const ShadingVariant variant{.shading = shading};
             const LightErrors errors = light_errors(*sphere, variant);
-            add_variant(
-                "places", name + std::string(sphere == &fine() ? ", fine" : ", coarse"),
-                errors.fragments, {{"RMS error", errors.rms}, {"greatest error", errors.greatest}},
-                [=, how = place] {
-                    sphere->draw(
-                        variant, [](ivec2 pixel, float light) { picture[pixel] = light; }, how);
-                });
+            add_variant("places", name + std::string(sphere == &fine() ? ", fine" : ", coarse"),
+                        errors.fragments,
+                        {{"RMS error", errors.rms}, {"greatest error", errors.greatest}}, [=] {
+                            sphere->draw(variant,
+                                         [](ivec2 pixel, float light) { picture[pixel] = light; });
+                        });
         }
 }
 
@@ -97,8 +93,7 @@ void add_power(const char* name, OfExponent of_exponent) {
 
     static const std::vector<float> cosines = [] {
         std::mt19937 random(1);
-        // Those for which the lesson computes a power.
-        std::uniform_real_distribution<float> any(least_seen_cosine(Power::in_float, 32), 1);
+        std::uniform_real_distribution<float> any(0, 1);
         std::vector<float> drawn(4096);
         for (float& cosine : drawn) cosine = any(random);
         return drawn;
@@ -117,7 +112,7 @@ void add_power_as(const char* name) {
               [](float exponent) { return [=](float x) { return power_as(power, x, exponent); }; });
 }
 
-/// Sums of the normals of the coarse sphere's corners, as they are interpolated on it.
+/// Sums of the normals of the coarse sphere's vertices, as they are interpolated on it.
 std::vector<vec3> interpolated_normals() {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(0, 1);
@@ -127,9 +122,9 @@ std::vector<vec3> interpolated_normals() {
             float u = any(random), v = any(random);
             if (u + v > 1) u = 1 - u, v = 1 - v;
             vec3 normal(0);
-            const float weights[] = {1 - u - v, u, v};
+            const float barycentrics[] = {1 - u - v, u, v};
             for (std::size_t k = 0; k < 3; ++k)
-                normal += weights[k] * coarse().mesh().normals[triangle.corners[k].normal];
+                normal += barycentrics[k] * coarse().mesh().normals[triangle.vertices[k].normal];
             normals.push_back(normal);
         }
     return normals;
@@ -164,8 +159,10 @@ void add_normals(const char* name, NormalScaling scaling, Scale scale) {
 
 int main(int argc, char** argv) {
     add_places();
+    add_power_as<Power::polynomial>("polynomial");
     add_power_as<Power::in_double>("double");
-    add_power_as<Power::in_float>("float");
+    add_power("float",
+              [](float exponent) { return [=](float x) { return std::pow(x, exponent); }; });
     add_power_as<Power::squarings>("squarings");
     add_power_as<Power::schlick>("Schlick");
     add_power("table, 256", [](float exponent) { return PowerTable(256, exponent); });

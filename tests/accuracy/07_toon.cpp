@@ -1,39 +1,22 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Bands on a sphere, and the three outlines of a sphere beside a cube. The references are rays in
+/// Tones on a sphere, and the three outlines of a sphere beside a cube. The references are rays in
 /// double that meet sphere and cube themselves.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/lit_scene.hpp"
-#include "07_toon/toon_variants.hpp"
 #include "accuracy/accuracy.hpp"
-#include "common/backdrop.hpp"
-#include "common/image_io.hpp"
-#include "common/lesson_app.hpp"
+#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
+#include "support/lessons.hpp"
 #include "support/lit_sphere.hpp"
-
-namespace lesson {
-#define main main_of_lesson
-#include "07_toon/main.cpp"
-#undef main
-}  // namespace lesson
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -41,9 +24,9 @@ using namespace rasterbook::test;
 namespace {
 
 constexpr ivec2 size(512);
-constexpr int bands = 4;
+constexpr int tones = 4;
 
-/// A sphere of radius 1 around the origin, and beside it perhaps a cube, in the light of a sun.
+/// A sphere of radius 1 around the origin, and beside it perhaps a cube, in directional light.
 Scene bodies(bool with_cube) {
     Scene scene;
     Material material;
@@ -60,8 +43,8 @@ Scene bodies(bool with_cube) {
     constexpr std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                            {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     for (const auto& [a, b, c, d] : quads) {
-        cube.triangles.push_back({{Corner{a}, Corner{b}, Corner{c}}, 0});
-        cube.triangles.push_back({{Corner{a}, Corner{c}, Corner{d}}, 0});
+        cube.triangles.push_back({{Vertex{a}, Vertex{b}, Vertex{c}}, 0});
+        cube.triangles.push_back({{Vertex{a}, Vertex{c}, Vertex{d}}, 0});
     }
     scene.meshes.push_back(cube);
     return scene;
@@ -79,9 +62,9 @@ class Rays {
 
     dvec3 eye() const { return eye_; }
 
-    /// @param place  In pixels of a square picture.
-    dvec3 through(dvec2 place) const {
-        const dvec2 ndc = 2.0 * place / dvec2(size) - 1.0;
+    /// @param position_px  In a square picture.
+    dvec3 through(dvec2 position_px) const {
+        const dvec2 ndc = 2.0 * position_px / dvec2(size) - 1.0;
         return forward_ + half_height_ * (ndc.x * right_ - ndc.y * up_);
     }
 
@@ -90,14 +73,14 @@ class Rays {
     double half_height_;
 };
 
-/// How far along a ray it meets the sphere.
+/// The ray parameter at which a ray meets the sphere.
 std::optional<double> meets_sphere(dvec3 eye, dvec3 ray) {
     const double a = glm::dot(ray, ray), b = glm::dot(ray, eye), c = glm::dot(eye, eye) - 1;
     if (b * b < a * c) return std::nullopt;
     return (-b - std::sqrt(b * b - a * c)) / a;
 }
 
-/// What a ray meets: 0 nothing, 1 the sphere, 2 to 7 a side of the cube.
+/// The body a ray hits: 0 nothing, 1 the sphere, 2 to 7 a side of the cube.
 int meets(dvec3 eye, dvec3 ray) {
     int body = 0, side = 0;
     double nearest = 1e30, from = -1e30, to = 1e30;
@@ -113,8 +96,8 @@ int meets(dvec3 eye, dvec3 ray) {
     return body;
 }
 
-lesson::Options options_of(Outline outline, bool smooth) {
-    lesson::Options options;
+lesson_07::Options options_of(Outline outline, bool smooth) {
+    lesson_07::Options options;
     options.size = size;
     options.orbit = {};
     options.shading.outline = outline;
@@ -123,12 +106,12 @@ lesson::Options options_of(Outline outline, bool smooth) {
 }
 
 /// The level of light in each pixel, as the lesson draws it with so many samples a side.
-Image<float> drawn_levels(const ToonScene& scene, bool smooth, int samples) {
-    lesson::Options options = options_of(Outline::none, smooth);
+Image<float> drawn_levels(const ToonAssets& assets, bool smooth, int samples) {
+    lesson_07::Options options = options_of(Outline::none, smooth);
     options.size = samples * size;
     options.samples_per_side = samples;
     NoCounters counters;
-    const Image<vec3> picture = averaged(lesson::render(options, scene, counters), samples);
+    const Image<vec3> picture = averaged(lesson_07::render(options, assets, counters), samples);
     Image<float> levels(size);
     for (std::size_t i = 0; i < levels.pixels().size(); ++i)
         levels.pixels()[i] = picture.pixels()[i].g;
@@ -153,25 +136,27 @@ std::vector<std::optional<double>> exact_levels(const Camera& camera,
                     break;
                 }
                 dvec3 light(0);
-                for (const Light& lamp : lights)
-                    light += std::max(0.0, glm::dot(normal, dvec3(lamp.direction_world))) *
-                             dvec3(lamp.color);
+                for (const Light& one : lights)
+                    light += std::max(0.0, glm::dot(normal, dvec3(one.direction_world))) *
+                             dvec3(one.color);
                 const double brightness = std::max({light.r, light.g, light.b});
-                int band = 0;
-                for (int k = 1; k < bands; ++k) band += brightness >= double(k) / bands;
-                *sum += band / (bands - 1.0) / 256;
+                int tone = 0;
+                for (int k = 1; k < tones; ++k) tone += brightness >= double(k) / tones;
+                *sum += tone / (tones - 1.0) / 256;
             }
             levels.push_back(sum);
         }
     return levels;
 }
 
-void add_bands() {
-    static const ToonScene scene(bodies(false), options_of(Outline::none, false));
-    const Camera camera = orbit_camera({}, scene.bounds());
-    const auto lights = studio_lights(LightKind::directional, scene.bounds());
+void add_tones() {
+    static const ToonAssets assets =
+        lesson_07::make_assets(bodies(false), options_of(Outline::none, false));
+    const Bounds bounds = assets.scene.bounds();
+    const Camera camera = orbit_camera({}, bounds);
+    const auto lights = studio_lights(LightKind::directional, bounds);
     const auto exact = exact_levels(camera, lights);
-    // Where the two brightest bands meet, of three variants: as drawn, and below what is wrong.
+    // Where the two brightest tones meet, of three variants: as drawn, and below what is wrong.
     constexpr int zoom = 6;
     constexpr ivec2 part_from(316, 334);
     const Image<float> part({44, 44});
@@ -189,7 +174,7 @@ void add_bands() {
     for (const auto& [name, is_smooth, per_side] : variants) {
         const bool smooth = is_smooth;
         const int samples = per_side;
-        const Image<float> levels = drawn_levels(scene, smooth, samples);
+        const Image<float> levels = drawn_levels(assets, smooth, samples);
         double squares = 0, greatest = 0, compared = 0;
         for (std::size_t i = 0; i < exact.size(); ++i) {
             const ivec2 pixel(int(i) % size.x, int(i) / size.x);
@@ -207,19 +192,21 @@ void add_bands() {
                  glm::mix(vec3(0.3f + 0.5f * levels[pixel]), wrong, strength));
         }
         ++panel;
-        add_variant("bands", name, double(size.x) * size.y,
+        add_variant("tones", name, double(size.x) * size.y,
                     {{"RMS error", std::sqrt(squares / compared)}, {"greatest error", greatest}},
-                    [=] { drawn_levels(scene, smooth, samples); });
+                    [=] { drawn_levels(assets, smooth, samples); });
     }
-    write_image(RASTERBOOK_ASSETS "/../docs/accuracy/07_toon-bands.png",
+    write_image(RASTERBOOK_ASSETS "/../docs/accuracy/07_toon-tones.png",
                 srgb8_from_linear(picture));
 }
 
 void add_outlines() {
     constexpr int near_edge = 3;  // pixels: as far as a line of 3 may lie from its edge
     Image<int> met(size);
-    static const ToonScene scene(bodies(true), options_of(Outline::hull, false));
-    const Rays rays(orbit_camera({}, scene.bounds()), dvec3(scene.bounds().center()));
+    static const ToonAssets assets =
+        lesson_07::make_assets(bodies(true), options_of(Outline::hull, false));
+    const Bounds bounds = assets.scene.bounds();
+    const Rays rays(orbit_camera({}, bounds), dvec3(bounds.center()));
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
             met[{x, y}] = meets(rays.eye(), rays.through({x + 0.5, y + 0.5}));
@@ -238,9 +225,9 @@ void add_outlines() {
                                                         {"hull", Outline::hull},
                                                         {"edges", Outline::edges}};
     for (const auto& [name, outline] : outlines) {
-        const lesson::Options options = options_of(outline, false);
+        const lesson_07::Options options = options_of(outline, false);
         NoCounters counters;
-        const Image<vec3> picture = lesson::render(options, scene, counters);
+        const Image<vec3> picture = lesson_07::render(options, assets, counters);
         const auto is_ink = [&](ivec2 p) { return picture[p] == ink; };
         double edges = 0, missing = 0, inked = 0, wrong = 0;
         for (int y = near_edge; y < size.y - near_edge - 1; ++y)
@@ -254,7 +241,7 @@ void add_outlines() {
                      {"false, %", inked > 0 ? 100 * wrong / inked : 0}},
                     [=] {
                         NoCounters none;
-                        lesson::render(options, scene, none);
+                        lesson_07::render(options, assets, none);
                     });
     }
 }
@@ -262,7 +249,7 @@ void add_outlines() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    add_bands();
+    add_tones();
     add_outlines();
     return measure_variants(argc, argv);
 }

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Normal maps: where frames are computed, and how normals are stored. Also draws the picture of
-/// the page: how far each pixel's normal is off, in colour.
+/// Normal maps: where tangent frames are computed, and how normals are stored. Also draws the
+/// page's figure: the angular error of each pixel's normal, in colour.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <random>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "accuracy/accuracy.hpp"
-#include "common/image_io.hpp"
-#include "support/bumpy_torus.hpp"
+#include "common/image/image_io.hpp"
+#include "support/normal_mapped_torus.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -28,14 +30,14 @@ struct Way {
 
 const std::array<Way, 4> ways{{{"face", {.frame = FrameOf::face}},
                                {"vertex", {}},
-                               {"vertex, mixed", {.orthonormal = Orthonormal::at_corners}},
+                               {"vertex, interpolated", {.orthonormal = Orthonormal::at_vertices}},
                                {"pixel", {.frame = FrameOf::pixel}}}};
 
 void add_frames() {
-    static Image<vec3> normals(BumpyTorus::size);
+    static Image<vec3> normals(NormalMappedTorus::size);
     for (const auto& [name, variant] : ways)
         for (const auto& [mesh, around, across] : {std::tuple{"coarse", 16, 8}, {"fine", 64, 32}}) {
-            const auto torus = std::make_shared<BumpyTorus>(around, across, variant);
+            const auto torus = std::make_shared<NormalMappedTorus>(around, across, variant);
             const NormalErrors errors = normal_errors(*torus);
             add_variant(
                 "frames", std::string(name) + ", " + mesh, errors.fragments,
@@ -115,18 +117,18 @@ vec3 colour_of(double degrees, double most) {
                     static_cast<float>(step - static_cast<double>(low)));
 }
 
-/// Face and vertex above, mixed and pixel below, all of the coarse mesh; each 416 x 300. Below them
-/// the scale, 0 degrees on the left. (A torus leaves more room above than below.)
+/// Face and vertex above, interpolated and pixel below, all of the coarse mesh; each 416 x 300.
+/// Below them the scale, 0 degrees on the left. (A torus leaves more room above than below.)
 void draw_angles(const std::filesystem::path& file) {
     constexpr double most = 6;
     constexpr int upwards = 24, margin = 40, scale = 14;
-    const ivec2 each = BumpyTorus::size;
+    const ivec2 each = NormalMappedTorus::size;
     Image<u8vec3> picture({2 * each.x, 2 * each.y + upwards}, {30, 34, 42});
     const auto written = [](vec3 color) { return u8vec3(255.0f * color + 0.5f); };
     for (std::size_t i = 0; i < ways.size(); ++i) {
         const ivec2 corner(static_cast<int>(i % 2) * each.x,
                            static_cast<int>(i / 2) * each.y - upwards);
-        BumpyTorus(16, 8, ways[i].variant).draw([&](ivec2 pixel, vec3 normal, vec2 uv) {
+        NormalMappedTorus(16, 8, ways[i].variant).draw([&](ivec2 pixel, vec3 normal, vec2 uv) {
             const auto off = degrees_off(normal, TrueTorus::normal(uv.x, uv.y));
             picture[corner + pixel] = written(colour_of(static_cast<double>(off), most));
         });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Shadows: the bias, the size of the map, and how many texels a look-up asks, against a ray to the
+/// Shadows: the bias, the size of the map, and the size of the PCF kernel, against a ray to the
 /// light for each pixel. Also draws where they are wrong: docs/accuracy/09_shadow_maps-*.png.
 #include <algorithm>
 #include <array>
@@ -8,19 +8,19 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "06_phong/shading_variants.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
+#include "04_mvp/camera.hpp"
+#include "06_phong/normals.hpp"
+#include "09_shadow_maps/shadow_map.hpp"
+#include "09_shadow_maps/shadows.hpp"
 #include "accuracy/accuracy.hpp"
-#include "common/image_io.hpp"
-#include "common/lesson_app.hpp"
-#include "common/obj.hpp"
+#include "common/image/image_io.hpp"
 #include "support/light_maps.hpp"
+#include "support/pictures.hpp"
 #include "support/shadow_points.hpp"
 
 using namespace rasterbook;
@@ -33,11 +33,11 @@ constexpr ivec2 picture_size(640, 360);
 constexpr ivec2 zoomed_size(1600, 900), window_low(325, 262), window_size(800, 450);
 constexpr int usual_size = 1024, usual_radius = 1;
 
-struct Options {
-    TextureOptions texture;
-    LightOptions shading;
-    NormalMapVariant normal_map;
-};
+Scene the_scene() {
+    Scene scene = loaded("scene_bumpy.obj");
+    complete_normals(scene);
+    return scene;
+}
 
 bool is_in_window(ivec2 pixel) {
     const ivec2 inside = pixel - window_low;
@@ -45,9 +45,9 @@ bool is_in_window(ivec2 pixel) {
            glm::all(glm::lessThan(inside, window_size));
 }
 
-/// The lesson's scene and what of it faces the sun, with the answer for each point.
+/// The lesson's scene and those of its points that face the light, with the answer for each.
 struct Reference {
-    ShadowedScene scene;
+    Scene scene;
     Light light;
     std::vector<SeenPoint> all, points;
     std::vector<bool> is_lit;  ///< Of the points.
@@ -55,10 +55,9 @@ struct Reference {
     /// @param shows  Called as shows(pixel): whether this one is asked for.
     template <typename Shows>
     Reference(ivec2 size, Shows&& shows)
-        : scene(load_obj(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / "scene_bumpy.obj"),
-                Options()),
+        : scene(the_scene()),
           light(raking_lights(LightKind::directional, scene.bounds())[0]),
-          all(seen_points(scene.meshes, orbit_camera(Orbit(), scene.bounds()), size)) {
+          all(seen_points(scene, orbit_camera(Orbit(), scene.bounds()), size)) {
         std::erase_if(all, [&](const SeenPoint& p) { return !shows(p.pixel); });
         const LightRays rays(light, RayCaster::of(scene.meshes, [](std::size_t) { return true; }),
                              scene.bounds().radius());
@@ -76,7 +75,7 @@ const Reference& reference() {
     return made;
 }
 
-/// Maps of the sun, each drawn once.
+/// Maps of the light, each drawn once.
 const LightMaps& maps_of(int size) {
     static std::vector<std::pair<int, LightMaps>> made = [] {
         std::vector<std::pair<int, LightMaps>> none;
@@ -89,17 +88,17 @@ const LightMaps& maps_of(int size) {
         .second;
 }
 
-/// The shares of all points, in order. A triangle's bias is found once, as in the lesson.
+/// The visibilities of all points, in order. A triangle's bias is found once, as in the lesson.
 template <typename Take>
-void look_up_all(const Reference& of, const ShadowMap& map, Bias bias, int radius, Take&& take) {
+void test_all(const Reference& of, const ShadowMap& map, Bias bias, int radius, Take&& take) {
     const auto with = [&]<int r>(std::integral_constant<int, r>) {
         Receiver at;
-        const Corners* triangle = nullptr;
+        const Vertices* triangle = nullptr;
         for (const SeenPoint& p : of.points) {
-            if (triangle == nullptr || p.corners != *triangle)
-                at = receiver(map, bias, r, p.corners, p.normal);
-            triangle = &p.corners;
-            take(lit_share<r>(map, at, p.position));
+            if (triangle == nullptr || p.vertices != *triangle)
+                at = receiver(map, bias, r, p.vertices, p.normal);
+            triangle = &p.vertices;
+            take(pcf_visibility<r>(map, at, p.position));
         }
     };
     if (radius == 0) with(std::integral_constant<int, 0>());
@@ -116,8 +115,8 @@ double edge_off_by(Bias bias, int size, int radius) {
         Mesh mesh;
         mesh.positions.assign(p.begin(), p.end());
         for (const vec3 position : p) mesh.bounds.add(position);
-        mesh.triangles = {{{Corner{0}, Corner{1}, Corner{2}}, 0},
-                          {{Corner{0}, Corner{2}, Corner{3}}, 0}};
+        mesh.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0},
+                          {{Vertex{0}, Vertex{2}, Vertex{3}}, 0}};
         return mesh;
     };
     const vec3 u(0.5f * std::cos(0.3f), 0, 0.5f * std::sin(0.3f)), v(u.z, 0, -u.x);
@@ -125,10 +124,10 @@ double edge_off_by(Bias bias, int size, int radius) {
     const std::array meshes = {
         quad({vec3(-2, 0, -2), vec3(-2, 0, 2), vec3(2, 0, 2), vec3(2, 0, -2)}),
         quad({middle - u - v, middle + u - v, middle + u + v, middle - u + v})};
-    const Light& sun = reference().light;
-    const LightMaps maps(sun, meshes, size);
+    const Light& light = reference().light;
+    const LightMaps maps(light, meshes, size);
     // On the floor the plate's shadow is the plate, moved along the light.
-    const vec3 moved = middle - sun.direction_world * (middle.y / sun.direction_world.y);
+    const vec3 moved = middle - light.direction_world * (middle.y / light.direction_world.y);
     constexpr int steps = 1200;
     constexpr double from = -1.5, step = 3.0 / steps;
     long wrong = 0;
@@ -136,19 +135,19 @@ double edge_off_by(Bias bias, int size, int radius) {
         for (int i = 0; i < steps; ++i) {
             const vec3 point(static_cast<float>(from + (i + 0.5) * step), 0,
                              static_cast<float>(from + (j + 0.5) * step));
-            const vec3 way = point - moved;
-            const bool is_dark = std::abs(glm::dot(way, u)) < glm::dot(u, u) &&
-                                 std::abs(glm::dot(way, v)) < glm::dot(v, v);
-            const Corners corners = corners_in(meshes[0], meshes[0].triangles[0]);
-            wrong += (maps.share(bias, radius, corners, point) < 0.5f) != is_dark;
+            const vec3 from_middle = point - moved;
+            const bool is_dark = std::abs(glm::dot(from_middle, u)) < glm::dot(u, u) &&
+                                 std::abs(glm::dot(from_middle, v)) < glm::dot(v, v);
+            const Vertices vertices = vertices_in(meshes[0], meshes[0].triangles[0]);
+            wrong += (maps.visibility(bias, radius, vertices, point) < 0.5f) != is_dark;
         }
     const double perimeter = 4;
     return 1000 * static_cast<double>(wrong) * step * step / perimeter;
 }
 
-/// Whether the flat triangle looks away from the light, to which its mixed normals lean.
+/// Whether the flat triangle faces away from the light, although its interpolated normals face it.
 bool is_turned_away(const SeenPoint& p, vec3 toward_light) {
-    const vec3 face = glm::cross(p.corners[1] - p.corners[0], p.corners[2] - p.corners[0]);
+    const vec3 face = glm::cross(p.vertices[1] - p.vertices[0], p.vertices[2] - p.vertices[0]);
     return glm::dot(face, toward_light) * glm::dot(face, p.normal) <= 0;
 }
 
@@ -157,12 +156,12 @@ Errors errors_of(Bias bias, int size, int radius) {
     const ShadowMap& map = maps_of(size).maps[0];
     std::size_t i = 0, falsely_lit = 0, falsely_dark = 0, turned_away = 0;
     double squares = 0;
-    look_up_all(exact, map, bias, radius, [&](float share) {
+    test_all(exact, map, bias, radius, [&](float visibility) {
         const SeenPoint& p = exact.points[i];
-        const bool is_lit = exact.is_lit[i++], seems_lit = share >= 0.5f;
+        const bool is_lit = exact.is_lit[i++], seems_lit = visibility >= 0.5f;
         turned_away += seems_lit && !is_lit && is_turned_away(p, exact.light.direction_world);
         falsely_lit += seems_lit && !is_lit, falsely_dark += !seems_lit && is_lit;
-        squares += (share - is_lit) * (share - is_lit);
+        squares += (visibility - is_lit) * (visibility - is_lit);
     });
     const auto percent = [&](std::size_t count) {
         return 100 * static_cast<double>(count) / static_cast<double>(exact.points.size());
@@ -194,8 +193,8 @@ void add(const char* comparison, const std::string& name, Bias bias, int size, i
     add_variant(comparison, name, static_cast<double>(reference().points.size()),
                 errors_of(bias, size, radius), [=] {
                     float sum = 0;
-                    look_up_all(reference(), maps_of(size).maps[0], bias, radius,
-                                [&](float share) { sum += share; });
+                    test_all(reference(), maps_of(size).maps[0], bias, radius,
+                             [&](float visibility) { sum += visibility; });
                     [[maybe_unused]] volatile float sink = sum;
                 });
 }
@@ -206,9 +205,9 @@ void draw_errors(const std::string& name, Bias bias, int size, int radius) {
     Image<u8vec3> picture(window_size, {30, 34, 42});
     for (const SeenPoint& p : exact.all) picture[p.pixel - window_low] = {66, 66, 68};
     std::size_t i = 0;
-    look_up_all(exact, maps_of(size).maps[0], bias, radius, [&](float share) {
+    test_all(exact, maps_of(size).maps[0], bias, radius, [&](float visibility) {
         const SeenPoint& p = exact.points[i];
-        const bool is_lit = exact.is_lit[i++], seems_lit = share >= 0.5f;
+        const bool is_lit = exact.is_lit[i++], seems_lit = visibility >= 0.5f;
         const float cosine = glm::dot(p.normal, exact.light.direction_world);
         const auto gray = static_cast<std::uint8_t>(is_lit ? 130 + 90 * cosine : 84);
         picture[p.pixel - window_low] = seems_lit && !is_lit   ? u8vec3(235, 70, 40)

@@ -1,49 +1,29 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Ways to split a picture: what they cost on one thread, what they bring on two, and what the
-/// times of their parts foretell for up to 128. And meshes passed by value.
+/// times of their tiles predict for up to 128. And meshes passed by value.
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/many_samples.hpp"
-#include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/bumpy_scene.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
-#include "10_threading/binned_triangles.hpp"
+#include "04_mvp/projection.hpp"
+#include "06_phong/normals.hpp"
 #include "10_threading/schedule.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
-#include "10_threading/threaded_shadows.hpp"
 #include "accuracy/accuracy.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-#include "common/memory.hpp"
-#include "common/obj.hpp"
+#include "common/app/memory.hpp"
+#include "support/lessons.hpp"
+#include "support/pictures.hpp"
 #include "support/pretend_pool.hpp"
-
-#define main main_of_lesson
-namespace lesson {
-#include "10_threading/main.cpp"
-}
-#undef main
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -61,25 +41,24 @@ double least_of(const std::vector<double>& times) {
     return *std::min_element(times.begin(), times.end());
 }
 
-lesson::Options options_of(Split split, int tile) {
-    lesson::Options options;
+lesson_10::Options options_of(Split split, int tile) {
+    lesson_10::Options options;
     options.size = {1920, 1080};
     options.threads.split = split, options.threads.tile = tile;
     return options;
 }
 
-const ShadowedScene& scene() {
-    static const ShadowedScene loaded(
-        load_obj(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / "scene_bumpy.obj"),
-        lesson::Options());
-    return loaded;
+const ShadowAssets& assets() {
+    static const ShadowAssets made =
+        lesson_10::make_assets(loaded("scene_bumpy.obj"), lesson_10::Options());
+    return made;
 }
 
 template <typename Pool>
-double frame_ms(const lesson::Options& options, Pool& pool) {
+double frame_ms(const lesson_10::Options& options, Pool& pool) {
     NoCounters none;
     const auto start = Clock::now();
-    const Image<vec3> picture = lesson::render(options, scene(), pool, none);
+    const Image<vec3> picture = lesson_10::render(options, assets(), pool, none);
     return ms_since(start);
 }
 
@@ -101,7 +80,7 @@ struct Frame {
 };
 
 /// The least of several frames, split for so many workers.
-Frame measured_frame(const lesson::Options& options, std::size_t workers) {
+Frame measured_frame(const lesson_10::Options& options, std::size_t workers) {
     constexpr std::size_t frames = 9;
     std::vector<MeasuredPool> pools;
     std::vector<double> serial_ms;
@@ -125,7 +104,7 @@ Frame measured_frame(const lesson::Options& options, std::size_t workers) {
 constexpr std::array<std::size_t, 7> worker_counts = {2, 4, 8, 16, 32, 64, 128};
 
 void add_split(const std::string& name, Split split, int tile) {
-    const lesson::Options options = options_of(split, tile);
+    const lesson_10::Options options = options_of(split, tile);
     Errors errors;
     std::optional<Frame> tiles;  // rows are made anew for each number of workers
     double idle_of_16 = 0;
@@ -163,11 +142,8 @@ std::size_t front_faces(const Mesh& mesh, const mat4& clip_from_world) {
     const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
     std::size_t count = 0;
     for (const Triangle& triangle : mesh.triangles)
-        for (const ClippedTriangle& clipped : clip_triangle(corners_of(triangle, positions_clip)))
-            count += is_front_facing(
-                snap_triangle(screen_from_clip(clipped[0].position_clip, {1920, 1080}),
-                              screen_from_clip(clipped[1].position_clip, {1920, 1080}),
-                              screen_from_clip(clipped[2].position_clip, {1920, 1080})));
+        for (const ClippedTriangle& clipped : clip_triangle(vertices_of(triangle, positions_clip)))
+            count += !project(mesh, triangle, clipped, {1920, 1080}).is_back_facing;
     return count;
 }
 
@@ -180,23 +156,24 @@ std::size_t front_faces(const Mesh& mesh, const mat4& clip_from_world) {
 }
 
 void add_meshes(const std::string& name, const std::string& model) {
-    const auto loaded = std::make_shared<const ShadowedScene>(
-        load_obj(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / model), lesson::Options());
+    Scene with_normals = loaded(model);
+    complete_normals(with_normals);
+    const auto scene = std::make_shared<const Scene>(std::move(with_normals));
     const mat4 clip_from_world =
-        orbit_camera(Orbit(), loaded->bounds()).clip_from_world({1920, 1080});
+        orbit_camera(Orbit(), scene->bounds()).clip_from_world({1920, 1080});
     double triangles = 0, bytes = 0;
-    for (const Mesh& mesh : loaded->meshes) {
+    for (const Mesh& mesh : scene->meshes) {
         triangles += static_cast<double>(mesh.triangles.size());
         bytes += static_cast<double>(
             mesh.positions.size() * sizeof(vec3) + mesh.normals.size() * sizeof(vec3) +
-            mesh.uvs.size() * sizeof(vec2) + mesh.corners.size() * sizeof(Corner) +
+            mesh.uvs.size() * sizeof(vec2) + mesh.vertices.size() * sizeof(Vertex) +
             mesh.faces.size() * sizeof(Face) + mesh.triangles.size() * sizeof(Triangle));
     }
     const auto add = [&](const std::string& how, double copied, auto function) {
         add_variant("meshes", name + ", " + how, triangles, {{"bytes copied a triangle", copied}},
                     [=] {
                         std::size_t count = 0;
-                        for (const Mesh& mesh : loaded->meshes)
+                        for (const Mesh& mesh : scene->meshes)
                             count += function(mesh, clip_from_world);
                         [[maybe_unused]] volatile std::size_t sink = count;
                     });

@@ -5,45 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <functional>
-#include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
-#include <syncstream>
 #include <utility>
 #include <vector>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
-#include "10_threading/binned_triangles.hpp"
-#include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
-#include "10_threading/threaded_shadows.hpp"
 #include "11_scenes/explain.hpp"
-#include "11_scenes/finished_scene.hpp"
-#include "11_scenes/kernels.hpp"
-#include "11_scenes/scene_camera.hpp"
-#include "11_scenes/scene_options.hpp"
+#include "11_scenes/scene_assets.hpp"
 #include "accuracy/accuracy.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
+#include "common/app/memory.hpp"
 #include "common/math/color.hpp"
-#include "common/memory.hpp"
-#include "common/model_file.hpp"
-
-#define main main_of_lesson
-namespace lesson {
-#include "11_scenes/main.cpp"
-}
-#undef main
+#include "support/lessons.hpp"
+#include "support/pictures.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -53,15 +28,11 @@ namespace {
 constexpr ivec2 picture_size(1280, 720);
 constexpr double frames_in_millions = 1e6;  // so that nanoseconds become milliseconds
 
-Scene loaded(const std::string& name) {
-    return load_model(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name);
-}
-
-Image<vec3> drawn(const lesson::Options& options, const FinishedScene& scene) {
+Image<vec3> drawn(const lesson_11::Options& options, const SceneAssets& assets) {
     static ThreadPool pool(1);
     NoCounters none;
     NoClock no_clock;
-    return lesson::render(options, scene, pool, none, no_clock);
+    return lesson_11::render(options, assets, pool, none, no_clock);
 }
 
 /// Differences of codes, white being 1: as the eye weighs them.
@@ -112,46 +83,50 @@ const std::vector<Without>& ways() {
              if (m.toon) m.toon.reset(), m.illumination = 0;
          })},
         {Effect::outline, of_materials([](Material& m) {
-             if (m.toon) m.toon->outline = ToonLook::Outline::none;
+             if (m.toon) m.toon->outline = ToonMaterial::Outline::none;
          })}};
     return all;
 }
 
 void add_scene(const std::string& name) {
-    lesson::Options options;
+    lesson_11::Options options;
     options.size = picture_size;
-    const auto whole = std::make_shared<const FinishedScene>(loaded(name), options);
+    const auto whole =
+        std::make_shared<const SceneAssets>(make_scene_assets(loaded(name), options));
     const auto picture = std::make_shared<const Image<vec3>>(drawn(options, *whole));
-    const auto add = [&](const std::string& variant, const lesson::Options& own,
-                         const std::shared_ptr<const FinishedScene>& scene) {
-        const Difference difference = difference_of(*picture, drawn(own, *scene));
+    const auto add = [&](const std::string& variant, const lesson_11::Options& own,
+                         const std::shared_ptr<const SceneAssets>& assets) {
+        const Difference difference = difference_of(*picture, drawn(own, *assets));
         add_variant(name, variant, frames_in_millions,
                     {{"RMS difference", difference.rms},
                      {"pixels that differ, %", difference.share_percent}},
-                    [=] { drawn(own, *scene); });
+                    [=] { drawn(own, *assets); });
     };
     add("as called for", options, whole);
     for (const auto& [effect, change] : ways()) {
         if (!whole->plan.any(effect)) continue;
-        Scene model = loaded(name);
-        if (change) change(model);
-        const auto scene = std::make_shared<FinishedScene>(std::move(model), options);
-        if (effect == Effect::shadow) scene->lit_by.casts.fill(false);
-        scene->is_on_paper = whole->is_on_paper;  // what lies behind is none of the effects
+        Scene scene = loaded(name);
+        if (change) change(scene);
+        const auto assets =
+            std::make_shared<SceneAssets>(make_scene_assets(std::move(scene), options));
+        if (effect == Effect::shadow) assets->lit_by.casts.fill(false);
+        assets->is_on_paper = whole->is_on_paper;  // what lies behind is none of the effects
         add("without " + std::string(effect_names[static_cast<std::size_t>(effect)]), options,
-            scene);
+            assets);
     }
-    if (whole->plan.any(Effect::light)) {  // the largest kernel, which asks at run time
-        const auto general = std::make_shared<FinishedScene>(loaded(name), options);
+    if (whole->plan.any(Effect::light)) {  // the largest permutation, which asks at run time
+        const auto general =
+            std::make_shared<SceneAssets>(make_scene_assets(loaded(name), options));
         for (MaterialPlan& plan : general->plan.materials)
             if (plan[Effect::light])
                 for (const Effect effect : {Effect::normal_map, Effect::shadow})
-                    plan.runs[static_cast<std::size_t>(effect)] = true;
-        add("one kernel for all", options, general);
+                    plan.effects.set(effect);
+        add("one permutation for all", options, general);
     }
-    lesson::Options forced = options;
+    lesson_11::Options forced = options;
     forced.shading.all_effects = true;
-    add("all effects", forced, std::make_shared<const FinishedScene>(loaded(name), forced));
+    add("all effects", forced,
+        std::make_shared<const SceneAssets>(make_scene_assets(loaded(name), forced)));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "accuracy/accuracy.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>

@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "accuracy/costs_frame.hpp"
-#include "common/image.hpp"
+#include "common/app/memory.hpp"
+#include "common/image/image.hpp"
 #include "common/math/color.hpp"
-#include "common/memory.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -223,9 +223,10 @@ void print_choices(const Choices& choices) {
 
 int main() {
     keep_freed_memory();
-    if (const Settings plain; render_with_own_light(plain, scene_of(plain), all_threads()) !=
-                              samples_of(plain, all_threads())) {
-        std::cerr << "error: the copy of the lesson's render() draws another picture\n";
+    if (const Settings plain;
+        samples_of(plain, all_threads(), LitBy<Shading::phong, Power::polynomial>()) !=
+        samples_of(plain, all_threads())) {
+        std::cerr << "error: the shader with choices draws another picture than the lesson's\n";
         return 1;
     }
     Choices cheapest, most_exact;

@@ -3,52 +3,106 @@
 /// A frame of the last lesson with a place on each lesson's knob, for costs.cpp.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <iostream>
 #include <map>
-#include <optional>
-#include <syncstream>
+#include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/shading_variants.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
-#include "10_threading/binned_triangles.hpp"
-#include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
-#include "10_threading/threaded_shadows.hpp"
 #include "11_scenes/explain.hpp"
-#include "11_scenes/finished_scene.hpp"
-#include "11_scenes/kernels.hpp"
-#include "11_scenes/scene_camera.hpp"
-#include "11_scenes/scene_options.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-#include "common/model_file.hpp"
+#include "11_scenes/scene_assets.hpp"
+#include "11_scenes/shaders.hpp"
+#include "support/lessons.hpp"
+#include "support/pictures.hpp"
 
-#define main main_of_lesson
-namespace rasterbook::test::lesson {
-#include "11_scenes/main.cpp"
+namespace rasterbook {
+
+/// Takes the place of NoCounters, and lets lesson 11's render() draw with two choices of lesson 06.
+template <Shading shading, Power power>
+struct LitBy : NoCounters {};
+
+/// Lesson 11's shader of opaque, lit surfaces with these choices. Flat and Gouraud shading test the
+/// shadows at the face's centre or at the vertices, too, and have no place for normal maps.
+template <Shading shading, Power power>
+void draw_lit_by(const Frame& frame, const ProjectedTriangle& projected, const Tile& tile,
+                 TransparentFragments&, LitBy<shading, power>& counters) {
+    const SceneAssets& assets = frame.assets;
+    const std::span<const Light> lights = assets.lit_by.lights;
+    const EffectMask effects = assets.plan.materials[projected.triangle.material].effects;
+    const TriangleSurface surface =
+        triangle_surface(assets.scene, assets.textures, effects, projected);
+    const PerspectiveSetup setup = perspective_setup(projected.on_screen, projected.clipped);
+    TriangleNormalMap normal_map;
+    if constexpr (shading == Shading::phong)
+        normal_map =
+            triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
+    TriangleReceiver receiver = triangle_receiver(surface.positions_world);
+    ShadingVariant variant;
+    variant.power = power;
+    const VariantHighlight highlight = highlight_of(variant, surface);
+    const auto light_at = [&](Barycentrics at, vec3 own_normal, vec3 normal) {
+        const SurfacePoint<float> point =
+            surface_point(surface, at, normal, frame.eye_world, counters);
+        return reflected_light(lights, point, highlight, [&](std::size_t l) {
+            return light_visibility(frame.shadow_maps, l, receiver, point.position_world,
+                                    own_normal, counters);
+        });
+    };
+    VertexLighting at_vertices{shading};
+    const auto light_vertex = [&](std::size_t i, Barycentrics at, vec3 normal) {
+        const ReflectedLight sum = light_at(at, normal, normal);
+        at_vertices.diffuse[i] = sum.diffuse, at_vertices.specular[i] = sum.specular;
+    };
+    if constexpr (shading == Shading::flat) {
+        const vec3 front = face_normal(projected.mesh, projected.triangle);
+        light_vertex(0, Barycentrics(1.0f / 3), projected.is_back_facing ? -front : front);
+    }
+    if constexpr (shading == Shading::gouraud)
+        for (std::size_t i = 0; i < 3; ++i) {
+            Barycentrics vertex(0);
+            vertex[static_cast<int>(i)] = 1;
+            light_vertex(i, vertex, surface.normals_world[i]);
+        }
+
+    fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
+        if (!frame.depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+        const FragmentBarycentrics at = perspective_correct(setup, on_screen);
+        const SurfaceColor own = surface_color(surface, at, frame.filter, counters);
+        ReflectedLight light;
+        if constexpr (shading == Shading::phong) {
+            const vec3 own_normal = interpolate(surface.normals_world, at.here);
+            light = light_at(at.here, own_normal,
+                             normal_mapped(normal_map, frame.normal_map, at, own_normal,
+                                           frame.filter, counters));
+        } else {
+            light = at_vertices.at(at.here);
+        }
+        frame.color[pixel] = phong(own, ambient_light, light);
+    });
 }
-#undef main
+
+template <Shading shading, Power power>
+class Shaders<LitBy<shading, power>> {
+  public:
+    explicit Shaders(const ScenePlan&) {}
+
+    auto operator[](std::size_t) const { return draw_lit_by<shading, power>; }
+};
+
+}  // namespace rasterbook
 
 namespace rasterbook::test {
 namespace {  // as the lesson's options are
 
 /// A place on each knob.
-struct Settings : lesson::Options {
+struct Settings : lesson_11::Options {
     Shading light = Shading::phong;  ///< Lesson 06's --shading and --power.
-    Power power = Power::in_float;
+    Power power = Power::polynomial;
     bool has_shadows = true;
     bool is_moved = false;  ///< The camera: by half a pixel or so.
 };
@@ -57,9 +111,9 @@ struct Settings : lesson::Options {
 constexpr vec2 way_radians(0.00045f, 0.0003f);
 
 /// The scene as settings have it. Those that need no other scene share one.
-const FinishedScene& scene_of(const Settings& settings) {
+const SceneAssets& assets_of(const Settings& settings) {
     using Key = std::tuple<std::filesystem::path, Decoding, MapSpace, FrameOf, int, bool, bool>;
-    static std::map<Key, FinishedScene> scenes;
+    static std::map<Key, SceneAssets> known;
     const Key key{settings.model,
                   settings.texture.decoding,
                   settings.normal_map.space,
@@ -67,125 +121,48 @@ const FinishedScene& scene_of(const Settings& settings) {
                   settings.normal_map.bits,
                   settings.has_shadows,
                   settings.is_moved};
-    if (const auto known = scenes.find(key); known != scenes.end()) return known->second;
-    FinishedScene scene(
-        load_model(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / settings.model), settings);
+    if (const auto same = known.find(key); same != known.end()) return same->second;
+    SceneAssets assets = make_scene_assets(loaded(settings.model.string()), settings);
     if (!settings.has_shadows) {
-        scene.lit_by.casts.fill(false);
-        for (MaterialPlan& plan : scene.plan.materials) plan.set(Effect::shadow, false, "");
+        assets.lit_by.casts.fill(false);
+        for (MaterialPlan& plan : assets.plan.materials) plan.effects.set(Effect::shadow, false);
     }
     if (settings.is_moved)
-        for (SceneCamera& camera : scene.cameras) {
+        for (SceneCamera& camera : assets.scene.cameras) {
             mat4& from = camera.world_from_view;
-            const vec2 way = way_radians * glm::distance(vec3(from[3]), scene.bounds().center());
+            const vec3 center = assets.scene.bounds().center();
+            const vec2 way = way_radians * glm::distance(vec3(from[3]), center);
             from[3] += from[0] * way.x + from[1] * way.y;
         }
-    return scenes.emplace(key, std::move(scene)).first->second;
-}
-
-/// Lesson 06's light of a face or of its corners: there the shadow maps are asked, too, and for
-/// relief there is no place.
-void draw_with_light_at_corners(Shading light, const Frame& frame, const ReadyTriangle& ready,
-                                const Part& part) {
-    NoCounters none;
-    const TriangleSurface surface(frame.scene, ready.mesh, ready.triangle);
-    const TriangleLight triangle_light(frame.shading, frame.scene.lit_by.lights, frame.eye_world,
-                                       ready.mesh, ready.triangle, ready.is_back, surface);
-    TriangleShadows shadow(frame.shadows, ready.mesh, ready.triangle);
-    LitPoints points;
-    if (light == Shading::flat) {
-        triangle_light.add(vec3(1.0f / 3), points, none);
-        points.normal_world.set(
-            0, face_normal(ready.mesh, ready.triangle) * (ready.is_back ? -1.0f : 1.0f));
-    } else {
-        for (const vec3 corner : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)})
-            triangle_light.add(corner, points, none);
-    }
-    shadow.look_up(points, none);
-    triangle_light.compute(points, shadow);
-    std::array<vec3, 3> diffuse, specular;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const ReflectedLight at_corner = points.light(std::min(i, points.count - 1));
-        diffuse[i] = at_corner.diffuse, specular[i] = at_corner.specular;
-    }
-    const TriangleDepth triangle_depth(ready.depths);
-    const PerspectiveWeights perspective(ready.on_screen, ready.clipped);
-    const auto shade = [&](const ManyFragments& fragments) {
-        const ManyWeights weights = weights_of(fragments, perspective);
-        const auto own = surface.colors(weights, frame.filter, none);
-        for (std::size_t i = 0; i < fragments.count; ++i) {
-            const vec3 here = weights.here[i];
-            const ReflectedLight mixed{interpolate(diffuse, here), interpolate(specular, here)};
-            frame.color[fragments.pixels[i]] = phong(own[i], ambient_light, mixed);
-        }
-    };
-    Fragments visible(shade);
-    fill_part(ready.on_screen, part, [&](ivec2 pixel, vec3 screen_weights) {
-        if (frame.depth.test_and_write(pixel, triangle_depth.at(screen_weights)))
-            visible.add(pixel, screen_weights);
-    });
-    visible.finish();
-}
-
-/// The lesson's render(), with the places of the knobs that it has not.
-Image<vec3> render_with_own_light(const Settings& settings, const FinishedScene& scene,
-                                  ThreadPool& pool) {
-    const Camera camera = camera_of_picture(settings, settings.scene.camera, scene).camera;
-    const mat4 clip_from_world = camera.clip_from_world(settings.size);
-    WorkerCounters<NoCounters> counters_of(pool.size());
-    NoCounters none;
-    const Shadows shadows =
-        draw_shadows(pool, settings.threads, settings.shadow, settings.shading.all_effects, scene,
-                     scene.lit_by.lights, counters_of, scene.lit_by.casts);
-    Image<vec3> color(settings.size, unset);
-    DepthBuffer depth(settings.size, unset);
-    const std::vector<const Mesh*> meshes = seen_meshes(scene, {}, clip_from_world, none);
-    const Parts parts = settings.threads.parts_of(settings.size, pool.size());
-    std::vector<BinnedTriangles> passes;
-    for (const Pass& pass : passes_of(scene, meshes))
-        passes.emplace_back(
-            pool, pass.meshes, clip_from_world, parts, pass.two_sided,
-            [&](std::size_t material) { return pass.takes(scene, material); }, counters_of);
-    const Kernels<NoCounters> kernels(scene.plan);
-    ShadingVariant shading{settings.shading};
-    shading.power = settings.power;
-    const Frame frame{scene,
-                      shading,
-                      settings.normal_map,
-                      settings.texture.filter,
-                      camera.position_world,
-                      shadows,
-                      color,
-                      depth};
-    pool.run(parts.count(), [&](std::size_t part, std::size_t) {
-        NoCounters nothing;
-        clear_part(color, depth, parts[part]);
-        Layers layers;
-        for (const BinnedTriangles& pass : passes)
-            for (const Chunk& chunk : pass.chunks)
-                for (const std::size_t index : chunk.of(part)) {
-                    const ReadyTriangle& ready = chunk.triangles[index];
-                    if (settings.light == Shading::phong)
-                        kernels[ready.triangle.material](frame, ready, parts[part], layers,
-                                                         nothing);
-                    else
-                        draw_with_light_at_corners(settings.light, frame, ready, parts[part]);
-                }
-    });
-    return color;
+    return known.emplace(key, std::move(assets)).first->second;
 }
 
 /// All samples of a picture, before they are averaged.
-Image<vec3> samples_of(Settings settings, ThreadPool& pool) {
+///
+/// @param counters  NoCounters, or LitBy.
+template <typename CounterPolicy>
+Image<vec3> samples_of(Settings settings, ThreadPool& pool, CounterPolicy counters) {
     settings.size *= settings.samples_per_side;
-    const FinishedScene& scene = scene_of(settings);
-    if (settings.is_moved && scene.cameras.empty())
+    const SceneAssets& assets = assets_of(settings);
+    if (settings.is_moved && assets.scene.cameras.empty())
         settings.orbit.yaw_degrees += glm::degrees(way_radians.x);
-    if (settings.light != Shading::phong || settings.power != Power::in_float)
-        return render_with_own_light(settings, scene, pool);
-    NoCounters none;
     NoClock no_clock;
-    return lesson::render(settings, scene, pool, none, no_clock);
+    return lesson_11::render(settings, assets, pool, counters, no_clock);
+}
+
+/// The same as the settings have it. Light and power are never both other than the lesson's.
+Image<vec3> samples_of(const Settings& settings, ThreadPool& pool) {
+    if (settings.power == Power::schlick)
+        return samples_of(settings, pool, LitBy<Shading::phong, Power::schlick>());
+    switch (settings.light) {
+        case Shading::flat:
+            return samples_of(settings, pool, LitBy<Shading::flat, Power::polynomial>());
+        case Shading::gouraud:
+            return samples_of(settings, pool, LitBy<Shading::gouraud, Power::polynomial>());
+        case Shading::phong:
+            break;
+    }
+    return samples_of(settings, pool, NoCounters());
 }
 
 Image<vec3> picture_of(const Settings& settings, ThreadPool& pool) {
@@ -266,14 +243,14 @@ const std::vector<Knob>& knobs() {
          1,
          1,
          {{"Schlick", [](S& s) { s.power = Power::schlick; }},
-          {"float", [](S& s) { s.power = Power::in_float; }}}},
+          {"polynomial", [](S& s) { s.power = Power::polynomial; }}}},
         {"normal maps",
          "08",
          2,
          2,
          {{"none", [](S& s) { s.normal_map.space = MapSpace::none; }},
           {"frames of faces", [](S& s) { s.normal_map.frame = FrameOf::face; }},
-          {"of corners", [](S& s) { s.normal_map.frame = FrameOf::vertex; }}}},
+          {"of vertices", [](S& s) { s.normal_map.frame = FrameOf::vertex; }}}},
         {"bits of a normal",
          "08",
          1,

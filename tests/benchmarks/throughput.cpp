@@ -19,16 +19,17 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/lit_scene.hpp"
-#include "06_phong/many_samples.hpp"
+#include "04_mvp/projection.hpp"
+#include "05_textures/interpolation.hpp"
+#include "06_phong/assets.hpp"
+#include "06_phong/phong.hpp"
 #include "06_phong/shading_variants.hpp"
-#include "common/counters.hpp"
-#include "common/memory.hpp"
-#include "common/obj.hpp"
-#include "common/triangulate.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "common/app/counters.hpp"
+#include "common/app/memory.hpp"
+#include "common/model/obj.hpp"
+#include "common/model/triangulate.hpp"
 
 using namespace rasterbook;
 
@@ -64,28 +65,28 @@ void long_lines(benchmark::State& state) {
     state.counters["pixels"] = per_second(pixels);
 }
 
-struct Corners {
+struct Vertices {
     vec3 a, b, c;
 };
 
 /// Triangles of about `area` pixels, counter-clockwise, anywhere in the picture.
-std::vector<Corners> random_triangles(std::size_t count, float area) {
+std::vector<Vertices> random_triangles(std::size_t count, float area) {
     constexpr float third = 2.0944f, greatest_jitter = 0.3f;
     std::mt19937 random(1);
     const float radius = std::sqrt(area / 1.27f);
     std::uniform_real_distribution<float> x(radius, picture_size.x - radius);
     std::uniform_real_distribution<float> y(radius, picture_size.y - radius);
     std::uniform_real_distribution<float> jitter(-greatest_jitter, greatest_jitter), any(0, 1);
-    std::vector<Corners> triangles(count);
-    for (Corners& t : triangles) {
+    std::vector<Vertices> triangles(count);
+    for (Vertices& t : triangles) {
         const vec2 center(x(random), y(random));
         const float start_radians = 3 * third * any(random);
-        const auto corner = [&](float number) {
+        const auto vertex = [&](float number) {
             const float around_radians = start_radians - number * third + jitter(random);
             return vec3(center + radius * vec2(std::cos(around_radians), std::sin(around_radians)),
                         any(random));
         };
-        t = {corner(0), corner(1), corner(2)};
+        t = {vertex(0), vertex(1), vertex(2)};
     }
     return triangles;
 }
@@ -97,19 +98,20 @@ void triangles(benchmark::State& state) {
     Image<vec3> color(picture_size);
     DepthBuffer depth(picture_size);
     double covered = 0;
-    for (const Corners& t : input)
+    for (const Vertices& t : input)
         fill_triangle(snap_triangle(t.a, t.b, t.c), picture_size, [&](ivec2, vec3) { ++covered; });
 
     for (auto _ : state) {
         state.PauseTiming();
         if (with_depth) depth = DepthBuffer(picture_size);
         state.ResumeTiming();
-        for (const Corners& t : input) {
+        for (const Vertices& t : input) {
             const ScreenTriangle on_screen = snap_triangle(t.a, t.b, t.c);
             if (!is_front_facing(on_screen)) continue;
             const TriangleDepth triangle_depth(vec3(t.a.z, t.b.z, t.c.z));
-            fill_triangle(on_screen, picture_size, [&](ivec2 pixel, vec3 weights) {
-                if (with_depth && !depth.test_and_write(pixel, triangle_depth.at(weights))) return;
+            fill_triangle(on_screen, picture_size, [&](ivec2 pixel, vec3 barycentrics) {
+                if (with_depth && !depth.test_and_write(pixel, triangle_depth.at(barycentrics)))
+                    return;
                 color[pixel] = t.a;
             });
         }
@@ -127,42 +129,40 @@ void triangles_through_the_camera(benchmark::State& state) {
     constexpr ivec2 size(1920, 1080);
     std::mt19937 random(1);
     std::uniform_real_distribution<float> height(0, 0.02f);
-    std::vector<vec3> positions;
-    std::vector<Triangle> mesh;
+    Scene scene;
+    Mesh& ground = scene.meshes.emplace_back();
     for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            positions.emplace_back(2.0f * static_cast<float>(x) / (side - 1) - 1, height(random),
-                                   2.0f * static_cast<float>(y) / (side - 1) - 1);
+        for (int x = 0; x < side; ++x) {
+            ground.positions.emplace_back(2.0f * static_cast<float>(x) / (side - 1) - 1,
+                                          height(random),
+                                          2.0f * static_cast<float>(y) / (side - 1) - 1);
+            ground.bounds.add(ground.positions.back());
+        }
     for (std::uint32_t i = 0; i < side * (side - 1); ++i) {
         if (i % side == side - 1) continue;
-        const Corner a{i}, b{i + side}, c{i + side + 1}, d{i + 1};
-        mesh.push_back({{a, b, c}, 0});
-        mesh.push_back({{a, c, d}, 0});
+        const Vertex a{i}, b{i + side}, c{i + side + 1}, d{i + 1};
+        ground.triangles.push_back({{a, b, c}, 0});
+        ground.triangles.push_back({{a, c, d}, 0});
     }
     const Camera camera = orbit_camera({}, {vec3(-1, 0, -1), vec3(1, 0.02f, 1)});
     Image<vec3> color(size);
     DepthBuffer depth(size);
+    NoCounters uncounted;
     for (auto _ : state) {
         state.PauseTiming();
         depth = DepthBuffer(size);
         state.ResumeTiming();
-        const auto positions_clip = transform(camera.clip_from_world(size), positions);
-        for (const Triangle& triangle : mesh)
-            for (const ClippedTriangle& clipped :
-                 clip_triangle(corners_of(triangle, positions_clip))) {
-                const vec3 a = screen_from_clip(clipped[0].position_clip, size);
-                const vec3 b = screen_from_clip(clipped[1].position_clip, size);
-                const vec3 c = screen_from_clip(clipped[2].position_clip, size);
-                const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                if (!is_front_facing(on_screen)) continue;
-                const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 weights) {
-                    if (depth.test_and_write(pixel, triangle_depth.at(weights))) color[pixel] = a;
+        for_each_visible_triangle(
+            scene, camera.clip_from_world(size), size, Culling::back_faces, uncounted,
+            [&](const ProjectedTriangle& projected) {
+                fill_triangle(projected.on_screen, size, [&](ivec2 pixel, Barycentrics at) {
+                    if (depth.test_and_write(pixel, projected.depth.at(at)))
+                        color[pixel] = projected.mesh.positions[0];
                 });
-            }
+            });
         benchmark::ClobberMemory();
     }
-    state.counters["triangles"] = per_second(static_cast<double>(mesh.size()));
+    state.counters["triangles"] = per_second(static_cast<double>(ground.triangles.size()));
 }
 
 /// What lessons 05 and 06 are told on the command line.
@@ -176,9 +176,9 @@ constexpr int large = 0, scene_obj = 1;  ///< What a picture of textured triangl
 
 /// Two triangles that reach beyond the picture's borders, with a texture about as fine as its
 /// pixels; or the lessons' own scene, as they show it.
-LitScene scene_to_draw(int what, PictureKnobs& knobs) {
+PhongAssets assets_to_draw(int what, PictureKnobs& knobs) {
     const std::filesystem::path models = RASTERBOOK_ASSETS "/models";
-    if (what == scene_obj) return {load_obj(models / "scene.obj"), knobs};
+    if (what == scene_obj) return make_phong_assets(load_obj(models / "scene.obj"), knobs);
     Scene scene;
     Material tiles;
     tiles.specular = vec3(0.2f), tiles.shininess = 60;
@@ -189,81 +189,53 @@ LitScene scene_to_draw(int what, PictureKnobs& knobs) {
     quad.uvs = {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)};
     for (const vec2 uv : quad.uvs) quad.positions.emplace_back(2 * uv.x - 1, 0, 1 - 2 * uv.y);
     for (const vec3 position : quad.positions) quad.bounds.add(position);
-    const Corner a{0, 0}, b{1, 1}, c{2, 2}, d{3, 3};
+    const Vertex a{0, 0}, b{1, 1}, c{2, 2}, d{3, 3};
     quad.triangles = {{{a, b, c}, 0}, {{a, c, d}, 0}};
     scene.meshes.push_back(quad);
     knobs.orbit = {.pitch_degrees = 60, .distance = 0.35f};
-    return {scene, knobs};
+    return make_phong_assets(scene, knobs);
 }
 
-/// Textured fragments, or such in the light of two lamps, drawn as lessons 05 and 06 do. Arguments:
+/// Textured fragments, or such lit by two lights, drawn as lessons 05 and 06 do. Arguments:
 /// what is drawn, and the filter.
 template <bool with_light>
 void textured_and_lit(benchmark::State& state) {
     constexpr ivec2 size(1920, 1080);
     PictureKnobs knobs;
     knobs.texture.filter = state.range(1) ? Filter::trilinear : Filter::bilinear;
-    const LitScene scene = scene_to_draw(static_cast<int>(state.range(0)), knobs);
+    const auto [scene, textures, effects] = assets_to_draw(static_cast<int>(state.range(0)), knobs);
     const Camera camera = orbit_camera(knobs.orbit, scene.bounds());
     const std::array lights = studio_lights(knobs.shading.key_light, scene.bounds());
     Image<vec3> color(size);
     DepthBuffer depth(size);
 
     const auto draw = [&](auto& counters) {
-        const mat4 clip_from_world = camera.clip_from_world(size);
-        for (const Mesh& mesh : scene.meshes) {
-            const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
-            for (const Triangle& triangle : mesh.triangles) {
-                const TriangleSurface surface(scene, mesh, triangle);
-                for (const ClippedTriangle& clipped :
-                     clip_triangle(corners_of(triangle, positions_clip))) {
-                    const vec3 a = screen_from_clip(clipped[0].position_clip, size);
-                    const vec3 b = screen_from_clip(clipped[1].position_clip, size);
-                    const vec3 c = screen_from_clip(clipped[2].position_clip, size);
-                    const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                    if (!is_front_facing(on_screen)) continue;
-                    const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                    const PerspectiveWeights perspective(on_screen, clipped);
-                    const auto emit_visible = [&](auto&& emit) {
-                        return [&](ivec2 pixel, vec3 screen_weights) {
-                            if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights)))
-                                return;
-                            counters.add(Counter::fragments_shaded);
-                            emit(pixel, screen_weights);
-                        };
-                    };
-                    if (!with_light) {
-                        const auto paint = [&](ivec2 pixel, vec3 screen_weights) {
-                            color[pixel] = surface.material.diffuse;
-                            if (surface.texture != nullptr)
-                                color[pixel] *= vec3(sample(
-                                    *surface.texture, knobs.texture.filter,
-                                    fragment_uv(surface.uvs, perspective.at(screen_weights))));
-                        };
-                        fill_in_bands(on_screen, size, emit_visible(paint));
-                        continue;
-                    }
-                    const TriangleLight light(knobs.shading, lights, camera.position_world, mesh,
-                                              triangle, false, surface);
-                    const auto shade = [&](const ManyFragments& fragments) {
-                        const ManyWeights weights = weights_of(fragments, perspective);
-                        const auto own = surface.colors(weights, knobs.texture.filter, counters);
-                        LitPoints points;
-                        light.add(weights, points, counters);
-                        light.compute(points);
-                        for (std::size_t i = 0; i < fragments.count; ++i)
-                            color[fragments.pixels[i]] =
-                                phong(own[i], ambient_light, points.light(i));
-                    };
-                    Fragments visible(shade);
-                    const auto gather = [&](ivec2 pixel, vec3 screen_weights) {
-                        visible.add(pixel, screen_weights);
-                    };
-                    fill_in_bands(on_screen, size, emit_visible(gather));
-                    visible.finish();
+        const auto draw_triangle = [&](const ProjectedTriangle& projected) {
+            const TriangleSurface surface =
+                triangle_surface(scene, textures, effects[projected.triangle.material], projected);
+            const PerspectiveSetup setup =
+                perspective_setup(projected.on_screen, projected.clipped);
+            const PhongHighlight highlight = highlight_of(surface);
+            fill_triangle(projected.on_screen, size, [&](ivec2 pixel, Barycentrics on_screen) {
+                if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+                counters.add(Counter::fragments_shaded);
+                const FragmentBarycentrics at = perspective_correct(setup, on_screen);
+                if (!with_light) {
+                    color[pixel] = surface.own_color.diffuse;
+                    if (surface.texture != nullptr)
+                        color[pixel] *= vec3(sample(*surface.texture, knobs.texture.filter,
+                                                    fragment_uv(surface.uvs, at)));
+                    return;
                 }
-            }
-        }
+                const SurfaceColor own = surface_color(surface, at, knobs.texture.filter, counters);
+                const vec3 normal = interpolate(surface.normals_world, at.here);
+                const SurfacePoint<float> point =
+                    surface_point(surface, at.here, normal, camera.position_world, counters);
+                color[pixel] = phong(own, ambient_light, reflected_light(lights, point, highlight));
+            });
+        };
+        for_each_visible_triangle(scene, camera.clip_from_world(size), size, Culling::back_faces,
+                                  counters, draw_triangle);
     };
 
     Counters once;
@@ -290,14 +262,14 @@ void textured_and_lit_arguments(benchmark::internal::Benchmark* benchmark) {
     benchmark->Unit(benchmark::kMillisecond);
 }
 
-/// A comb: a polygon of which every second corner is a dent. Argument: the number of its corners.
+/// A comb: a polygon of which every second vertex is a dent. Argument: the number of its vertices.
 void concave_polygon(benchmark::State& state) {
     std::vector<vec3> comb;
     for (int i = 0; i < state.range(0) - 2; ++i) comb.emplace_back(i, i % 2 == 0 ? 0 : -1e6f, 0);
     comb.emplace_back(state.range(0), 1, 0);
     comb.emplace_back(-1, 1, 0);
     for (auto _ : state) benchmark::DoNotOptimize(triangulate(comb));
-    state.counters["corners"] = per_second(static_cast<double>(comb.size()));
+    state.counters["vertices"] = per_second(static_cast<double>(comb.size()));
 }
 
 /// A height field of quads with uvs and normals, about 30 MB of text, from a warm cache.

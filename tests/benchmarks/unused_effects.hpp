@@ -5,13 +5,14 @@
 
 #include <functional>
 
-#include "common/counters.hpp"
-#include "common/image.hpp"
-#include "common/mesh.hpp"
+#include "common/app/counters.hpp"
+#include "common/image/image.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
-/// What is left out of a copy of a lesson's render(). `own`: it is no copy, but the lesson's own.
+/// What is not compiled into a lesson's render(). `own`: nothing is left out; it is the lesson's
+/// own. `nothing`: the same, compiled once more.
 enum class Without {
     own,
     nothing,
@@ -28,14 +29,44 @@ enum class Without {
     blend
 };
 
+/// Whether a counter counts an effect's work alone. Textures of all kinds share one counter.
+constexpr bool is_work_of(Without effect, Counter counter) {
+    switch (effect) {
+        case Without::light:
+            return counter == Counter::fragments_lit;
+        case Without::highlight:
+            return counter == Counter::highlights;
+        case Without::vertex_colors:
+            return counter == Counter::colored_fragments;
+        case Without::normal_map:
+            return counter == Counter::normal_map_samples ||
+                   counter == Counter::meshes_with_tangents;
+        case Without::shadow:
+            return counter == Counter::shadow_passes || counter == Counter::shadow_fragments ||
+                   counter == Counter::shadow_tests;
+        case Without::toon:
+            return counter == Counter::toon_fragments;
+        case Without::outline:
+            return counter == Counter::outline_tests || counter == Counter::outline_pixels;
+        case Without::mask:
+            return counter == Counter::alpha_tested_fragments;
+        case Without::blend:
+            return counter == Counter::blended_fragments;
+        default:
+            return false;
+    }
+}
+
 /// Draws a picture, and counts where the counters are not null.
 using Draw = std::function<Image<vec3>(Counters*)>;
 
-/// The pictures of a model as a lesson draws them, lesson 07 with no outline.
+/// The pictures of a model as a lesson draws them, lesson 07 without outlines.
 ///
 /// Each is compiled alone, as a lesson's program is: in one file, the compiler would inline less of
 /// each, and it would be chance in which.
-template <int lesson, Without without>
+///
+/// @param model  Does not call for the effect; else it is undefined what happens.
+template <int lesson, Without effect>
 Draw draw_of(const Scene& model);
 
 }  // namespace rasterbook

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 #include "support/printers.hpp"
 
 namespace rasterbook::test {

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/input_error.hpp"
+#include "common/image/input_error.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook::test {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "common/image_io.hpp"
+#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 #include "support/image_doctor.hpp"
 #include "support/lesson_process.hpp"

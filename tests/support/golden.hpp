@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook::test {
 

@@ -10,8 +10,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "common/model_file.hpp"
-#include "common/parallel_view.hpp"
+#include "common/app/orthographic_view.hpp"
+#include "common/model/model_file.hpp"
 #include "support/image_mistakes.hpp"
 #include "support/picture_difference.hpp"
 
@@ -70,14 +70,14 @@ std::string unexplained(const Image<u8vec4>& actual, const Image<u8vec4>& expect
 }  // namespace
 
 std::vector<ScreenPatch> parallel_patches(const Scene& scene, ivec2 size) {
-    const ParallelView view(scene, size);
+    const OrthographicView view(scene, size);
     std::vector<ScreenPatch> patches;
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
-        for (const auto& [corners, material] : mesh.triangles)
-            patches.push_back({positions_screen[corners[0].position],
-                               positions_screen[corners[1].position],
-                               positions_screen[corners[2].position]});
+        for (const auto& [vertices, material] : mesh.triangles)
+            patches.push_back({positions_screen[vertices[0].position],
+                               positions_screen[vertices[1].position],
+                               positions_screen[vertices[2].position]});
     }
     return patches;
 }
@@ -103,10 +103,10 @@ std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Orbit& or
     };
     std::vector<ScreenPatch> patches;
     for (const Mesh& mesh : scene.meshes)
-        for (const auto& [corners, material] : mesh.triangles)
-            patches.push_back({on_screen(mesh.positions[corners[0].position]),
-                               on_screen(mesh.positions[corners[1].position]),
-                               on_screen(mesh.positions[corners[2].position])});
+        for (const auto& [vertices, material] : mesh.triangles)
+            patches.push_back({on_screen(mesh.positions[vertices[0].position]),
+                               on_screen(mesh.positions[vertices[1].position]),
+                               on_screen(mesh.positions[vertices[2].position])});
     return patches;
 }
 
@@ -114,7 +114,7 @@ PictureFacts picture_facts(const std::string& lesson, const std::vector<std::str
                            ivec2 size) {
     PictureFacts facts;
     facts.has_depth_buffer = lesson >= "03";
-    facts.shows_weights = option_value(arguments, "--paint") == "weights";
+    facts.shows_barycentrics = option_value(arguments, "--paint") == "barycentric";
     facts.shows_depth = std::find(arguments.begin(), arguments.end(), "--depth") != arguments.end();
     if (lesson < "02" || lesson >= "11") return facts;  // from 11 on a file has its own camera
     Orbit orbit;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common/image.hpp"
-#include "common/lesson_app.hpp"
-#include "common/mesh.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/image.hpp"
+#include "common/model/mesh.hpp"
 #include "support/visibility.hpp"
 
 namespace rasterbook::test {
@@ -17,9 +17,9 @@ namespace rasterbook::test {
 struct PictureFacts {
     /// In the order in which they are drawn; empty when only the pixels are to be judged.
     std::vector<ScreenPatch> patches;
-    bool has_depth_buffer = false;  ///< The nearest patch is seen; without one, the last.
-    bool shows_weights = false;     ///< Red, green and blue are the weights of the corners.
-    bool shows_depth = false;       ///< Near is bright, far is dark, nothing is black.
+    bool has_depth_buffer = false;    ///< The nearest patch is seen; without one, the last.
+    bool shows_barycentrics = false;  ///< Red, green and blue are barycentric coordinates.
+    bool shows_depth = false;         ///< Near is bright, far is dark, nothing is black.
 };
 
 /// The facts of a lesson's picture.

@@ -119,7 +119,7 @@ bool is_of_the_whole_picture(const Case& c, const std::function<u8vec4(u8vec4)>&
 void consider_exchanged_channels(const Case& c, Findings& findings) {
     struct Exchange {
         ivec3 source;  ///< The channels from which red, green and blue come.
-        const char *colors, *corners;
+        const char *colors, *vertices;
     };
     for (const Exchange& e : {
              Exchange{{2, 1, 0}, "red and blue exchanged", "those of a and c exchanged"},
@@ -135,11 +135,14 @@ void consider_exchanged_channels(const Case& c, Findings& findings) {
         const auto change = [&](u8vec4 color) {
             return u8vec4(color[e.source.x], color[e.source.y], color[e.source.z], color.a);
         };
-        const bool are_weights = c.facts.shows_weights && !is_of_the_whole_picture(c, change);
+        const bool are_barycentrics =
+            c.facts.shows_barycentrics && !is_of_the_whole_picture(c, change);
         findings.consider(
-            are_weights
-                ? std::string("the weights belong to the wrong corners, ") + e.corners +
-                      ": a corner's weight is that of the side opposite to it; compare lesson 02"
+            are_barycentrics
+                ? std::string("the barycentric coordinates belong to the wrong vertices, ") +
+                      e.vertices +
+                      ": a vertex's coordinate is that of the side opposite to it; compare lesson "
+                      "02"
                 : std::string(e.colors) +
                       ": files and libraries differ in which of the three comes first",
             [&](ivec2 p) {

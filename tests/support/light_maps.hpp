@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// All depth maps of a light on a few meshes, and what they say of a point.
+/// All shadow maps of a light on a few meshes, and what a shadow test at a point finds in them.
 #pragma once
 
 #include <array>
@@ -10,24 +10,25 @@
 
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
-#include "common/counters.hpp"
+#include "common/app/counters.hpp"
 
 namespace rasterbook::test {
 
-using Corners = std::array<vec3, 3>;
+using Vertices = std::array<vec3, 3>;
 
-inline Corners corners_in(const Mesh& mesh, const Triangle& triangle) {
-    return {mesh.positions[triangle.corners[0].position],
-            mesh.positions[triangle.corners[1].position],
-            mesh.positions[triangle.corners[2].position]};
+inline Vertices vertices_in(const Mesh& mesh, const Triangle& triangle) {
+    return {mesh.positions[triangle.vertices[0].position],
+            mesh.positions[triangle.vertices[1].position],
+            mesh.positions[triangle.vertices[2].position]};
 }
 
-/// Maps that all of the meshes throw shadows in.
+/// Shadow maps in which all of the meshes cast shadows.
 struct LightMaps {
     Light light;
     std::vector<ShadowMap> maps;  ///< None, one, or six.
 
-    /// @param around  Casters and receivers reach so far as well; empty for no farther than meshes.
+    /// @param around  Casters and receivers may reach as far as this, too; empty: no farther than
+    ///                the meshes.
     LightMaps(const Light& of, std::span<const Mesh> meshes, int size, const Bounds& around = {})
         : light(of) {
         Bounds all = around;
@@ -52,20 +53,11 @@ struct LightMaps {
                                                     : light.position_world - point;
     }
 
-    /// @param radius  0 to most_pcf_radius.
-    float share(Bias bias, int radius, const Corners& corners, vec3 point) const {
+    /// @param radius  0 to max_pcf_radius.
+    float visibility(Bias bias, int radius, const Vertices& vertices, vec3 point) const {
         const ShadowMap& map = map_for(point);
-        const Receiver at = receiver(map, bias, radius, corners, toward(point));
-        switch (radius) {
-            case 0:
-                return lit_share<0>(map, at, point);
-            case 1:
-                return lit_share<1>(map, at, point);
-            case 2:
-                return lit_share<2>(map, at, point);
-            default:
-                return lit_share<3>(map, at, point);
-        }
+        return pcf_visibility(map, radius, receiver(map, bias, radius, vertices, toward(point)),
+                              point);
     }
 };
 

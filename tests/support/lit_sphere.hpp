@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A sphere in the light of a lamp: as a mesh, drawn by the stages of lesson 06, and as it really
+/// A sphere lit by a point light: as a mesh, drawn by the stages of lesson 06, and as it really
 /// looks, found in long double and with none of the course's functions.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
+#include "04_mvp/projection.hpp"
 #include "05_textures/interpolation.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/lit_scene.hpp"
+#include "06_phong/effects.hpp"
+#include "06_phong/normals.hpp"
+#include "06_phong/phong.hpp"
 #include "06_phong/shading_variants.hpp"
+#include "common/app/counters.hpp"
 #include "common/math/types.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
+#include "support/one_triangle.hpp"
 
 namespace rasterbook::test {
 
@@ -36,89 +40,62 @@ inline Mesh sphere_mesh(int rows, int columns) {
             mesh.bounds.add(mesh.positions.back());
         }
     mesh.normals = mesh.positions;
-    const auto corner = [&](int row, int column) {
+    const auto vertex = [&](int row, int column) {
         const auto index = static_cast<std::uint32_t>(row * (columns + 1) + column);
-        return Corner{index, no_index, index};
+        return Vertex{index, no_index, index};
     };
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
-            const Corner a = corner(row, column), b = corner(row + 1, column);
-            const Corner c = corner(row + 1, column + 1), d = corner(row, column + 1);
+            const Vertex a = vertex(row, column), b = vertex(row + 1, column);
+            const Vertex c = vertex(row + 1, column + 1), d = vertex(row, column + 1);
             if (row + 1 < rows) mesh.triangles.push_back({{a, b, c}, 0});
             if (row > 0) mesh.triangles.push_back({{a, c, d}, 0});
         }
     return mesh;
 }
 
-/// Whether fragments are lit as the lesson does, or each by itself.
-enum class Points { together, one_by_one };
-
-/// A grey sphere with a highlight, a lamp and a camera that sees both.
+/// A grey sphere with a highlight, a point light and a camera that sees both.
 struct LitSphere {
-    struct Options {
-        TextureOptions texture;
-        ShadingVariant shading;
-    };
-
     static constexpr ivec2 size{512};
     static constexpr float diffuse = 0.6f, specular = 0.4f, shininess = 90;
 
-    LitScene scene;
+    Scene scene;
+    SurfaceTextures textures{MaterialTextures(1), MaterialTextures(1)};
+    EffectMask effects = plan_effects(scene, textures, false)[0];
     Camera camera = orbit_camera({.distance = 2}, scene.bounds());
     std::array<Light, 1> lights{
         Light{LightKind::point, vec3(2), vec3(0), vec3(0.3f, 1.8f, 2.4f), 3.0f}};
 
-    LitSphere(int rows, int columns) : scene(scene_of(sphere_mesh(rows, columns)), Options{}) {}
+    LitSphere(int rows, int columns) : scene(scene_of(sphere_mesh(rows, columns))) {
+        complete_normals(scene);
+    }
 
     const Mesh& mesh() const { return scene.meshes[0]; }
 
-    TriangleLight light_on(const Triangle& triangle, const ShadingVariant& variant,
-                           bool is_back = false) const {
-        return {variant,
-                lights,
-                camera.position_world,
-                mesh(),
-                triangle,
-                is_back,
-                TriangleSurface(scene, mesh(), triangle)};
+    LitTriangle lit(const ProjectedTriangle& projected, const ShadingVariant& variant) const {
+        return {variant, lights, camera.position_world, scene, textures, effects, projected};
+    }
+    LitTriangle lit(const Triangle& triangle, const ShadingVariant& variant,
+                    bool is_back = false) const {
+        return lit(not_on_screen(mesh(), triangle, is_back), variant);
     }
 
     /// Draws the sphere as the lesson does, without a depth buffer: of a sphere, no front faces
     /// cover each other. Calls emit(pixel, light) for each fragment.
     template <typename Emit>
-    void draw(const ShadingVariant& variant, Emit&& emit, Points how = Points::together) const {
-        NoCounters counters;
-        const std::vector<vec4> positions_clip =
-            transform(camera.clip_from_world(size), mesh().positions);
-        for (const Triangle& triangle : mesh().triangles) {
-            const TriangleSurface surface(scene, mesh(), triangle);
-            const SurfaceColor color = surface_color(surface.material);
-            for (const ClippedTriangle& clipped :
-                 clip_triangle(corners_of(triangle, positions_clip))) {
-                const ScreenTriangle on_screen =
-                    snap_triangle(screen_from_clip(clipped[0].position_clip, size),
-                                  screen_from_clip(clipped[1].position_clip, size),
-                                  screen_from_clip(clipped[2].position_clip, size));
-                if (!is_front_facing(on_screen)) continue;
-                const PerspectiveWeights perspective(on_screen, clipped);
-                const TriangleLight light(variant, lights, camera.position_world, mesh(), triangle,
-                                          false, surface);
-                const auto shade = [&](const ManyFragments& fragments) {
-                    LitPoints points;
-                    light.add(weights_of(fragments, perspective), points, counters);
-                    light.compute(points);
-                    for (std::size_t i = 0; i < fragments.count; ++i)
-                        emit(fragments.pixels[i], phong(color, vec3(0), points.light(i)).x);
-                };
-                Fragments visible(shade);
-                fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-                    if (how == Points::together) return visible.add(pixel, screen_weights);
-                    const vec3 weights = perspective.at(screen_weights).here;
-                    emit(pixel, phong(color, vec3(0), light.at(weights, counters)).x);
+    void draw(const ShadingVariant& variant, Emit&& emit) const {
+        NoCounters uncounted;
+        for_each_visible_triangle(
+            scene, camera.clip_from_world(size), size, variant.culling(), uncounted,
+            [&](const ProjectedTriangle& projected) {
+                const LitTriangle triangle = lit(projected, variant);
+                const PerspectiveSetup setup =
+                    perspective_setup(projected.on_screen, projected.clipped);
+                fill_triangle(projected.on_screen, size, [&](ivec2 pixel, Barycentrics on_screen) {
+                    const Barycentrics here = perspective_correct(setup, on_screen).here;
+                    emit(pixel, phong(triangle.surface().own_color, vec3(0), triangle.at(here)).x);
                 });
-                visible.finish();
-            }
-        }
+            });
     }
 
   private:
@@ -139,7 +116,7 @@ class ExactSphere {
     explicit ExactSphere(const LitSphere& sphere) {
         const Light& light = sphere.lights[0];
         half_distance_ = light.half_distance, color_ = light.color.x;
-        eye_ = wide(sphere.camera.position_world), lamp_ = wide(light.position_world);
+        eye_ = wide(sphere.camera.position_world), light_ = wide(light.position_world);
         const Vector forward = scaled(eye_, -1 / length(eye_));  // towards the origin
         const long double level = std::hypot(forward[0], forward[2]);
         right_ = {-forward[2] / level, 0, forward[0] / level};
@@ -151,16 +128,17 @@ class ExactSphere {
     /// @param normal,position  Of a surface in this light, seen by this camera; normal of length 1.
     long double light_at(const std::array<long double, 3>& normal,
                          const std::array<long double, 3>& position) const {
-        const Vector to_lamp = sum(lamp_, scaled(position, -1));
-        const long double distance = length(to_lamp);
-        const long double cosine = dot(normal, to_lamp) / distance;
+        const Vector to_light = sum(light_, scaled(position, -1));
+        const long double distance = length(to_light);
+        const long double cosine = dot(normal, to_light) / distance;
         if (cosine <= 0) return 0;
         const long double arrives =
             color_ / (1 + distance * distance / (half_distance_ * half_distance_));
-        // Of the way to the eye, mirrored in the normal: the same cosine as of the mirrored lamp's.
+        // Of the way to the eye, mirrored in the normal: the same cosine as of the mirrored
+        // light's.
         const Vector to_eye = sum(eye_, scaled(position, -1));
         const Vector mirrored = sum(scaled(normal, 2 * dot(normal, to_eye)), scaled(to_eye, -1));
-        const long double mirrored_cosine = dot(mirrored, to_lamp) / (distance * length(to_eye));
+        const long double mirrored_cosine = dot(mirrored, to_light) / (distance * length(to_eye));
         const long double highlight =
             mirrored_cosine > 0 ? std::exp(LitSphere::shininess * std::log(mirrored_cosine)) : 0;
         return arrives * (LitSphere::diffuse * cosine + LitSphere::specular * highlight);
@@ -192,7 +170,7 @@ class ExactSphere {
         return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
     }
 
-    Vector eye_, lamp_, forward_, right_, up_;
+    Vector eye_, light_, forward_, right_, up_;
     long double half_distance_, color_, half_height_;
 };
 

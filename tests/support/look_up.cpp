@@ -12,7 +12,7 @@ namespace {
 
 std::string place_of_this_test;
 
-/// "Eq. 2.4" for a test named "Eq2_4_WeightsOfTheWorkedExample", else nothing.
+/// "Eq. 2.4" for a test named "Eq2_4_BarycentricsOfTheWorkedExample", else nothing.
 std::string equation_in(const std::string& name) {
     if (name.rfind("Eq", 0) != 0) return "";
     const auto end = name.find('_', name.find('_') + 1);

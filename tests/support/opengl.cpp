@@ -21,11 +21,11 @@ namespace {
 constexpr const char* vertex_shader = R"(#version 330 core
 #extension GL_AMD_vertex_shader_layer : require
 layout(location = 0) in vec4 position_clip;
-layout(location = 1) in vec2 corner_uv;
+layout(location = 1) in vec2 vertex_uv;
 uniform bool each_its_own;
 out vec2 uv;
 void main() {
-    uv = corner_uv;
+    uv = vertex_uv;
     gl_Position = vec4(position_clip.x, -position_clip.y, position_clip.zw);
     gl_Layer = each_its_own ? gl_VertexID / 3 : 0;
 }
@@ -40,10 +40,10 @@ uniform sampler2D levels;
 in vec2 uv;
 out vec4 color;
 float level() {
-    float nearness = gl_FragCoord.w;
-    vec2 texels = vec2(textureSize(levels, 0)) / nearness;
-    vec2 across = texels * (dFdx(uv * nearness) - uv * dFdx(nearness));
-    vec2 down = texels * (dFdy(uv * nearness) - uv * dFdy(nearness));
+    float inverse_w = gl_FragCoord.w;
+    vec2 texels = vec2(textureSize(levels, 0)) / inverse_w;
+    vec2 across = texels * (dFdx(uv * inverse_w) - uv * dFdx(inverse_w));
+    vec2 down = texels * (dFdy(uv * inverse_w) - uv * dFdy(inverse_w));
     return max(0.0, log2(max(length(across), length(down))));
 }
 void main() { )";
@@ -190,7 +190,7 @@ std::vector<OpenGlPicture> OpenGl::draw_layers(std::span<const OpenGlTriangle> t
     std::vector<Vertex> vertices;
     for (const OpenGlTriangle& triangle : triangles)
         for (std::size_t i = 0; i < 3; ++i)
-            vertices.push_back({triangle.corners_clip[i], triangle.uv[i]});
+            vertices.push_back({triangle.vertices_clip[i], triangle.uv[i]});
 
     GLuint vertex_array = 0, buffer = 0, frame = 0;
     glGenVertexArrays(1, &vertex_array);

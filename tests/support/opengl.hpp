@@ -15,12 +15,12 @@
 #include <gtest/gtest.h>
 
 #include "05_textures/texture.hpp"
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook::test {
 
 struct OpenGlTriangle {
-    std::array<vec4, 3> corners_clip;
+    std::array<vec4, 3> vertices_clip;
     std::array<vec2, 3> uv = {};
 };
 

@@ -16,8 +16,8 @@
 namespace rasterbook::test {
 
 using Random = std::mt19937;
-using Corners = std::array<vec4, 3>;  ///< In clip space.
-using Steps = std::array<ivec2, 3>;   ///< On the screen, in 1/256 pixel.
+using Vertices = std::array<vec4, 3>;  ///< In clip space.
+using Steps = std::array<ivec2, 3>;    ///< On the screen, in 1/256 pixel.
 
 inline int any(Random& random, int low, int high) {
     return std::uniform_int_distribution<int>(low, high)(random);
@@ -34,7 +34,7 @@ inline ivec2 any_point(Random& random, int low, int high) {
 
 inline Steps any_steps(Random& random, int low, int high) {
     Steps steps;
-    for (ivec2& corner : steps) corner = any_point(random, low, high);
+    for (ivec2& vertex : steps) vertex = any_point(random, low, high);
     return steps;
 }
 
@@ -43,7 +43,7 @@ inline void for_each_pixel(ivec2 size, auto&& visit) {
         for (int x = 0; x < size.x; ++x) visit(ivec2(x, y));
 }
 
-/// One way to choose triangles whose corners are whole steps.
+/// One way to choose triangles whose vertices are whole steps.
 struct Kind {
     std::string name;
     OpenGlView view;
@@ -60,7 +60,7 @@ inline std::vector<Kind> kinds() {
             {"on centres and borders of pixels", whole,
              [](Random& random) {
                  Steps steps = any_steps(random, 0, 24);
-                 for (ivec2& corner : steps) corner *= half_pixel;
+                 for (ivec2& vertex : steps) vertex *= half_pixel;
                  return steps;
              }},
             {"two that share a side through a centre", whole,
@@ -98,17 +98,17 @@ inline std::vector<Kind> kinds() {
 
 /// Clip coordinates that lead to these steps without a rounding: viewports and w are powers of two.
 /// Every other triangle is only gently inclined in depth.
-inline Corners clip_from_steps(const Steps& steps, const OpenGlView& view, Random& random) {
-    Corners corners;
+inline Vertices clip_from_steps(const Steps& steps, const OpenGlView& view, Random& random) {
+    Vertices vertices;
     const bool is_steep = any(random, 0, 1) == 1;
     const vec2 slope(any_float(random, -0.25f, 0.25f), any_float(random, -0.25f, 0.25f));
     for (std::size_t i = 0; i < 3; ++i) {
         const vec2 pixels = vec2(steps[i]) / float{subpixels} - vec2(view.viewport_low);
         const vec2 ndc = pixels / vec2(view.viewport_size) * 2.0f - 1.0f;
         const float z = is_steep ? any_float(random, -1, 1) : glm::dot(slope, ndc);
-        corners[i] = vec4(ndc.x, -ndc.y, z, 1) * std::ldexp(1.0f, any(random, -4, 4));
+        vertices[i] = vec4(ndc.x, -ndc.y, z, 1) * std::ldexp(1.0f, any(random, -4, 4));
     }
-    return corners;
+    return vertices;
 }
 
 }  // namespace rasterbook::test

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook::test {
 
@@ -37,7 +37,7 @@ struct PictureDifference {
     std::size_t jumps = 0;      ///< Pixels that differ by more than levels_that_may_differ.
     int greatest = 0;           ///< Of all pixels, 0 to 255.
 
-    /// @param may_jump  So many pixels may differ by any amount: where light is snapped to bands, a
+    /// @param may_jump  So many pixels may differ by any amount: where light is snapped to tones, a
     ///                  last bit decides on which side of a threshold a pixel lies.
     bool is_tolerable(std::size_t may_jump = 0) const {
         return differing <= allowed && jumps <= may_jump;

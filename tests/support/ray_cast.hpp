@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "common/math/types.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook::test {
 
@@ -57,9 +57,9 @@ class RayCaster {
         for (const Mesh& mesh : meshes)
             for (const Triangle& triangle : mesh.triangles)
                 if (casts(triangle.material))
-                    triangles.push_back({dvec3(mesh.positions[triangle.corners[0].position]),
-                                         dvec3(mesh.positions[triangle.corners[1].position]),
-                                         dvec3(mesh.positions[triangle.corners[2].position])});
+                    triangles.push_back({dvec3(mesh.positions[triangle.vertices[0].position]),
+                                         dvec3(mesh.positions[triangle.vertices[1].position]),
+                                         dvec3(mesh.positions[triangle.vertices[2].position])});
         return RayCaster(std::move(triangles));
     }
 
@@ -91,8 +91,8 @@ class RayCaster {
         nodes_.push_back({dvec3(INFINITY), dvec3(-INFINITY), begin, end, 0});
         dvec3 low(INFINITY), high(-INFINITY);
         for (std::size_t i = begin; i < end; ++i)
-            for (const dvec3 corner : triangles_[i])
-                low = glm::min(low, corner), high = glm::max(high, corner);
+            for (const dvec3 vertex : triangles_[i])
+                low = glm::min(low, vertex), high = glm::max(high, vertex);
         const dvec3 size = high - low;
         // Rounding must not put a triangle's hit outside of its box.
         const dvec3 margin(1e-9 * (size.x + size.y + size.z) + 1e-300);

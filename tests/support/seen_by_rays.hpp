@@ -58,13 +58,13 @@ class ReferenceCamera {
     long double eye_[3], forward_[3], right_[3], up_[3];
 };
 
-using ClipCorners = std::array<vec4, 3>;
+using ClipVertices = std::array<vec4, 3>;
 
 /// Whether a pixel's ray meets a triangle between the near and the far plane. In clip space without
 /// its z, which is what a camera at the origin sees, a pixel's ray is (x, y, 1) times w > 0.
 class RaySeen {
   public:
-    explicit RaySeen(const ClipCorners& corners) : corners_(corners) {}
+    explicit RaySeen(const ClipVertices& vertices) : vertices_(vertices) {}
 
     /// @return  False where the triangle is seen clockwise.
     bool is_seen(ivec2 pixel, ivec2 size) const {
@@ -98,28 +98,28 @@ class RaySeen {
     bool cross(long double x, long double y, Crossing& crossing) const {
         const auto side = [&](std::size_t to, int axis) {
             const int component = axis < 2 ? axis : 3;
-            return static_cast<long double>(corners_[to][component]) - corners_[0][component];
+            return static_cast<long double>(vertices_[to][component]) - vertices_[0][component];
         };
         const long double u[3] = {side(1, 0), side(1, 1), side(1, 2)};
         const long double v[3] = {side(2, 0), side(2, 1), side(2, 2)};
         const long double p[3] = {y * v[2] - v[1], v[0] - x * v[2], x * v[1] - y * v[0]};
         const long double volume = u[0] * p[0] + u[1] * p[1] + u[2] * p[2];
         if (!(volume < 0)) return false;  // the ray leaves through it, or passes beside
-        const long double s[3] = {-static_cast<long double>(corners_[0].x),
-                                  -static_cast<long double>(corners_[0].y),
-                                  -static_cast<long double>(corners_[0].w)};
+        const long double s[3] = {-static_cast<long double>(vertices_[0].x),
+                                  -static_cast<long double>(vertices_[0].y),
+                                  -static_cast<long double>(vertices_[0].w)};
         const long double b = (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) / volume;
         const long double q[3] = {s[1] * u[2] - s[2] * u[1], s[2] * u[0] - s[0] * u[2],
                                   s[0] * u[1] - s[1] * u[0]};
         const long double c = (x * q[0] + y * q[1] + q[2]) / volume;
         if (!(b >= 0 && c >= 0 && b + c <= 1)) return false;
         crossing.w = (v[0] * q[0] + v[1] * q[1] + v[2] * q[2]) / volume;
-        const auto z = [&](std::size_t i) { return static_cast<long double>(corners_[i].z); };
+        const auto z = [&](std::size_t i) { return static_cast<long double>(vertices_[i].z); };
         crossing.z = z(0) + b * (z(1) - z(0)) + c * (z(2) - z(0));
         return crossing.w > 0;
     }
 
-    ClipCorners corners_;
+    ClipVertices vertices_;
 };
 
 /// Of view space, by a camera that sees 90 degrees from 1 to 100.
@@ -129,38 +129,38 @@ inline vec4 seen_from_origin(vec3 view) {
 }
 
 /// Turns the triangle round if it is seen clockwise from the origin.
-inline ClipCorners front(std::array<vec3, 3> view) {
+inline ClipVertices front(std::array<vec3, 3> view) {
     if (glm::dot(view[0], glm::cross(view[1], view[2])) > 0) std::swap(view[1], view[2]);
     return {seen_from_origin(view[0]), seen_from_origin(view[1]), seen_from_origin(view[2])};
 }
 
 /// Triangles of a few pixels: three in five in the picture, the others across its border, across
 /// the near or the far plane, outside or behind.
-inline std::vector<ClipCorners> small_triangles(int count) {
+inline std::vector<ClipVertices> small_triangles(int count) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> direction(-1.2f, 1.2f), about(-0.06f, 0.06f),
         octaves(-0.2f, 6.8f), share(0, 1);
-    std::vector<ClipCorners> triangles;
+    std::vector<ClipVertices> triangles;
     while (std::ssize(triangles) < count) {
         const float distance = std::exp2(octaves(random)) * (share(random) < 0.1f ? -1.0f : 1.0f);
         const vec3 center = distance * vec3(direction(random), direction(random), -1);
-        std::array<vec3, 3> corners;
-        for (vec3& corner : corners)
-            corner = center + distance * vec3(about(random), about(random), about(random));
-        triangles.push_back(front(corners));
+        std::array<vec3, 3> vertices;
+        for (vec3& vertex : vertices)
+            vertex = center + distance * vec3(about(random), about(random), about(random));
+        triangles.push_back(front(vertices));
     }
     return triangles;
 }
 
-/// Triangles with corners all around the camera: most of them cross the plane w = 0.
-inline std::vector<ClipCorners> large_triangles(int count) {
+/// Triangles with vertices all around the camera: most of them cross the plane w = 0.
+inline std::vector<ClipVertices> large_triangles(int count) {
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(-30, 30);
-    std::vector<ClipCorners> triangles;
+    std::vector<ClipVertices> triangles;
     while (std::ssize(triangles) < count) {
-        std::array<vec3, 3> corners;
-        for (vec3& corner : corners) corner = {any(random), any(random), any(random)};
-        triangles.push_back(front(corners));
+        std::array<vec3, 3> vertices;
+        for (vec3& vertex : vertices) vertex = {any(random), any(random), any(random)};
+        triangles.push_back(front(vertices));
     }
     return triangles;
 }

@@ -6,15 +6,19 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
+#include "04_mvp/projection.hpp"
 #include "05_textures/interpolation.hpp"
 #include "06_phong/light.hpp"
+#include "common/app/counters.hpp"
+#include "common/image/image.hpp"
+#include "common/math/functions.hpp"
+#include "common/model/mesh.hpp"
 #include "support/light_maps.hpp"
 #include "support/ray_cast.hpp"
 
@@ -22,45 +26,36 @@ namespace rasterbook::test {
 
 struct SeenPoint {
     ivec2 pixel;
-    vec3 position, normal;  ///< World space; the normal is mixed from the corners', of length 1.
-    Corners corners;        ///< Of its triangle.
+    vec3 position, normal;  ///< World space; the normal is interpolated, and of length 1.
+    Vertices vertices;      ///< Of its triangle.
     std::size_t material;
 };
 
 /// What is seen in each pixel of which something is.
 ///
-/// @param meshes  Each corner has a normal.
-inline std::vector<SeenPoint> seen_points(std::span<const Mesh> meshes, const Camera& camera,
-                                          ivec2 size) {
-    const mat4 clip_from_world = camera.clip_from_world(size);
+/// @param scene  Each vertex has a normal.
+inline std::vector<SeenPoint> seen_points(const Scene& scene, const Camera& camera, ivec2 size) {
     DepthBuffer depth(size);
     Image<std::optional<SeenPoint>> seen(size);
-    for (const Mesh& mesh : meshes) {
-        const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
-        for (const Triangle& triangle : mesh.triangles) {
-            const Corners corners = corners_in(mesh, triangle);
-            const Corners normals = {mesh.normals[triangle.corners[0].normal],
-                                     mesh.normals[triangle.corners[1].normal],
-                                     mesh.normals[triangle.corners[2].normal]};
-            for (const ClippedTriangle& clipped :
-                 clip_triangle(corners_of(triangle, positions_clip))) {
-                const vec3 a = screen_from_clip(clipped[0].position_clip, size);
-                const vec3 b = screen_from_clip(clipped[1].position_clip, size);
-                const vec3 c = screen_from_clip(clipped[2].position_clip, size);
-                const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                if (!is_front_facing(on_screen)) continue;
-                const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
-                const PerspectiveWeights perspective(on_screen, clipped);
-                fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_weights) {
-                    if (!depth.test_and_write(pixel, triangle_depth.at(screen_weights))) return;
-                    const vec3 weights = perspective.at(screen_weights).here;
-                    seen[pixel] = {pixel, interpolate(corners, weights),
-                                   unit_or(interpolate(normals, weights), normals[0]), corners,
-                                   triangle.material};
-                });
-            }
-        }
-    }
+    NoCounters none;
+    for_each_visible_triangle(
+        scene, camera.clip_from_world(size), size, Culling::back_faces, none,
+        [&](const ProjectedTriangle& projected) {
+            const auto& [mesh, triangle] = std::tie(projected.mesh, projected.triangle);
+            const Vertices vertices = vertices_in(mesh, triangle);
+            const Vertices normals = {mesh.normals[triangle.vertices[0].normal],
+                                      mesh.normals[triangle.vertices[1].normal],
+                                      mesh.normals[triangle.vertices[2].normal]};
+            const PerspectiveSetup setup =
+                perspective_setup(projected.on_screen, projected.clipped);
+            fill_triangle(projected.on_screen, size, [&](ivec2 pixel, Barycentrics on_screen) {
+                if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+                const Barycentrics at = perspective_correct(setup, on_screen).here;
+                seen[pixel] = {pixel, interpolate(vertices, at),
+                               unit_or(interpolate(normals, at), normals[0]), vertices,
+                               triangle.material};
+            });
+        });
     std::vector<SeenPoint> points;
     for (const auto& point : seen.pixels())
         if (point) points.push_back(*point);

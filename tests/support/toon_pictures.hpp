@@ -4,51 +4,29 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <utility>
-#include <vector>
 
-// All that the lesson's main.cpp includes, so that it can be included within a namespace.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
-#include "04_mvp/camera.hpp"
-#include "04_mvp/clip.hpp"
-#include "05_textures/bands.hpp"
-#include "05_textures/textured_scene.hpp"
-#include "06_phong/fragments.hpp"
-#include "06_phong/lit_scene.hpp"
-#include "07_toon/toon_variants.hpp"
-#include "common/backdrop.hpp"
-#include "common/lesson_app.hpp"
-
-namespace lesson {
-#define main inline main_of_lesson  // in several files of one program
-#include "07_toon/main.cpp"
-#undef main
-}  // namespace lesson
+#include "support/lessons.hpp"
+#include "support/pictures.hpp"
 
 namespace rasterbook::test {
 
-inline const std::filesystem::path models = std::filesystem::path(RASTERBOOK_ASSETS) / "models";
-
-inline lesson::Options small_toon() {
-    lesson::Options options;
+inline lesson_07::Options small_toon() {
+    lesson_07::Options options;
     options.size = {320, 180};
     return options;
 }
 
-/// The picture before it is written, in light.
-template <typename CounterPolicy>
-Image<vec3> toon_picture(const Scene& scene, const lesson::Options& options,
-                         CounterPolicy& counters) {
-    return lesson::render(options, ToonScene(scene, options), counters);
+/// The picture before it is written, in light, and what was done to draw it.
+inline Drawn drawn_toon(const Scene& scene, const lesson_07::Options& options) {
+    return drawn(options, lesson_07::make_assets(scene, options),
+                 [](auto&... arguments) { return lesson_07::render(arguments...); });
 }
-inline Image<vec3> toon_picture(const Scene& scene, const lesson::Options& options) {
+inline Image<vec3> toon_picture(const Scene& scene, const lesson_07::Options& options) {
     NoCounters none;
-    return toon_picture(scene, options, none);
+    return lesson_07::render(options, lesson_07::make_assets(scene, options), none);
 }
 
 inline std::uint64_t count(const Counters& counters, Counter counter) {
@@ -72,19 +50,19 @@ inline Mesh cube_mesh(bool is_shared) {
             vec3 out(0), u(0);
             out[axis] = side, u[(axis + 1) % 3] = 1;
             const vec3 v = glm::cross(out, u);
-            std::uint32_t corners[4];
+            std::uint32_t vertices[4];
             for (int i = 0; i < 4; ++i) {
                 const vec3 place =
                     out + (i == 1 || i == 2 ? 1.0f : -1.0f) * u + (i >= 2 ? 1.0f : -1.0f) * v;
                 auto found =
                     is_shared ? std::ranges::find(mesh.positions, place) : mesh.positions.end();
-                corners[i] = static_cast<std::uint32_t>(found - mesh.positions.begin());
+                vertices[i] = static_cast<std::uint32_t>(found - mesh.positions.begin());
                 if (found == mesh.positions.end()) mesh.positions.push_back(place);
                 mesh.bounds.add(place);
             }
             const auto triangle = [&](int a, int b, int c) {
                 mesh.triangles.push_back(
-                    {{Corner{corners[a]}, Corner{corners[b]}, Corner{corners[c]}}, 0});
+                    {{Vertex{vertices[a]}, Vertex{vertices[b]}, Vertex{vertices[c]}}, 0});
             };
             triangle(0, 1, 2), triangle(0, 2, 3);
         }

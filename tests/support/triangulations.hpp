@@ -22,7 +22,7 @@ inline Triangles fan(vec2 center, const std::vector<vec2>& rim) {
 }
 
 /// A rectangle around the picture, cut at random: new corners inside triangles, which makes ever
-/// thinner ones, and moved diagonals. Corners lie on 1/256 pixel, many of them on pixel centres.
+/// thinner ones, and moved diagonals. Vertices lie on 1/256 pixel, many of them on pixel centres.
 ///
 /// @param size  Of the picture, in pixels.
 inline Triangles random_triangulation(ivec2 size, unsigned seed) {

@@ -17,8 +17,8 @@ bool is_left_or_top(ivec2 from, ivec2 to) {
     return to.y > from.y || (to.y == from.y && to.x < from.x);
 }
 
-bool is_usable(vec3 corner) {  // false for NaN
-    return std::abs(corner.x) < 1 << 21 && std::abs(corner.y) < 1 << 21;
+bool is_usable(vec3 vertex) {  // false for NaN
+    return std::abs(vertex.x) < 1 << 21 && std::abs(vertex.y) < 1 << 21;
 }
 
 /// Twice the area of a, b, p; > 0 where seen counter-clockwise. At most 2^30 * 2^30 twice over.

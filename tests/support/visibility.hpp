@@ -7,7 +7,7 @@
 #include <array>
 #include <span>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook::test {
 

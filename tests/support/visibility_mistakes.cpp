@@ -46,7 +46,7 @@ void add_wrong_order_and_facing(std::vector<Mistake>& mistakes, VisibilityRule r
     }
     mistakes.push_back(
         {"inside out, backs are seen in place of fronts: the sign of the area, or "
-         "the order of the corners; compare docs/conventions.md, C9",
+         "the order of the vertices; compare docs/conventions.md, C9",
          {Facing::back, right.winner},
          {}});
     mistakes.push_back(
@@ -70,11 +70,11 @@ void add_missing_patches(std::vector<Mistake>& mistakes, VisibilityRule right) {
                         right, without([](std::size_t) { return true; })});
     mistakes.push_back(
         {"every second triangle is missing (the 2nd, 4th ...): a polygon of n "
-         "corners is n - 2 triangles; compare lesson 02",
+         "vertices is n - 2 triangles; compare lesson 02",
          right, without([](std::size_t i) { return i % 2 == 1; })});
     mistakes.push_back(
         {"every second triangle is missing (the 1st, 3rd ...): a polygon of n "
-         "corners is n - 2 triangles; compare lesson 02",
+         "vertices is n - 2 triangles; compare lesson 02",
          right, without([](std::size_t i) { return i % 2 == 0; })});
 }
 
@@ -88,9 +88,9 @@ void add_mirrored(std::vector<Mistake>& mistakes, VisibilityRule right, ivec2 si
           Axes{{false, true}, "top to bottom", "y runs down on the screen and up in the model"},
           Axes{{true, true}, "left to right and top to bottom", "both axes have the wrong sign"}}) {
         const auto mirror = [=](std::size_t, ScreenPatch patch) {
-            for (vec3& corner : patch) {
-                if (are_mirrored.x) corner.x = static_cast<float>(size.x) - corner.x;
-                if (are_mirrored.y) corner.y = static_cast<float>(size.y) - corner.y;
+            for (vec3& vertex : patch) {
+                if (are_mirrored.x) vertex.x = static_cast<float>(size.x) - vertex.x;
+                if (are_mirrored.y) vertex.y = static_cast<float>(size.y) - vertex.y;
             }
             return patch;
         };
@@ -104,11 +104,11 @@ void add_mirrored(std::vector<Mistake>& mistakes, VisibilityRule right, ivec2 si
     }
 }
 
-void add_weights_of_depth(std::vector<Mistake>& mistakes, VisibilityRule right) {
+void add_barycentrics_of_depth(std::vector<Mistake>& mistakes, VisibilityRule right) {
     for (const ivec3 source :
          {ivec3(2, 1, 0), ivec3(1, 0, 2), ivec3(0, 2, 1), ivec3(1, 2, 0), ivec3(2, 0, 1)})
         mistakes.push_back(
-            {"depths belong to the wrong corners: a corner's weight is that of the "
+            {"depths belong to the wrong vertices: a vertex's coordinate is that of the "
              "side opposite to it; compare lessons 02 and 03",
              right, [=](std::size_t, ScreenPatch patch) {
                  const vec3 depths(patch[0].z, patch[1].z, patch[2].z);
@@ -124,7 +124,7 @@ std::vector<Mistake> all_mistakes(const PictureFacts& facts, ivec2 size) {
     add_missing_patches(mistakes, right);
     add_wrong_order_and_facing(mistakes, right);
     add_mirrored(mistakes, right, size);
-    if (facts.has_depth_buffer) add_weights_of_depth(mistakes, right);
+    if (facts.has_depth_buffer) add_barycentrics_of_depth(mistakes, right);
     return mistakes;
 }
 

@@ -16,15 +16,19 @@ namespace rasterbook {
 
 constexpr int subpixel_bits = 8;
 constexpr int subpixels = 1 << subpixel_bits;  ///< Steps of a snapped coordinate in one pixel.
+static_assert(subpixel_bits >= 1, "a pixel's centre has to be a whole step");
 
 /// Coordinates stay below this many pixels from the origin: then no edge function leaves 64 bits
 /// (Eq. 2.9).
 constexpr float coordinate_limit = 1 << 22;
 
-/// A triangle on the screen, its corners snapped to 1/256 pixel.
+/// The barycentric coordinates of a point: the three vertices' shares in it (Eq. 2.4).
+using Barycentrics = vec3;
+
+/// A triangle on the screen, its vertices snapped to 1/256 pixel.
 struct ScreenTriangle {
-    std::array<ivec2, 3> corners;  ///< In 1/256 pixel, x right, y down.
-    std::int64_t twice_area;       ///< In 1/65536 square pixel; > 0 where seen counter-clockwise.
+    std::array<ivec2, 3> vertices;  ///< In 1/256 pixel, x right, y down.
+    std::int64_t twice_area;        ///< In 1/65536 square pixel; > 0 where seen counter-clockwise.
 };
 
 /// Twice the area of the triangle a, b, p: positive for p on the left of the way from a to b as
@@ -38,7 +42,7 @@ constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
     return 0;
 }
 
-/// The triangle with its corners snapped to the nearest 1/256 pixel, halves to even (Eq. 2.8).
+/// The triangle with its vertices snapped to the nearest 1/256 pixel, halves to even (Eq. 2.8).
 ///
 /// @param a,b,c  Screen space, pixels. When a coordinate is not a number or is not below
 ///               coordinate_limit in size, the triangle becomes one of no area, which covers
@@ -48,7 +52,7 @@ inline ScreenTriangle snap_triangle(vec2 a, vec2 b, vec2 c) {
     return {};
 }
 
-/// Whether the corners are seen counter-clockwise. False for a triangle of no area.
+/// Whether the vertices are seen counter-clockwise. False for a triangle of no area.
 constexpr bool is_front_facing(const ScreenTriangle& triangle) {
     // TODO
     return false;
@@ -77,16 +81,16 @@ struct EdgeWalk {
 /// Visits each pixel of a picture, or of a part of one, whose centre the triangle covers.
 ///
 /// A centre on a side belongs to the triangle when the side is a left or a top one, so that
-/// triangles which share sides visit each pixel once (Eq. 2.7). The order of the corners does not
+/// triangles which share sides visit each pixel once (Eq. 2.7). The order of the vertices does not
 /// matter.
 ///
 /// @param triangle  A triangle of no area visits nothing.
 /// @param first     The part's upper left pixel, from 0 on.
 /// @param last      Its lower right one, below 2^22. Before `first` there is nothing to visit.
-/// @param emit      Called as emit(ivec2 pixel, vec3 weights), row by row, once for each pixel.
-///                  The weights are the corners' shares at the pixel's centre: >= 0, each within 2
-///                  ulp of its exact value (Eq. 2.4), and the same whatever the part.
-template <std::invocable<ivec2, vec3> Emit>
+/// @param emit      Called as emit(ivec2 pixel, Barycentrics), row by row, once for each pixel.
+///                  The coordinates are those of its centre: >= 0, each within 2 ulp of its exact
+///                  value (Eq. 2.4), and the same whatever the part.
+template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
     // TODO: the five steps at the end of the derivation.
 }
@@ -94,7 +98,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
 /// The same of a whole picture.
 ///
 /// @param size  Width and height in pixels, each 0 to 2^22.
-template <std::invocable<ivec2, vec3> Emit>
+template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
     fill_triangle(triangle, ivec2(0), size - 1, emit);
 }

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook {
 
@@ -45,21 +45,21 @@ class DepthBuffer {
     Image<float> depths_;
 };
 
-/// The depth inside a triangle: the corners' depths, weighted (Eq. 3.2).
+/// The depth inside a triangle: the vertices' depths, weighted (Eq. 3.2).
 ///
-/// Measured from the nearest corner, so that the error is small where the triangle's depths differ
-/// little, a triangle of one depth has exactly that depth everywhere, and the order of the corners
+/// Measured from the nearest vertex, so that the error is small where the triangle's depths differ
+/// little, a triangle of one depth has exactly that depth everywhere, and the order of the vertices
 /// does not change a single bit.
 class TriangleDepth {
   public:
-    /// @param depths  Of the three corners, finite.
+    /// @param depths  Of the three vertices, finite.
     explicit TriangleDepth(vec3 depths) : nearest_(0), beyond_nearest_(0) {
         // TODO: the least depth, and how far the others lie behind it.
     }
 
-    /// @param weights  The corners' shares, >= 0, as fill_triangle gives them.
-    /// @return         Not nearer than the nearest corner.
-    float at(vec3 weights) const {
+    /// @param barycentrics  The vertices' shares, >= 0, as fill_triangle gives them.
+    /// @return         Not nearer than the nearest vertex.
+    float at(vec3 barycentrics) const {
         // TODO: Eq. 3.3; mind the bracket.
         return 0;
     }

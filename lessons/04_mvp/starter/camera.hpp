@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "04_mvp/transform.hpp"
-#include "common/lesson_app.hpp"
-#include "common/mesh.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 

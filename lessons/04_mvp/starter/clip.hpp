@@ -11,24 +11,24 @@
 #include <vector>
 
 #include "common/math/types.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
-/// A corner of what is left of a triangle.
-struct ClippedCorner {
+/// A vertex of what is left of a triangle.
+struct ClippedVertex {
     vec4 position_clip;
-    vec3 weights;  ///< Of the whole triangle's corners: this corner is their weighted sum.
+    vec3 barycentrics;  ///< Of the whole triangle's vertices: this vertex is their weighted sum.
 };
 
-using ClippedTriangle = std::array<ClippedCorner, 3>;
+using ClippedTriangle = std::array<ClippedVertex, 3>;
 
 constexpr int frustum_planes = 6;
 
 /// How far inside of one of the six planes a point is in NDC, times w: negative outside (Eq. 4.10).
 ///
 /// @param plane  0 to 5: left, right, bottom, top, near, far.
-constexpr float inside_by(int plane, vec4 position_clip) {
+constexpr float plane_distance(int plane, vec4 position_clip) {
     // TODO: Eq. 4.10.
     return 0;
 }
@@ -38,15 +38,15 @@ constexpr float inside_by(int plane, vec4 position_clip) {
 ///
 /// The way from b to a crosses it in the same point, bit for bit: triangles that share a side still
 /// share it when both are cut.
-inline ClippedCorner crossing(const ClippedCorner& a, float a_by, const ClippedCorner& b,
+inline ClippedVertex crossing(const ClippedVertex& a, float a_by, const ClippedVertex& b,
                               float b_by) {
     // TODO: Eq. 4.12.
     return a;
 }
 
-/// The corners that cutting by six planes may leave: 9 of a convex polygon, but rounding may dent
-/// it a little, and then a plane may cut off every second corner and add two for each.
-constexpr std::size_t most_clipped_corners = 28;
+/// The vertices that cutting by six planes may leave: 9 of a convex polygon, but rounding may dent
+/// it a little, and then a plane may cut off every second vertex and add two for each.
+constexpr std::size_t max_clipped_vertices = 28;
 
 /// What is left of one triangle: a polygon, as a fan.
 class ClippedTriangles {
@@ -56,7 +56,7 @@ class ClippedTriangles {
     void add(const ClippedTriangle& triangle) { triangles_[count_++] = triangle; }
 
   private:
-    std::array<ClippedTriangle, most_clipped_corners - 2> triangles_;
+    std::array<ClippedTriangle, max_clipped_vertices - 2> triangles_;
     std::size_t count_ = 0;
 };
 
@@ -66,29 +66,29 @@ constexpr float clip_limit = 0x1p125f;
 /// The nearest point of the frustum to one that rounding has left a little outside of it: on the
 /// screen it then lies inside the picture and its depth between 0 and 1, or, with a w of 0,
 /// nowhere.
-inline vec4 into_frustum(vec4 position_clip) {
+inline vec4 clamped_to_frustum(vec4 position_clip) {
     const float w = std::max(position_clip.w, 0.0f);
     return {glm::clamp(vec3(position_clip), -w, w), w};
 }
 
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.13).
 ///
-/// @param corners  Clip space. When a coordinate is not a number or is not below clip_limit in
+/// @param vertices  Clip space. When a coordinate is not a number or is not below clip_limit in
 ///                 size, nothing is left.
 /// @return         The triangle itself, when it is all inside; nothing, when it is all outside of
-///                 one plane. No corner has a coordinate beyond its w, and no w is negative.
+///                 one plane. No vertex has a coordinate beyond its w, and no w is negative.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
-inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& corners) {
-    // TODO: refuse what is not usable; Eq. 4.13; into_frustum().
+inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& vertices) {
+    // TODO: refuse what is not usable; Eq. 4.13; clamped_to_frustum().
     return {};
 }
 
-/// A triangle's corners in clip space.
-inline std::array<vec4, 3> corners_of(const Triangle& triangle,
-                                      const std::vector<vec4>& positions_clip) {
-    return {positions_clip[triangle.corners[0].position],
-            positions_clip[triangle.corners[1].position],
-            positions_clip[triangle.corners[2].position]};
+/// A triangle's vertices in clip space.
+inline std::array<vec4, 3> vertices_of(const Triangle& triangle,
+                                       const std::vector<vec4>& positions_clip) {
+    return {positions_clip[triangle.vertices[0].position],
+            positions_clip[triangle.vertices[1].position],
+            positions_clip[triangle.vertices[2].position]};
 }
 
 /// Whether nothing inside the box can be seen: all of its corners are outside of one plane
@@ -103,7 +103,7 @@ inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world
 /// A point on the screen in pixels, and its depth: 0 to 1 (Eq. 4.9).
 ///
 /// @param position_clip  Inside the frustum, w > 0. A w of 0 gives NaN, which snap_triangle
-/// refuses.
+///                       refuses.
 inline vec3 screen_from_clip(vec4 position_clip, ivec2 size) {
     // TODO: Eq. 4.9.
     return vec3(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a triangle's corners have, in between, in perspective. Introduced in lesson 05;
+/// Vertex attributes inside a triangle, in perspective. Introduced in lesson 05;
 /// derivation: docs/derivations/05_textures.md.
 #pragma once
 
@@ -10,50 +10,64 @@
 
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/clip.hpp"
+#include "04_mvp/projection.hpp"
 
 namespace rasterbook {
 
-/// The weighted sum of what three corners have (Eq. 5.1).
-template <typename Attribute>
-Attribute interpolate(const std::array<Attribute, 3>& corners, vec3 weights) {
+/// A vertex attribute inside a triangle: the sum of the three vertices' own, each times its
+/// barycentric coordinate (Eq. 5.1).
+template <typename Attribute, typename F>
+Attribute interpolate(const std::array<Attribute, 3>& of_vertices, Vec3<F> barycentrics) {
     // TODO: Eq. 5.1.
-    return corners[0];
+    return of_vertices[0];
 }
 
-/// The shares that a triangle's corners have in a fragment.
-struct FragmentWeights {
-    vec3 here;    ///< At the pixel's centre; their sum is 1 but for rounding.
-    vec3 step_x;  ///< How fast they change here, a pixel to the right.
-    vec3 step_y;  ///< The same, a pixel down.
+/// Perspective-correct barycentric coordinates, and their derivatives.
+template <typename F>
+struct PerspectiveBarycentrics {
+    Vec3<F> here;  ///< At the pixel's centre; their sum is 1 but for rounding.
+    Vec3<F> ddx;   ///< Per pixel to the right.
+    Vec3<F> ddy;   ///< Per pixel down.
+};
+using FragmentBarycentrics = PerspectiveBarycentrics<float>;
+
+/// What all pixels of a triangle have in common: the numerators of Eq. 5.3, linear on the screen.
+struct PerspectiveSetup {
+    vec3 inverse_w;  ///< 1/w of the clipped piece's vertices, times the least w.
+    /// Of those vertices: barycentric coordinates in the whole triangle, times inverse_w.
+    std::array<vec3, 3> numerators;
+    vec3 numerators_ddx, numerators_ddy;
+    bool is_whole;  ///< Nothing was clipped off: the numerators are a diagonal matrix.
 };
 
-/// A corner whose w is more than 2^80 times the least one counts as that far away: on the side
-/// between two such corners all shares would become 0, and there is a division by their sum.
-constexpr float least_nearness = 0x1p-80f;
+/// Robust: a vertex whose w is more than 2^80 times the least one counts as that far away. On the
+/// side between two such vertices all numerators would become 0, and there is a division by their
+/// sum.
+constexpr float min_inverse_w = 0x1p-80f;
 
-/// From weights on the screen, of a clipped piece's corners, to weights on the surface, of the
-/// whole triangle's.
-class PerspectiveWeights {
-  public:
-    /// @param on_screen  The piece on the screen.
-    /// @param clipped    The same piece in clip space, w > 0: with a w of 0 it has no area on the
-    ///                   screen, and no fragments.
-    PerspectiveWeights(const ScreenTriangle& on_screen, const ClippedTriangle& clipped) {
-        // TODO: what all pixels of the piece have in common, so that it is computed once: the
-        // proportions of the w, the columns of Eq. 5.3, and how fast the weights on the screen
-        // change (Eq. 2.5 over the area, in double).
-    }
+/// @param clipped  With w > 0: a triangle with a w of 0 has no area on the screen, and so no
+///                 fragments.
+inline PerspectiveSetup perspective_setup(const ScreenTriangle& on_screen,
+                                          const ClippedTriangle& clipped) {
+    // TODO: the 1/w of Eq. 5.3, of which only the ratios count, none below min_inverse_w; the
+    // numerators; and how fast they change (Eq. 2.5 over the area, in double).
+    return {};
+}
 
-    /// @param screen_weights  Of the piece's corners, as fill_triangle gives them.
-    /// @return                Weights >= 0, each within 16 ulp of its exact value; 22 ulp in a
-    ///                        piece that was cut, taking its corners' weights as they are.
-    FragmentWeights at(vec3 screen_weights) const {
-        // TODO: Eq. 5.2 and 5.3, and 5.7 for the steps.
-        return {screen_weights, vec3(0), vec3(0)};
-    }
+inline PerspectiveSetup perspective_setup(const ProjectedTriangle& projected) {
+    return perspective_setup(projected.on_screen, projected.clipped);
+}
 
-  private:
-    // TODO: what the constructor keeps for at().
-};
+/// From barycentric coordinates on the screen to those on the surface, of the whole triangle
+/// (Eq. 5.3).
+///
+/// @param on_screen  Of the clipped piece, as fill_triangle gives them.
+/// @return           Coordinates >= 0, each within 16 ulp of its exact value; in a piece that was
+///                   cut within 22 ulp, taking its vertices' coordinates as they are.
+template <typename F>
+PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup, Vec3<F> on_screen) {
+    // TODO: Eq. 5.2 and 5.3, and 5.7 for the derivatives.
+    return {on_screen, Vec3<F>(F(0.0f)), Vec3<F>(F(0.0f))};
+}
 
 }  // namespace rasterbook

@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "05_textures/interpolation.hpp"
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 #include "common/math/color.hpp"
+#include "common/math/functions.hpp"
 
 namespace rasterbook {
 
@@ -45,73 +46,72 @@ inline float wrapped(float coordinate, Wrap wrap) {
     return 0;
 }
 
-/// A place in the picture: x from 0 at its left to 1 at its right, y from 0 at its upper border to
-/// 1 at its lower one (Eq. 5.5).
-inline vec2 place_from_uv(vec2 uv, Wrap wrap) {
-    // TODO: Eq. 5.5, up to the place.
+/// A position in the picture: x from 0 at its left to 1 at its right, y from 0 at its upper border
+/// to 1 at its lower one (Eq. 5.5).
+inline vec2 texture_position(vec2 uv, Wrap wrap) {
+    // TODO: Eq. 5.5, up to the position.
     return vec2(0);
 }
 
-/// The texel in which a place lies.
+/// The texel in which a position lies.
 ///
-/// @param place  0 to 1.
-inline vec4 sample_nearest(const TextureLevel& level, vec2 place) {
+/// @param position  0 to 1.
+inline vec4 sample_nearest(const TextureLevel& level, vec2 position) {
     // TODO: Eq. 5.5; the texels are stored with a border of one.
     return vec4(0);
 }
 
-/// The mean of the four texels around a place, by how near their centres are (Eq. 5.6).
+/// The mean of the four texels around a position, by how near their centres are (Eq. 5.6).
 ///
-/// @param place  0 to 1.
-inline vec4 sample_bilinear(const TextureLevel& level, vec2 place) {
+/// @param position  0 to 1.
+inline vec4 sample_bilinear(const TextureLevel& level, vec2 position) {
     // TODO: Eq. 5.6, counted from the border's first texel.
     return vec4(0);
 }
 
 /// The level at which a pixel's footprint is one texel long, by its longer side (Eq. 5.8).
 ///
-/// @param step_x,step_y  How fast uv changes here, a pixel to the right and a pixel down.
-/// @param size           Of level 0, in texels.
+/// @param ddx,ddy  How fast uv changes here, a pixel to the right and a pixel down.
+/// @param size     Of level 0, in texels.
 /// @return               0 where the footprint is a texel or less, and where any of the four
 ///                       numbers is NaN; else it may be infinite.
-inline float level_of_detail(vec2 step_x, vec2 step_y, ivec2 size) {
-    // TODO: Eq. 5.8; mind what is not a number.
+inline float level_of_detail(vec2 ddx, vec2 ddy, ivec2 size) {
+    // TODO: Eq. 5.8, with log2() of common/math/functions.hpp; mind what is not a number.
     return 0;
 }
 
-/// The mean of what two levels have at a place, by how near they are to `level` (Eq. 5.10).
+/// The mean of what two levels have at a position, by how near they are to `level` (Eq. 5.10).
 ///
-/// @param place  0 to 1.
+/// @param position  0 to 1.
 /// @param level  >= 0, infinite too; beyond the last level it is the last one.
-inline vec4 sample_trilinear(const Texture& texture, vec2 place, float level) {
+inline vec4 sample_trilinear(const Texture& texture, vec2 position, float level) {
     // TODO: Eq. 5.10; mind the last level, before the level becomes a whole number.
     return vec4(0);
 }
 
 /// Where on a texture a fragment lies, and how fast that changes.
 struct FragmentUv {
-    vec2 here, step_x, step_y;  ///< As in FragmentWeights.
+    vec2 here, ddx, ddy;  ///< As in FragmentBarycentrics.
 };
 
-/// @param uvs  Of the triangle's corners.
-inline FragmentUv fragment_uv(const std::array<vec2, 3>& uvs, const FragmentWeights& weights) {
-    return {interpolate(uvs, weights.here), interpolate(uvs, weights.step_x),
-            interpolate(uvs, weights.step_y)};
+/// @param uvs  Of the triangle's vertices.
+inline FragmentUv fragment_uv(const std::array<vec2, 3>& uvs, const FragmentBarycentrics& at) {
+    return {interpolate(uvs, at.here), interpolate(uvs, at.ddx), interpolate(uvs, at.ddy)};
 }
 
 /// The texture's colour, linear, and opacity in a fragment.
 inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) {
-    const vec2 place = place_from_uv(uv.here, texture.wrap);
-    if (filter == Filter::nearest) return sample_nearest(texture.levels[0], place);
-    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], place);
-    const float level = level_of_detail(uv.step_x, uv.step_y, texture.levels[0].size);
-    return sample_trilinear(texture, place, level);
+    const vec2 position = texture_position(uv.here, texture.wrap);
+    if (filter == Filter::nearest) return sample_nearest(texture.levels[0], position);
+    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], position);
+    const float level = level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size);
+    return sample_trilinear(texture, position, level);
 }
 
 /// A picture half as wide and high, rounded down, but at least 1: each texel is the mean of what it
 /// covers (Eq. 5.9). A picture of one colour keeps it exactly: what double rounds is far below half
 /// a step of float.
-inline Image<vec4> halved(const Image<vec4>& picture) {
+inline Image<vec4> downsampled(const Image<vec4>& picture) {
     // TODO: the size, and Eq. 5.9 in both directions: lengths in whole numbers (64 bits hold the
     // largest), the sum in double.
     return Image<vec4>(ivec2(1));

@@ -4,69 +4,63 @@
 /// derivation: docs/derivations/06_phong.md.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <glm/geometric.hpp>
 
-#include "common/math/numerics.hpp"
+#include "common/math/functions.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook {
 
-/// v scaled to length 1, or `fallback` when it has no direction. Faster than normalize_or().
-///
-/// @return  Each component within 2.3 * 2^-23 of its size of its exact value.
-inline vec3 unit_or(vec3 v, vec3 fallback) {
-    const float squared = glm::dot(v, v);
-    constexpr float least = 1e-30f, most = 1e30f;  // beyond, squares lose digits or overflow
-    if (squared > least && squared < most) return v * (1 / std::sqrt(squared));
-    return normalize_or(v, fallback);
-}
-
-/// As from the sun, from a lamp, or from a lamp with a shade.
+/// Like the sun, like a bare bulb, or like a bulb with a shade.
 enum class LightKind { directional, point, spot };
 
 struct Light {
     LightKind kind;
-    vec3 color;               ///< Linear; what arrives from a directional light, or at the lamp.
-    vec3 direction_world;     ///< Length 1: towards a directional light; where a spot shines.
-    vec3 position_world{0};   ///< Of a point light or spot.
-    float half_distance = 1;  ///< Where half of a lamp's light arrives, >= FLT_MIN; world space.
-    float cos_full = 1;       ///< Cosine of the angle up to which a spot shines fully.
+    vec3 color;            ///< Linear; what arrives from a directional light, or at a point light.
+    vec3 direction_world;  ///< Length 1: towards a directional light; where a spotlight shines.
+    vec3 position_world{0};   ///< Of a point light or spotlight.
+    float half_distance = 1;  ///< Of a point light: where half of it arrives; >= FLT_MIN, world.
+    float cos_full = 1;       ///< Cosine of the angle up to which a spotlight shines fully.
     float cos_none = 0;       ///< Of the angle from which on it does not shine, < cos_full.
 };
 
 /// The light that arrives at a point.
+template <typename F>
 struct Incoming {
-    vec3 toward;  ///< Direction to the light, length 1.
-    vec3 color;   ///< Linear.
+    Vec3<F> toward;  ///< Direction to the light, length 1.
+    Vec3<F> color;   ///< Linear.
 };
 
-/// The share of a lamp's light that arrives over a distance: 1 at the lamp (Eq. 6.6).
+/// The share of a point light's light that arrives over a distance: 1 at the light (Eq. 6.6).
 ///
-/// @param in_half_distances  The way to the lamp, in units of the lamp's half_distance.
-inline float attenuation(vec3 in_half_distances) {
+/// @param in_half_distances  From the point to the light, in units of its half_distance.
+template <typename F>
+F distance_attenuation(Vec3<F> in_half_distances) {
     // TODO: Eq. 6.6.
-    return 0;
+    return F(0.0f);
 }
 
-/// The share of a spot's light that it sends into a direction: 0 to 1 (Eq. 6.7).
+/// The share of a spotlight's light that it sends into a direction: 0 to 1 (Eq. 6.7).
 ///
 /// @param cosine  Of the angle to where it shines.
-inline float spot_share(float cosine, float cos_full, float cos_none) {
+template <typename F>
+F spot_attenuation(F cosine, float cos_full, float cos_none) {
     // TODO: Eq. 6.7.
-    return 0;
+    return F(0.0f);
 }
 
-/// What arrives of a light at a point: all of a sun's, a share of a lamp's (Eq. 6.6) and of a
-/// spot's (Eq. 6.6 times Eq. 6.7).
+/// What arrives of a light at a point: all of a directional light's, a share of a point light's
+/// (Eq. 6.6) and of a spotlight's (Eq. 6.6 times Eq. 6.7).
 ///
 /// @param light           Finite numbers.
-/// @param position_world  Not NaN. Where a lamp or spot stands at this very point, or infinitely
-///                        far away, its light comes from above.
-inline Incoming incoming_light(const Light& light, vec3 position_world) {
-    // TODO: a directional light as it is; of a lamp the way in half distances, its direction, and
-    // the share by Eq. 6.6; of a spot also Eq. 6.7.
-    return {vec3(0, 1, 0), vec3(0)};
+/// @param position_world  Not NaN. Where a point light or spotlight stands at this very point, or
+///                        infinitely far away, its light comes from above.
+template <typename F>
+Incoming<F> incoming_light(const Light& light, Vec3<F> position_world) {
+    // TODO: a directional light as it is; of a point light the vector to it in half distances, its
+    // direction by unit_or(), and the share by Eq. 6.6; of a spotlight also Eq. 6.7. The light's
+    // kind is the same for all numbers of F, and may be asked with `if`.
+    return {Vec3<F>(vec3(0, 1, 0)), Vec3<F>(F(0.0f))};
 }
 
 }  // namespace rasterbook

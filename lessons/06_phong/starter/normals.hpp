@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/math/numerics.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
@@ -24,9 +24,9 @@ inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle) {
     return {0, 1, 0};
 }
 
-/// The angle between the two sides at a triangle's corner, 0 to pi; 0 for a triangle of no area,
+/// The angle between the two sides at a triangle's vertex, 0 to pi; 0 for a triangle of no area,
 /// which would otherwise count with pi for a normal that means nothing.
-inline float corner_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t corner) {
+inline float vertex_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t vertex) {
     // TODO: what the text says behind Eq. 6.9; in double, too.
     return 0;
 }
@@ -41,26 +41,26 @@ struct FaceAround {
     float angle_radians;  ///< Between the face's sides there.
 };
 
-/// The normal of a triangle's corner, before it is scaled, from the faces around it (Eq. 6.9).
+/// The normal of a triangle's vertex, before it is scaled, from the faces around it (Eq. 6.9).
 class SmoothNormals {
   public:
     explicit SmoothNormals(const Mesh& mesh) : begin_(mesh.positions.size() + 1, 0) {
         for (const Triangle& triangle : mesh.triangles)
-            for (const Corner& corner : triangle.corners) ++begin_[corner.position + 1];
+            for (const Vertex& vertex : triangle.vertices) ++begin_[vertex.position + 1];
         for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
         around_.resize(begin_.back());
         std::vector<std::size_t> next = begin_;
         for (const Triangle& triangle : mesh.triangles)
             for (std::size_t i = 0; i < 3; ++i)
-                around_[next[triangle.corners[i].position]++] = {
-                    face_normal(mesh, triangle), corner_angle_radians(mesh, triangle, i)};
+                around_[next[triangle.vertices[i].position]++] = {
+                    face_normal(mesh, triangle), vertex_angle_radians(mesh, triangle, i)};
     }
 
     /// The mean of the normals of the faces around a position, weighted by their angles there.
     ///
     /// @param position        Index into the mesh's positions. A place that the file has twice is
     ///                        two positions, whose faces do not meet.
-    /// @param normal_of_face  Of the face whose corner it is; what lies beyond a sharp edge, as
+    /// @param normal_of_face  Of the face whose vertex it is; what lies beyond a sharp edge, as
     ///                        seen from this face, does not count.
     vec3 at(std::uint32_t position, vec3 normal_of_face) const {
         // TODO: Eq. 6.9. The faces around the position are around_[i], where i runs from
@@ -74,34 +74,39 @@ class SmoothNormals {
     std::vector<FaceAround> around_;
 };
 
-/// Gives each corner a normal of length 1: the one of the file, or else the one that the faces
+/// Gives each vertex a normal of length 1: the one of the file, or else the one that the faces
 /// around it have. Where there is no direction, it is that of the face.
 ///
-/// A triangle of no area faces up: without normals of the file, its corners get the mean of what
+/// A triangle of no area faces up: without normals of the file, its vertices get the mean of what
 /// faces nearly up around them, or up.
 ///
 /// @see Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", 1998
 inline void complete_normals(Mesh& mesh) {
     const auto misses_one = [](const Triangle& triangle) {
-        return std::ranges::any_of(triangle.corners,
-                                   [](const Corner& corner) { return corner.normal == no_index; });
+        return std::ranges::any_of(triangle.vertices,
+                                   [](const Vertex& vertex) { return vertex.normal == no_index; });
     };
     std::optional<SmoothNormals> smooth;
     if (std::ranges::any_of(mesh.triangles, misses_one)) smooth.emplace(mesh);
 
-    std::vector<vec3> normals;  // one for each corner of each triangle
+    std::vector<vec3> normals;  // one for each vertex of each triangle
     normals.reserve(3 * mesh.triangles.size());
     for (Triangle& triangle : mesh.triangles) {
         const vec3 of_face = face_normal(mesh, triangle);
-        for (Corner& corner : triangle.corners) {
-            // TODO: the file's normal, mesh.normals[corner.normal], if the corner has one; else the
+        for (Vertex& vertex : triangle.vertices) {
+            // TODO: the file's normal, mesh.normals[vertex.normal], if the vertex has one; else the
             // one that `smooth` has for it.
             const vec3 normal = of_face;
-            corner.normal = static_cast<std::uint32_t>(normals.size());
+            vertex.normal = static_cast<std::uint32_t>(normals.size());
             normals.push_back(normalize_or(normal, of_face));
         }
     }
     mesh.normals = std::move(normals);
+}
+
+/// The same for all meshes of a scene.
+inline void complete_normals(Scene& scene) {
+    for (Mesh& mesh : scene.meshes) complete_normals(mesh);
 }
 
 }  // namespace rasterbook

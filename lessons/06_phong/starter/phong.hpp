@@ -4,89 +4,126 @@
 /// derivation: docs/derivations/06_phong.md.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <span>
 
 #include "06_phong/light.hpp"
-#include "common/math/types.hpp"
-#include "common/mesh.hpp"
+#include "common/math/functions.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
 /// The direction into which a mirror sends light that comes from `toward_light` (Eq. 6.2).
 ///
 /// @param normal,toward_light  Length 1.
-inline vec3 reflected(vec3 normal, vec3 toward_light) {
+template <typename F>
+Vec3<F> reflected(Vec3<F> normal, Vec3<F> toward_light) {
     // TODO: Eq. 6.2.
     return normal;
 }
 
-/// How a highlight falls off: by the angle between mirror direction and eye, or between the normal
-/// and the direction halfway from light to eye.
-enum class Highlight { phong, blinn };
+/// A point of a surface, and who looks at it.
+template <typename F>
+struct SurfacePoint {
+    Vec3<F> position_world;
+    Vec3<F> normal_world;  ///< Length 1.
+    Vec3<F> toward_eye;    ///< Length 1; of no meaning where there is no highlight.
+};
 
-/// The cosine that a highlight is a power of: 0 to 1 (Eq. 6.3 and 6.4). Whether light comes
-/// from the front, N.L > 0, is not asked here but by reflected_light().
-///
-/// @param normal,toward_light,toward_eye  Length 1.
-inline float highlight_cosine(Highlight highlight, vec3 normal, vec3 toward_light,
-                              vec3 toward_eye) {
-    // TODO: Eq. 6.3 and 6.4; mind a light opposite to the eye.
-    return 0;
+/// The cosine that Phong's highlight is a power of: 0 to 1 (Eq. 6.3).
+template <typename F>
+F phong_cosine(const SurfacePoint<F>& point, Vec3<F> toward_light) {
+    // TODO: the dot product of Eq. 6.3; rounding may make it more than 1.
+    return F(0.0f);
 }
 
+/// A highlight darker than this is none. Nobody could see it, and its products with colours stay
+/// far from subnormal numbers, with which processors are slow.
+constexpr float min_highlight = 0x1p-26f;
+
+/// Phong's highlight (Eq. 6.3): the cosine between the mirrored light and the eye, to a power.
+struct PhongHighlight {
+    bool is_on;       ///< Whether the material has one.
+    float shininess;  ///< The power, Ns, >= 0.
+
+    /// @return  0 to 1. What lies behind the surface is not asked here but by add_light().
+    template <typename F>
+    F operator()(const SurfacePoint<F>& point, Vec3<F> toward_light) const {
+        // TODO: Eq. 6.3 by power() and select().
+        return F(0.0f);
+    }
+};
+
 /// What a surface sends to the eye, before it is coloured by the material.
-struct ReflectedLight {
-    vec3 diffuse{0};
-    vec3 specular{0};
+template <typename F>
+struct LightSum {
+    Vec3<F> diffuse{F(0.0f)};
+    Vec3<F> specular{F(0.0f)};
 };
+using ReflectedLight = LightSum<float>;
 
-/// A point of a surface, and who looks at it.
-struct SurfacePoint {
-    vec3 position_world;
-    vec3 normal_world;  ///< Length 1.
-    vec3 toward_eye;    ///< Length 1; of no meaning where there is no highlight.
-};
-
-/// The light of all lights, evenly reflected (Eq. 6.1) and as highlights (Eq. 6.3). None of it
-/// comes from behind: only lights with N.L > 0 count.
+/// Adds one light: evenly reflected (Eq. 6.1), and as a highlight (Eq. 6.3). A surface that is
+/// turned away, N.L <= 0, gets nothing.
 ///
-/// @param power  Called as power(cosine) for each light that counts, with a cosine from 0 to 1; not
-///               called if !has_highlight. The one of TriangleLight gives 0 for a highlight that
-///               nobody could see.
-template <typename Power>
-ReflectedLight reflected_light(std::span<const Light> lights, const SurfacePoint& point,
-                               bool has_highlight, Highlight highlight, Power&& power) {
-    // TODO: the sum over all lights of incoming_light() by Eq. 6.1, and, where N.L > 0, of what it
-    // is as a highlight: power(highlight_cosine()) times its colour.
-    return {};
+/// @param visibility  0 to 1: how much of the light reaches the point.
+/// @param highlight   PhongHighlight, or another that is called as it is.
+template <typename F, typename Highlight>
+void add_light(LightSum<F>& sum, const Light& light, const SurfacePoint<F>& point, F visibility,
+               const Highlight& highlight) {
+    // TODO: what incoming_light() gives, times `visibility`, by Eq. 6.1; and, where N.L > 0 and
+    // highlight.is_on, times highlight(point, the direction to the light).
+}
+
+/// The light of all lights.
+///
+/// @param visibility  Called as visibility(l), the number of a light.
+template <typename F, typename Highlight, typename Visibility>
+LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
+                            const Highlight& highlight, const Visibility& visibility) {
+    LightSum<F> sum;
+    for (std::size_t l = 0; l < lights.size(); ++l)
+        add_light(sum, lights[l], point, F(visibility(l)), highlight);
+    return sum;
+}
+
+/// The same where nothing stands between the lights and the point.
+template <typename F, typename Highlight>
+LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
+                            const Highlight& highlight) {
+    return reflected_light(lights, point, highlight, [](std::size_t) { return 1.0f; });
 }
 
 /// The colours of a surface in one fragment; linear.
-struct SurfaceColor {
-    vec3 ambient, diffuse, specular, emission;
+template <typename F>
+struct FragmentColor {
+    Vec3<F> ambient, diffuse, specular, emission;
 
-    /// Colours what is reflected evenly: the same surface for light from lamps and from all around.
-    void tint(vec3 color) { ambient *= color, diffuse *= color; }
+    /// Colours what is reflected evenly: the same surface for light from lights and from all
+    /// around.
+    void tint(Vec3<F> color) { ambient *= color, diffuse *= color; }
 };
+using SurfaceColor = FragmentColor<float>;
 
-/// A material's own colours. Of the light from all around it reflects at most as much as of a
-/// lamp's: many exporters write Ka = 1 for everything.
+/// A material's own colours. Of the ambient light it reflects at most as much as of a light's: many
+/// exporters write Ka = 1 for everything.
 inline SurfaceColor surface_color(const Material& material) {
     // TODO: what the text says about the material's Ka, behind Eq. 6.5.
     return {material.ambient, material.diffuse, material.specular, material.emission};
 }
 
 /// What a fragment of illum 0 sends to the eye: its colour, whatever the light.
-inline vec3 unlit(const SurfaceColor& color) { return color.emission + color.diffuse; }
+template <typename F>
+Vec3<F> unlit(const FragmentColor<F>& color) {
+    return color.emission + color.diffuse;
+}
 
 /// All the light that a fragment sends to the eye (Eq. 6.5); it may exceed 1.
 ///
-/// @param color          Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
-/// @param ambient_light  0 to 1.
-/// @param light          0 to 10.
-inline vec3 phong(const SurfaceColor& color, vec3 ambient_light, const ReflectedLight& light) {
+/// @param color     Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
+/// @param ambient   Light from all around, 0 to 1.
+/// @param light     0 to 10.
+template <typename F>
+Vec3<F> phong(const FragmentColor<F>& color, vec3 ambient, const LightSum<F>& light) {
     // TODO: Eq. 6.5. Until then, the surface's own colour.
     return unlit(color);
 }

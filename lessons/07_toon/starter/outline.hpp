@@ -11,15 +11,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
-#include "06_phong/light.hpp"
+#include "04_mvp/projection.hpp"
 #include "06_phong/normals.hpp"
-#include "common/counters.hpp"
+#include "common/app/counters.hpp"
+#include "common/math/functions.hpp"
 
 namespace rasterbook {
 
@@ -33,7 +35,7 @@ constexpr vec3 ink(0.006f, 0.005f, 0.009f);  ///< The colour of outlines; linear
 ///
 /// @return  Of length 1; 0 where there is none, as on a sheet with two sides.
 inline std::vector<vec3> hull_normals(const Mesh& mesh) {
-    // TODO: Eq. 7.8: with face_normal and corner_angle_radians, sum over the faces around each
+    // TODO: Eq. 7.8: with face_normal and vertex_angle_radians, sum over the faces around each
     // position, in the order of the mesh; then over all positions at the same place, in their
     // order; then of length 1, with unit_or(sum, vec3(0)).
     return std::vector<vec3>(mesh.positions.size(), vec3(0));
@@ -67,14 +69,13 @@ inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3
 template <typename CounterPolicy>
 void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
                float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
-    // TODO: transform the positions, push each one, and then for each triangle, as in main.cpp:
-    // clip_triangle, screen_from_clip, snap_triangle, TriangleDepth and depth.test_and_write. But
-    // only faces that are seen from behind (asked of the mesh as it was) are drawn. On the screen
-    // they are clockwise, so do not ask is_front_facing; nor is_outside_frustum, for of a body just
-    // outside of the picture the rim may reach into it. fill_triangle is enough: there is no light
-    // to compute for several points at once. What passes the depth test is ink. Count
-    // Counter::outline_tests for each depth test and Counter::outline_pixels for each pixel inked,
-    // and nothing else.
+    // TODO: transform the positions, push each one, and then for each triangle, as in lesson 04's
+    // for_each_visible_triangle: clip_triangle, project; fill_triangle and depth.test_and_write as
+    // in main.cpp. But only faces that are seen from behind (asked of the mesh as it was) are
+    // drawn. Do not ask project's is_back_facing: on the screen they are clockwise; nor
+    // is_outside_frustum: of a body just outside of the picture, the rim may reach into it. What
+    // passes the depth test is ink. Count Counter::outline_tests for each depth test and
+    // Counter::outline_pixels for each pixel inked, and nothing else.
 }
 
 /// From where on a change counts as an edge.
@@ -86,10 +87,10 @@ struct EdgeThresholds {
     float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
 };
 
-/// How near what is seen in a pixel is: 1 / w, which of a plane is linear on the screen (Eq. 7.11).
+/// 1/w of what is seen in a pixel, which on a plane is linear on the screen (Eq. 7.11).
 ///
 /// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, and nothing is as far.
-inline float nearness(float depth, const Camera& camera) {
+inline float inverse_w(float depth, const Camera& camera) {
     // TODO: Eq. 7.11.
     return 0;
 }

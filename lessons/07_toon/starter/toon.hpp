@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Light in bands, as in a comic. Introduced in lesson 07; derivation: docs/derivations/07_toon.md.
+/// Light in tones, as in a comic. Introduced in lesson 07; derivation: docs/derivations/07_toon.md.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace rasterbook {
 
-constexpr int most_bands = 255;
+constexpr int max_tones = 255;
 
-/// From all around: the light of the darkest band; linear.
+/// From all around: the light of the darkest tone; linear.
 constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
 
 /// How bright a coloured light is: its greatest number (Eq. 7.1).
@@ -23,38 +23,38 @@ inline float brightness(vec3 light) {
     return 0;
 }
 
-/// The band that a brightness falls into: 0 to bands - 1 (Eq. 7.2).
+/// The tone that a brightness falls into: 0 to tones - 1 (Eq. 7.2).
 ///
-/// The thresholds are k / bands, exactly, for k = 1 to bands - 1; a brightness on a threshold
-/// belongs to the brighter band.
+/// The thresholds are k / tones, exactly, for k = 1 to tones - 1; a brightness on a threshold
+/// belongs to the brighter tone.
 ///
 /// @param brightness  Any number; below 0 and NaN count as 0, above 1 as 1.
-/// @param bands       1 to most_bands.
-inline int band_of(float brightness, int bands) {
+/// @param tones       1 to max_tones.
+inline int tone_of(float brightness, int tones) {
     // TODO: Eq. 7.2. The product has to be exact.
     return 0;
 }
 
-/// The light that a band stands for: 0, 1 / (bands - 1), ..., 1; for a single band 1 (Eq. 7.3).
-inline float level_of(int band, int bands) {
+/// The light that a tone stands for: 0, 1 / (tones - 1), ..., 1; for a single tone 1 (Eq. 7.3).
+inline float level_of(int tone, int tones) {
     // TODO: Eq. 7.3.
     return 0;
 }
 
-/// A brightness, snapped to the light of its band.
+/// A brightness, snapped to the light of its tone.
 ///
-/// @param brightness,bands  As for band_of().
-inline float banded(float brightness, int bands) {
+/// @param brightness,tones  As for tone_of().
+inline float quantised(float brightness, int tones) {
     // TODO: the two above, one after the other.
     return 0;
 }
 
 /// From this brightness on a highlight is seen, and then it is white.
-constexpr float least_highlight = 0.5f;
+constexpr float min_tone_highlight = 0.5f;
 
 /// The paint of a fragment whose light is known: white in a highlight, else the surface's own
 /// colours in the light of a level (Eq. 7.4). The colour of the lamps does not count, so that a
-/// band has one colour.
+/// tone has one colour.
 ///
 /// @param color            Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
 /// @param from_all_around  Light, 0 to 1.
@@ -73,9 +73,9 @@ inline bool is_highlight(const SurfaceColor& color, const ReflectedLight& light)
 
 /// What a fragment sends to the eye: in place of phong() (Eq. 7.4).
 ///
-/// @param bands  1 to most_bands.
+/// @param tones  1 to max_tones.
 inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const ReflectedLight& light,
-                 int bands) {
+                 int tones) {
     // TODO: Eq. 7.4 with the functions above.
     return color.diffuse;
 }

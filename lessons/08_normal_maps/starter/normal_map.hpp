@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Normals in a picture, as codes or as heights, and the surface that they tilt. Introduced in
-/// lesson 08; derivation: docs/derivations/08_normal_maps.md.
+/// Normals in a picture, as codes or as heights, and the surface normals that they perturb.
+/// Introduced in lesson 08; derivation: docs/derivations/08_normal_maps.md.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,8 @@
 #include <cstdint>
 
 #include "05_textures/texture.hpp"
-#include "06_phong/light.hpp"
 #include "08_normal_maps/tangent_frame.hpp"
-#include "common/image.hpp"
+#include "common/image/image.hpp"
 
 namespace rasterbook {
 
@@ -72,17 +71,17 @@ inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentU
     return normal;
 }
 
-/// A surface's normal as the map tilts it (Eq. 8.7).
+/// A surface's normal, perturbed by the map (Eq. 8.7).
 ///
 /// @param frame       Of the surface; finite.
 /// @param normal_map  In that frame.
 /// @param normal      The surface's own, not yet scaled: it is left as it is, to the last bit,
 ///                    where x and y are 0.
 /// @return            Of any length; scaling comes last.
-inline vec3 tilted(const TangentFrame& frame, vec3 normal_map, vec3 normal) {
+template <typename F>
+Vec3<F> perturbed(const TangentBasis<F>& frame, Vec3<F> normal_map, Vec3<F> normal) {
     // TODO: what stands above the fraction line in Eq. 8.7; its N, of length 1, is frame.normal.
-    // Only where x and y are 0, `normal` as it is. Choose one number at a time,
-    // `is_flat ? normal.x : sum.x`: a loop over many points then has no jumps.
+    // Only where x and y are 0, `normal` as it is: by select().
     return normal;
 }
 

@@ -15,10 +15,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "06_phong/light.hpp"
 #include "06_phong/normals.hpp"
+#include "common/math/functions.hpp"
 #include "common/math/numerics.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
@@ -33,10 +33,10 @@ struct UvDirections {
 /// by the inverse of a 2x2 matrix (Eq. 8.3). Its determinant has the sign of the handedness
 /// (Eq. 8.4). With handedness 0, both directions are 0.
 ///
-/// @param positions,uvs  Of the corners. Any numbers: with a uv that is not finite, the handedness
+/// @param positions,uvs  Of the vertices. Any numbers: with a uv that is not finite, the handedness
 ///          is 0; with a position that is not, it is that of the uvs, and both directions are 0.
 /// @return  Of one texture and surface whatever its size. The sides are taken from the first
-///          corner: another one that comes first changes roundings. In double, an error of 2^-51
+///          vertex: another one that comes first changes roundings. In double, an error of 2^-51
 ///          times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is
 ///          exact where the differences of the uvs are: between numbers that are 0 or less than
 ///          2^29 times each other.
@@ -50,7 +50,8 @@ inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
 /// What is left of v when all that leads along the normal is taken away (Eq. 8.5).
 ///
 /// @param normal  Length 1.
-inline vec3 across(vec3 v, vec3 normal) {
+template <typename F>
+Vec3<F> across(Vec3<F> v, Vec3<F> normal) {
     // TODO: what stands above the fraction line in Eq. 8.5.
     return v;
 }
@@ -59,15 +60,18 @@ inline vec3 across(vec3 v, vec3 normal) {
 ///
 /// @param n  Length 1.
 /// @return   Length 1.
-inline vec3 any_across(vec3 n) {
-    // TODO: what the text says behind Eq. 8.5, where nothing is left.
-    return {1, 0, 0};
+template <typename F>
+Vec3<F> any_orthogonal(Vec3<F> n) {
+    // TODO: what the text says behind Eq. 8.5, where nothing is left; choose the axis by select().
+    return Vec3<F>(vec3(1, 0, 0));
 }
 
-/// Three directions at right angles, each of length 1.
-struct TangentFrame {
-    vec3 tangent, bitangent, normal;
+/// Three directions at right angles, each of length 1: the TBN basis.
+template <typename F>
+struct TangentBasis {
+    Vec3<F> tangent, bitangent, normal;
 };
+using TangentFrame = TangentBasis<float>;
 
 /// More of the square of a tangent's length than this has to be left across the normal for one step
 /// to be exact enough: the tangent stood less than 30 degrees away from what it becomes.
@@ -78,88 +82,88 @@ constexpr float hardly_any = 0x1p-40f;
 
 /// What is left of a tangent across the normal, scaled to length 1 (Eq. 8.5).
 ///
-/// In the usual case (the square of what is left is above `mostly` times the tangent's and above
-/// 1e-30, the tangent's is below 1e30) this takes the steps of Eq. 8.5 and no others, with the
-/// tangent as it is: TriangleRelief takes them for many points at once, and promises the same bits.
-///
 /// @param tangent  Any numbers.
 /// @param normal   Length 1.
-/// @return         any_across(normal) where nothing is left: the tangent is 0, not finite, or
+/// @return         any_orthogonal(normal) where nothing is left: the tangent is 0, not finite, or
 ///                 parallel to the normal but for `hardly_any` of its square.
-inline vec3 unit_across(vec3 tangent, vec3 normal) {
-    // TODO: Eq. 8.5. In the usual case across() of the tangent as it is, times 1 / std::sqrt() of
-    // its square: where that square is above `mostly` times the tangent's and above 1e-30, and the
+template <typename F>
+Vec3<F> unit_orthogonal(Vec3<F> tangent, Vec3<F> normal) {
+    // TODO: Eq. 8.5. In the usual case across() of the tangent as it is, times 1 / sqrt() of its
+    // square: where that square is above `mostly` times the tangent's and above 1e-30, and the
     // tangent's below 1e30. Else scale the tangent first, unit_or(tangent, normal), since squares
-    // may overflow. What across() leaves of that: any_across() unless its square is above
-    // `hardly_any`; else to length 1, across() once more, and to length 1.
-    return any_across(normal);
+    // may overflow. What across() leaves of that: any_orthogonal() unless its square is above
+    // `hardly_any`; else to length 1, across() once more, and to length 1. Choose by select().
+    return any_orthogonal(normal);
 }
 
 /// The frame at a point (Eq. 8.5).
 ///
-/// @param tangent     Any numbers; where it has no direction across the normal, any_across() has.
+/// @param tangent     Any numbers; where it has no direction across the normal, any_orthogonal()
+/// has.
 /// @param normal      Of any length; where it has no direction, up.
 /// @param handedness  -1 or 1.
 /// @return            Orthonormal within 2^-20, also for numbers that are not finite.
-inline TangentFrame tangent_frame(vec3 tangent, vec3 normal, float handedness) {
-    // TODO: Eq. 8.5. Scale the normal first: unit_or(normal, vec3(0, 1, 0)).
-    return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+template <typename F>
+TangentBasis<F> tangent_frame(Vec3<F> tangent, Vec3<F> normal, F handedness) {
+    // TODO: Eq. 8.5. Scale the normal first: unit_or() with (0, 1, 0).
+    return {Vec3<F>(vec3(1, 0, 0)), Vec3<F>(vec3(0, 1, 0)), Vec3<F>(vec3(0, 0, 1))};
 }
 
-/// What one corner adds to the tangent that it shares with others.
+/// What one vertex adds to the tangent that it shares with others.
 struct TangentShare {
     std::array<std::uint32_t, 9> key;  ///< Those with the same bits share a tangent.
-    std::uint32_t normal;              ///< Index of the corner's normal.
+    std::uint32_t normal;              ///< Index of the vertex's normal.
     std::array<std::int64_t, 3> share;
 };
 
-/// A triangle's share at one of its corners: its angle there, along its tangent (Eq. 8.6), in whole
-/// numbers of 2^-40. Which corner of the triangle comes first in the file does not change a bit.
+/// A triangle's share at one of its vertices: its angle there, along its tangent (Eq. 8.6), in
+/// whole numbers of 2^-40. Which vertex of the triangle comes first in the file does not change a
+/// bit.
 ///
-/// @param mesh  As complete_normals() leaves it: each corner has a normal of its own.
-/// @param uvs   Of the triangle's corners.
+/// @param mesh  As complete_normals() leaves it: each vertex has a normal of its own.
+/// @param uvs   Of the triangle's vertices.
 /// @return      A share of 0 where there is no direction across the normal.
 inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
-                                  const std::array<vec2, 3>& uvs, std::size_t corner) {
-    [[maybe_unused]] const std::size_t next = (corner + 1) % 3, last = (corner + 2) % 3;
+                                  const std::array<vec2, 3>& uvs, std::size_t vertex) {
+    [[maybe_unused]] const std::size_t next = (vertex + 1) % 3, last = (vertex + 2) % 3;
     const auto position = [&](std::size_t i) {
-        return mesh.positions[triangle.corners[i].position];
+        return mesh.positions[triangle.vertices[i].position];
     };
-    // TODO: uv_directions() as seen from this corner, as if it were the first one.
+    // TODO: uv_directions() as seen from this vertex, as if it were the first one.
     const int handedness = 1;
-    const std::uint32_t normal = triangle.corners[corner].normal;
-    const vec3 p = position(corner), n = mesh.normals[normal];
-    const vec2 uv = uvs[corner];
+    const std::uint32_t normal = triangle.vertices[vertex].normal;
+    const vec3 p = position(vertex), n = mesh.normals[normal];
+    const vec2 uv = uvs[vertex];
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
     TangentShare own{{bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z), bits(uv.x),
                       bits(uv.y), handedness < 0 ? 1u : 0u},
                      normal,
                      {0, 0, 0}};
     // TODO: if the tangent has a direction across the normal, that is if the square of across() is
-    // above `hardly_any`: the angle, corner_angle_radians(), times unit_across(), each component
-    // times 2^40 (0x1p40) and rounded by std::llround(). In double.
+    // above `hardly_any`: the angle, vertex_angle_radians(), times unit_orthogonal(), each
+    // component times 2^40 (0x1p40) and rounded by std::llround(). In double.
     return own;
 }
 
-/// A tangent for each corner: the mean of those of the triangles around it, weighted by their
-/// angles there (Eq. 8.6). Corners with the same place, normal and uv share one, but for those with
-/// the other handedness: a mirrored texture has tangents that point against each other.
+/// A tangent for each vertex: the mean of those of the triangles around it, weighted by their
+/// angles there (Eq. 8.6). Vertices with the same place, normal and uv share one, but for those
+/// with the other handedness: a mirrored texture has tangents that point against each other.
 ///
 /// Sums of whole numbers have no order: neither that of the triangles nor that of the vertices
 /// changes a bit. There may be 2^20 triangles in one place.
 ///
-/// @param mesh    As complete_normals() leaves it: each corner has a normal of its own.
+/// @param mesh    As complete_normals() leaves it: each vertex has a normal of its own.
 /// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
 /// @return        For each of the mesh's normals: tangent, of length 1 and across the normal, and
 ///                handedness, that of the triangles, -1 or 1; 1 where theirs is 0. Where no
-///                triangle has a direction across the normal, the tangent is any_across().
+///                triangle has a direction across the normal, the tangent is any_orthogonal().
 template <std::invocable<const Triangle&> UvsOf>
 std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
     std::vector<TangentShare> shares;
     shares.reserve(3 * mesh.triangles.size());
     for (const Triangle& triangle : mesh.triangles)
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            shares.push_back(tangent_share(mesh, triangle, uvs_of(triangle), corner));
+        for (std::size_t vertex = 0; vertex < 3; ++vertex)
+            shares.push_back(tangent_share(mesh, triangle, uvs_of(triangle), vertex));
     std::ranges::sort(shares, {}, &TangentShare::key);
 
     std::vector<vec4> tangents(mesh.normals.size(), vec4(0));
@@ -168,7 +172,8 @@ std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
         auto end = begin;
         for (; end != shares.end() && end->key == begin->key; ++end)
             sum = end->share;  // TODO: their sum
-        const vec3 tangent = unit_across(vec3(sum[0], sum[1], sum[2]), mesh.normals[begin->normal]);
+        const vec3 tangent =
+            unit_orthogonal(vec3(sum[0], sum[1], sum[2]), mesh.normals[begin->normal]);
         for (; begin != end; ++begin)
             tangents[begin->normal] = vec4(tangent, begin->key.back() == 1 ? -1 : 1);
     }

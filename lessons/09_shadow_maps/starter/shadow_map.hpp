@@ -16,25 +16,26 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/clip.hpp"
+#include "04_mvp/projection.hpp"
 #include "04_mvp/transform.hpp"
-#include "common/counters.hpp"
+#include "common/app/counters.hpp"
 #include "common/math/numerics.hpp"
-#include "common/mesh.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
-/// A look-up averages up to 2 * 3 + 1 texels a side.
-constexpr int most_pcf_radius = 3;
+/// A shadow test averages up to 2 * 3 + 1 texels a side.
+constexpr int max_pcf_radius = 3;
 
-/// By how much fill_triangle may see a corner beside its place, in texels: half a snapping step.
+/// By how much fill_triangle may see a vertex beside its place, in texels: half a snapping step.
 constexpr double snapping = 0.5 / subpixels;
 
-/// Roundings on the way from a corner to a map's depth and to a fragment's: at most 64 of 2^-24,
+/// Roundings on the way from a vertex to a map's depth and to a fragment's: at most 64 of 2^-24,
 /// relative to the sizes of what is added up (Eq. 9.15).
 constexpr double rounding = 64 * 0x1p-24;
 
-/// Depths between 0 and 1 have 24 digits or more; the fill's weights and the depth's sum round a
-/// few times.
+/// Depths between 0 and 1 have 24 digits or more; the fill's barycentrics and the depth's sum round
+/// a few times.
 constexpr double depth_quanta = 8 * 0x1p-24;
 
 /// The depth of what a light sees first, for each texel; 1 where it sees nothing.
@@ -47,14 +48,14 @@ struct ShadowMap {
     double rounding_texels;  ///< By how much a place may be off, times w (Eq. 9.15).
     double rounding_depth;   ///< By how much a depth may be off, times w.
     double slope_in_middle;  ///< |dz/dx| + |dz/dy| of a surface tilted by arctan 2.
-    DepthBuffer depths;      ///< With most_pcf_radius texels around it, in which nothing is seen.
+    DepthBuffer depths;      ///< With max_pcf_radius texels around it, in which nothing is seen.
 
     /// @param reach  World space: a box around all casters and receivers.
     ShadowMap(const mat4& clip, bool perspective, int texels, const Bounds& reach)
         : ShadowMap(clip, perspective, texels, reach,
-                    DepthBuffer(ivec2(texels + 2 * most_pcf_radius))) {}
+                    DepthBuffer(ivec2(texels + 2 * max_pcf_radius))) {}
 
-    /// @param memory  Becomes `depths`: of texels + 2 most_pcf_radius a side.
+    /// @param memory  Becomes `depths`: of texels + 2 max_pcf_radius a side.
     ShadowMap(const mat4& clip, bool perspective, int texels, const Bounds& reach,
               DepthBuffer memory)
         : size(texels),
@@ -98,19 +99,20 @@ struct ShadowMap {
 /// written or not; nothing else is counted.
 ///
 /// @param casts  Called as casts(material), an index into Scene::materials: whether triangles of it
-///               throw shadows.
+///               cast shadows.
 template <typename Casts, typename CounterPolicy>
 void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
     if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
-    // TODO: as lesson 04 draws a mesh, but that only what casts is drawn, fronts and backs alike,
-    // and nothing but depths, in a picture of map.size x map.size. Texel (0, 0) of that is at
-    // (most_pcf_radius, most_pcf_radius) of map.depths. Count Counter::shadow_fragments.
+    // TODO: as lesson 04 draws a mesh, with transform(), clip_triangle() and project(), but only
+    // what casts is drawn, front and back faces alike, and only depths, in a picture of map.size x
+    // map.size. Its texel (0, 0) is (max_pcf_radius, max_pcf_radius) of map.depths. Count
+    // Counter::shadow_fragments.
 }
 
 /// What keeps a lit surface from shadowing itself.
 enum class Bias { none, constant, slope, plane, normal };
 
-/// What a look-up has to know of the triangle on which a shadow falls.
+/// What a shadow test has to know of the triangle on which a shadow falls.
 struct Receiver {
     vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
     float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.10); leaks: Eq. 9.14.
@@ -122,20 +124,20 @@ struct Receiver {
 /// A plane's slopes beyond which a depth passes through all of the map within a texel. Such a
 /// surface is seen edge-on by the light, gets hardly any, and all of that. Bias::normal needs no
 /// such limit.
-constexpr double most_slope = 1;
+constexpr double max_slope = 1;
 
 /// Fits the bias to a triangle.
 ///
 /// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
 /// lit of a triangle of no area, edge-on (with Bias::normal: only if it contains the light), not
 /// finite, or turned away from the light: that one gets no light anyway, or next to none by normals
-/// that are mixed between its corners.
+/// that are mixed between its vertices.
 ///
-/// @param radius   Of the look-up's square of texels: 0 to most_pcf_radius.
-/// @param corners  World space.
+/// @param radius   Of the PCF kernel: 0 to max_pcf_radius.
+/// @param vertices  World space.
 /// @param outward  Any vector to that side of the triangle which is seen.
 inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
-                         const std::array<vec3, 3>& corners, vec3 outward) {
+                         const std::array<vec3, 3>& vertices, dvec3 outward) {
     Receiver result;
     const double reach_texels = 0;  // TODO: to the farthest texel's centre, Eq. 9.9
     if (bias == Bias::constant)
@@ -145,23 +147,39 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
     // TODO: the triangle's plane as the map sees it, Eq. 9.8, turned so that `outward` is in front
     // of it. Where it is turned away, or P_z is 0 or not a number, the bias is 2. Else Eq. 9.12 for
     // Bias::normal, where the bias is 2 if K g is not below 1; Eq. 9.10 for Bias::slope and
-    // Eq. 9.11 for Bias::plane, where it is 2 if the slopes' sum is not at most most_slope.
+    // Eq. 9.11 for Bias::plane, where it is 2 if the slopes' sum is not at most max_slope.
     return result;
 }
 
 /// The share of a square of texels, around a point's place in the map, from which it is lit: 0 to 1
 /// (Eq. 9.7 and 9.13).
 ///
-/// @tparam radius         0 to most_pcf_radius: 1, 9, 25 or 49 texels.
+/// @tparam radius         0 to max_pcf_radius: 1, 9, 25 or 49 texels.
 /// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
 ///                        lit.
 template <int radius>
-float lit_share(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
-    static_assert(radius >= 0 && radius <= most_pcf_radius);
-    // TODO: move the point by its offsets (Eq. 9.12), find its place (Eq. 9.6), and what it is
-    // compared with at the centre of its texel (Eq. 9.10 and 9.11). Then Eq. 9.7 for each texel of
-    // the square, and Eq. 9.13. What is outside of the map is lit, but texels around it are there.
+float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+    static_assert(radius >= 0 && radius <= max_pcf_radius);
+    // TODO: move the point by its offsets (Eq. 9.12), find its position in the map (Eq. 9.6), and
+    // the depth to compare at the centre of its texel (Eq. 9.10 and 9.11). Then Eq. 9.7 for each
+    // texel of the kernel, and Eq. 9.13. What is outside of the map is lit, but the kernel may
+    // reach beyond its border.
     return 1;
+}
+
+/// The same for a radius that is known only when the program runs.
+inline float pcf_visibility(const ShadowMap& map, int radius, const Receiver& receiver,
+                            vec3 position_world) {
+    switch (radius) {
+        case 0:
+            return pcf_visibility<0>(map, receiver, position_world);
+        case 1:
+            return pcf_visibility<1>(map, receiver, position_world);
+        case 2:
+            return pcf_visibility<2>(map, receiver, position_world);
+        default:
+            return pcf_visibility<3>(map, receiver, position_world);
+    }
 }
 
 }  // namespace rasterbook

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Triangles that are ready to be filled, and for each part of a picture those that may reach into
+/// Triangles that are ready to be filled, and for each tile those that may reach into
 /// it. Introduced in lesson 10; derivation: docs/derivations/10_threading.md.
 #pragma once
 
@@ -12,68 +12,74 @@
 #include <vector>
 
 #include "02_triangle_fill/triangle.hpp"
-#include "04_mvp/clip.hpp"
+#include "04_mvp/projection.hpp"
 #include "10_threading/split.hpp"
 #include "10_threading/thread_pool.hpp"
-#include "common/counters.hpp"
-#include "common/mesh.hpp"
+#include "common/app/counters.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
-/// A triangle, or a piece of one that was clipped, as it lies on the screen.
-struct ReadyTriangle {
-    const Mesh& mesh;
-    const Triangle& triangle;
-    ClippedTriangle clipped;
-    ScreenTriangle on_screen;
-    vec3 depths;  ///< Of the piece's corners.
-    bool is_back;
-};
-
-/// Triangles that follow each other in the scene, and for each part those that may reach into it.
-class Chunk {
+/// Triangles that follow each other in the scene, and for each tile those that may reach into it.
+class TriangleBatch {
   public:
-    std::vector<ReadyTriangle> triangles;  ///< In the scene's order; each has an area.
+    std::vector<ProjectedTriangle> triangles;  ///< In the scene's order; each has an area.
 
-    /// Lists the triangles by parts: those whose box has a pixel there.
-    void bin(const Parts& parts) {
-        begin_.assign(parts.count() + 1, 0);
+    /// Lists the triangles by tiles: those whose box has a pixel there.
+    void bin(const Tiling& tiling) {
+        begin_.assign(tiling.count() + 1, 0);
         // TODO: count, add up, and write from the last triangle to the first.
     }
 
-    /// Indices into `triangles` of those that may reach into a part, ascending.
-    std::span<const std::uint32_t> of(std::size_t part) const {
-        return {indices_.data() + begin_[part], indices_.data() + begin_[part + 1]};
+    /// Indices into `triangles` of those that may reach into a tile, ascending.
+    std::span<const std::uint32_t> of(std::size_t tile) const {
+        return {indices_.data() + begin_[tile], indices_.data() + begin_[tile + 1]};
     }
 
   private:
-    std::vector<std::uint32_t>
-        begin_;  ///< Of each part's list in indices_, and the last one's end.
+    std::vector<std::size_t> begin_;  ///< Of each tile's list in indices_, and the last one's end.
     std::vector<std::uint32_t> indices_;
 };
 
-/// A chunk takes at least so many triangles or positions: less is not worth a task.
-constexpr std::size_t least_in_chunk = 256;
-/// More than this many chunks would take memory for their lists, and hardly share out the work
+/// A batch takes at least so many triangles or positions: less is not worth a task.
+constexpr std::size_t min_batch = 256;
+/// More than this many batches would take memory for their lists, and hardly share out the work
 /// better.
-constexpr std::size_t most_chunks = 64;
+constexpr std::size_t max_batches = 64;
 
-/// How many chunks to make of so many things. It does not depend on the number of workers.
-inline std::size_t chunks_of(std::size_t things) {
-    return std::min((things + least_in_chunk - 1) / least_in_chunk, most_chunks);
+/// How many batches to make of so many things. It does not depend on the number of workers.
+inline std::size_t batches_of(std::size_t things) {
+    return std::min((things + min_batch - 1) / min_batch, max_batches);
 }
 
-/// The first thing of a chunk; behind the last chunk, the end of all.
-inline std::size_t begin_of_chunk(std::size_t chunk, std::size_t things) {
-    return chunk * things / chunks_of(things);
+/// The first thing of a batch; behind the last batch, the end of all.
+inline std::size_t begin_of_batch(std::size_t batch, std::size_t things) {
+    return batch * things / batches_of(things);
 }
 
-/// The triangles of several meshes, on the screen, in chunks: in the first one are the scene's
-/// first triangles, and so on. A part that is drawn chunk by chunk, and in each by its list, is
+/// The meshes of a scene that may be in view; counts them all.
+template <typename CounterPolicy>
+std::vector<const Mesh*> meshes_in_view(const Scene& scene, const mat4& clip_from_world,
+                                        CounterPolicy& counters) {
+    std::vector<const Mesh*> meshes;
+    for (const Mesh& mesh : scene.meshes) {
+        counters.add(Counter::meshes_in);
+        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
+            counters.add(Counter::meshes_culled_by_frustum);
+            continue;
+        }
+        if (!mesh.tangents.empty()) counters.add(Counter::meshes_with_tangents);
+        meshes.push_back(&mesh);
+    }
+    return meshes;
+}
+
+/// The triangles of several meshes, on the screen, in batches: in the first one are the scene's
+/// first triangles, and so on. A tile that is drawn batch by batch, and in each by its list, is
 /// drawn in the scene's order (Eq. 10.7).
 class BinnedTriangles {
   public:
-    std::vector<Chunk> chunks;
+    std::vector<TriangleBatch> batches;
 
     /// Transforms, clips and bins them.
     ///
@@ -81,13 +87,22 @@ class BinnedTriangles {
     /// triangles_culled_by_facing each piece that is not kept.
     ///
     /// @param pool       Has size() and run() as ThreadPool does.
-    /// @param two_sided  Whether pieces seen from behind are kept.
+    /// @param culling    Whether pieces seen from behind are left out.
+    /// @param counters   One for each worker of the pool.
+    template <typename Pool, typename CounterPolicy>
+    BinnedTriangles(Pool& pool, std::span<const Mesh* const> meshes, const mat4& clip_from_world,
+                    const Tiling& tiling, Culling culling, WorkerCounters<CounterPolicy>& counters)
+        : BinnedTriangles(
+              pool, meshes, clip_from_world, tiling, culling, [](std::size_t) { return true; },
+              counters) {}
+
+    /// The same of some materials.
+    ///
     /// @param takes      Called as takes(material), an index into Scene::materials: whether
     ///                   triangles of it are taken.
-    /// @param counters   One for each worker of the pool.
     template <typename Pool, typename Takes, typename CounterPolicy>
     BinnedTriangles(Pool& pool, std::span<const Mesh* const> meshes, const mat4& clip_from_world,
-                    const Parts& parts, bool two_sided, const Takes& takes,
+                    const Tiling& tiling, Culling culling, const Takes& takes,
                     WorkerCounters<CounterPolicy>& counters) {
         std::vector<std::size_t> first_position = {0}, first_triangle = {0};
         for (const Mesh* mesh : meshes) {
@@ -95,67 +110,62 @@ class BinnedTriangles {
             first_triangle.push_back(first_triangle.back() + mesh->triangles.size());
         }
         const auto positions_clip = std::make_unique_for_overwrite<vec4[]>(first_position.back());
-        pool.run(chunks_of(first_position.back()), [&](std::size_t chunk, std::size_t) {
-            for_each_run(first_position, chunk,
+        pool.run(batches_of(first_position.back()), [&](std::size_t batch, std::size_t) {
+            for_each_run(first_position, batch,
                          [&](std::size_t mesh, std::size_t i, std::size_t end) {
                              for (; i < end; ++i)
                                  positions_clip[first_position[mesh] + i] =
                                      clip_from_world * vec4(meshes[mesh]->positions[i], 1);
                          });
         });
-        chunks.resize(chunks_of(first_triangle.back()));
-        pool.run(chunks.size(), [&](std::size_t chunk, std::size_t worker) {
-            std::vector<ReadyTriangle>& triangles = chunks[chunk].triangles;
-            triangles.reserve(begin_of_chunk(chunk + 1, first_triangle.back()) -
-                              begin_of_chunk(chunk, first_triangle.back()));
-            for_each_run(first_triangle, chunk,
+        batches.resize(batches_of(first_triangle.back()));
+        pool.run(batches.size(), [&](std::size_t batch, std::size_t worker) {
+            std::vector<ProjectedTriangle>& triangles = batches[batch].triangles;
+            triangles.reserve(begin_of_batch(batch + 1, first_triangle.back()) -
+                              begin_of_batch(batch, first_triangle.back()));
+            for_each_run(first_triangle, batch,
                          [&](std::size_t mesh, std::size_t i, std::size_t end) {
                              const vec4* const positions = &positions_clip[first_position[mesh]];
                              for (; i < end; ++i) {
                                  const Triangle& triangle = meshes[mesh]->triangles[i];
                                  if (!takes(triangle.material)) continue;
                                  counters[worker].add(Counter::triangles_in);
-                                 add(*meshes[mesh], triangle, positions, parts.size(), two_sided,
+                                 add(*meshes[mesh], triangle, positions, tiling.size(), culling,
                                      triangles, counters[worker]);
                              }
                          });
-            chunks[chunk].bin(parts);
+            batches[batch].bin(tiling);
         });
     }
 
   private:
     template <typename CounterPolicy>
     static void add(const Mesh& mesh, const Triangle& triangle, const vec4* positions_clip,
-                    ivec2 size, bool two_sided, std::vector<ReadyTriangle>& triangles,
+                    ivec2 size, Culling culling, std::vector<ProjectedTriangle>& triangles,
                     CounterPolicy& counters) {
-        const auto& [p, q, r] = triangle.corners;
+        const auto& [p, q, r] = triangle.vertices;
         for (const ClippedTriangle& clipped :
              clip_triangle({positions_clip[p.position], positions_clip[q.position],
                             positions_clip[r.position]})) {
-            const vec3 a = screen_from_clip(clipped[0].position_clip, size);
-            const vec3 b = screen_from_clip(clipped[1].position_clip, size);
-            const vec3 c = screen_from_clip(clipped[2].position_clip, size);
-            const ScreenTriangle on_screen = snap_triangle(a, b, c);
-            const bool is_back = !is_front_facing(on_screen);
-            if (is_back && !two_sided)
+            const ProjectedTriangle projected = project(mesh, triangle, clipped, size);
+            if (projected.is_back_facing && culling == Culling::back_faces)
                 counters.add(Counter::triangles_culled_by_facing);
-            else if (on_screen.twice_area != 0)
-                triangles.push_back(
-                    {mesh, triangle, clipped, on_screen, vec3(a.z, b.z, c.z), is_back});
+            else if (projected.on_screen.twice_area != 0)
+                triangles.push_back(projected);
         }
     }
 
-    /// Visits the things of one chunk: in each mesh, those that follow each other.
+    /// Visits the things of one batch: in each mesh, those that follow each other.
     ///
     /// @param first  Of each mesh's things, counted through all meshes, and the last one's end.
     /// @param visit  Called as visit(mesh, i, end) for things i to end - 1 of a mesh, i < end.
     template <typename Visit>
-    static void for_each_run(const std::vector<std::size_t>& first, std::size_t chunk,
+    static void for_each_run(const std::vector<std::size_t>& first, std::size_t batch,
                              const Visit& visit) {
         for (std::size_t mesh = 0; mesh + 1 < first.size(); ++mesh) {
-            const std::size_t begin = std::max(begin_of_chunk(chunk, first.back()), first[mesh]);
+            const std::size_t begin = std::max(begin_of_batch(batch, first.back()), first[mesh]);
             const std::size_t end =
-                std::min(begin_of_chunk(chunk + 1, first.back()), first[mesh + 1]);
+                std::min(begin_of_batch(batch + 1, first.back()), first[mesh + 1]);
             if (begin < end) visit(mesh, begin - first[mesh], end - first[mesh]);
         }
     }

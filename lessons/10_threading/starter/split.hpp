@@ -9,7 +9,6 @@
 #include <cstddef>
 
 #include "02_triangle_fill/triangle.hpp"
-#include "05_textures/bands.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook {
@@ -35,7 +34,7 @@ inline PixelBox common_box(const PixelBox& a, const PixelBox& b) {
 }
 
 /// The pixels of one task: of a box, the first row and each `row_step`-th after it.
-struct Part {
+struct Tile {
     PixelBox box;
     int row_step = 1;
 };
@@ -43,17 +42,17 @@ struct Part {
 /// How to split a picture.
 enum class Split { rows, interleaved, tiles };
 
-/// A picture in parts. Each pixel is in just one.
-class Parts {
+/// A picture in tiles, or in rows that stand for them. Each pixel is in just one.
+class Tiling {
   public:
-    /// @param size     Of the picture, each side >= 0. Without pixels there are no parts.
-    /// @param workers  At least 1. Rows and interleaved rows make one part for each, or one a row
+    /// @param size     Of the picture, each side >= 0. Without pixels there are no tiles.
+    /// @param workers  At least 1. Rows and interleaved rows make one tile for each, or one a row
     ///                 where there are fewer rows than workers.
-    /// @param tile     Pixels along a tile's side, at least 1.
-    Parts(Split split, ivec2 size, std::size_t workers, int tile)
-        : split_(split), size_(size), tile_(tile) {
-        assert(workers >= 1 && tile >= 1);
-        // TODO: how many columns and rows of parts there are, after Eq. 10.3 to 10.5.
+    /// @param tile_size  Pixels along a tile's side, at least 1.
+    Tiling(Split split, ivec2 size, std::size_t workers, int tile_size)
+        : split_(split), size_(size), tile_size_(tile_size) {
+        assert(workers >= 1 && tile_size >= 1);
+        // TODO: how many columns and rows of tiles there are, after Eq. 10.3 to 10.5.
     }
 
     ivec2 size() const { return size_; }
@@ -61,13 +60,13 @@ class Parts {
         return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
     }
 
-    /// @param part  From 0 to count() - 1.
-    Part operator[](std::size_t part) const {
+    /// @param tile  From 0 to count() - 1.
+    Tile operator[](std::size_t tile) const {
         // TODO: Eq. 10.3 to 10.5.
         return {{ivec2(0), size_ - 1}};
     }
 
-    /// Calls take(part) once for each part that has a pixel in the box.
+    /// Calls take(tile) once for each tile that has a pixel in the box.
     template <typename Take>
     void for_each_in(const PixelBox& box, Take&& take) const {
         // TODO: Eq. 10.6, the box cut to the picture.
@@ -76,30 +75,30 @@ class Parts {
   private:
     Split split_;
     ivec2 size_;
-    int tile_;
-    int columns_ = 0, rows_ = 0;  ///< Of parts.
+    int tile_size_;
+    int columns_ = 0, rows_ = 0;  ///< Of tiles.
 };
 
-/// Visits what of a part lies in a box, as boxes of whole rows: of interleaved rows, each is one.
+/// Visits what of a tile lies in a box, as boxes of whole rows: of interleaved rows, each is one.
 ///
 /// @param visit  Called as visit(PixelBox), never with an empty one.
 template <typename Visit>
-void for_each_strip(const Part& part, const PixelBox& box, Visit&& visit) {
+void for_each_strip(const Tile& tile, const PixelBox& box, Visit&& visit) {
     // TODO: what the two boxes have in common; of that, all at once where row_step is 1, or else
-    // each of the part's rows.
+    // each of the tile's rows.
 }
 
-/// Visits all of a part.
+/// Visits all of a tile.
 template <typename Visit>
-void for_each_strip(const Part& part, Visit&& visit) {
-    for_each_strip(part, part.box, visit);
+void for_each_strip(const Tile& tile, Visit&& visit) {
+    for_each_strip(tile, tile.box, visit);
 }
 
-/// As fill_in_bands, of a part of a picture.
+/// As fill_triangle, of a tile.
 template <typename Emit>
-void fill_part(const ScreenTriangle& triangle, const Part& part, Emit&& emit) {
-    for_each_strip(part, box_around(triangle), [&](const PixelBox& strip) {
-        fill_in_bands(triangle, strip.first, strip.last, emit);
+void fill_tile(const ScreenTriangle& triangle, const Tile& tile, Emit&& emit) {
+    for_each_strip(tile, box_around(triangle), [&](const PixelBox& strip) {
+        fill_triangle(triangle, strip.first, strip.last, emit);
     });
 }
 

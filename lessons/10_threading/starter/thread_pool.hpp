@@ -58,8 +58,8 @@ class ThreadPool {
                     (*static_cast<const Task*>(of))(i, worker);
                 }};
         // TODO: make the job known to all, wake them up, take tasks as worker 0, and wait until
-        // nobody is in the job any more. Who wakes up after that must not find it. Throw what was
-        // kept, if something was.
+        // nobody is in the job any more. A worker that wakes up after that must not find it. Throw
+        // what was kept, if anything was.
     }
 
   private:
@@ -69,9 +69,9 @@ class ThreadPool {
     }
 
     void work(const std::stop_token& stop, std::size_t worker) {
-        // TODO: wait for a job that this worker has not been in, take part, and again, until
-        // `stop`. has_job_.wait(lock, stop, condition) gives false once the pool
-        // is to end and there is no job.
+        // TODO: wait for a job that this worker has not been in, take tile, and again, until
+        // `stop`. has_job_.wait(lock, stop, condition) gives false once the pool is to end and
+        // there is no job.
     }
 
     std::mutex mutex_;

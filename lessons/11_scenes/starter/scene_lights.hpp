@@ -15,8 +15,8 @@
 
 #include "06_phong/light.hpp"
 #include "07_toon/toon.hpp"
-#include "09_shadow_maps/shadowed_scene.hpp"
-#include "common/mesh.hpp"
+#include "09_shadow_maps/shadows.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
@@ -29,13 +29,12 @@ constexpr float lamp_size = 1.0f / 128;
 
 /// A file's light in units of the lessons' (Eq. 11.1 and 11.2).
 ///
-/// @param scene_radius  World space, > 0; any float. Farther from a lamp than 10 times lamp_size of
-/// it, less
-///                      than 1% of its light is missing.
+/// @param scene_radius  World space, > 0; any float. Farther from a point light than 10 times its
+///                      lamp_size, less than 1% of its light is missing.
 /// @return  Its range is not minded: glTF calls it a hint.
 inline Light light_of(const SceneLight& from, float scene_radius) {
-    // TODO: its kind, place, direction (of a sun: towards it) and cone; Eq. 11.1, and of a lamp
-    // Eq. 11.2.
+    // TODO: its kind, position, direction (of a directional light: towards it) and cone; Eq. 11.1,
+    // and of a point light or a spotlight Eq. 11.2.
     Light light{LightKind::directional, from.color, -from.direction_world};
     return light;
 }
@@ -54,17 +53,17 @@ inline float exposure_of(std::span<const SceneLight> lights, const Bounds& bound
 
 /// All lights that a scene is drawn in.
 struct SceneLights {
-    std::vector<Light> lights;  ///< At most most_lights.
+    std::vector<Light> lights;  ///< At most max_lights.
     std::vector<std::string> names;
-    std::array<bool, most_lights> casts{};  ///< Whether each throws shadows.
-    bool are_of_file = false;               ///< Else those of lesson 09.
-    float exposure = 1;                     ///< By which the file's have been multiplied.
+    std::array<bool, max_lights> casts{};  ///< Whether each throws shadows.
+    bool are_of_file = false;              ///< Else those of lesson 09.
+    float exposure = 1;                    ///< By which the file's have been multiplied.
 };
 
 /// The file's lights; where it has none, the raking lights of lesson 09.
 ///
 /// @param key       Of these, the kind of the first.
-/// @param warnings  Takes the names of the lights beyond most_lights: they are left out.
+/// @param warnings  Takes the names of the lights beyond max_lights: they are left out.
 inline SceneLights lights_of(const Scene& scene, LightKind key,
                              std::vector<std::string>& warnings) {
     SceneLights all;
@@ -79,9 +78,9 @@ inline SceneLights lights_of(const Scene& scene, LightKind key,
     all.are_of_file = true;
     all.exposure = exposure_of(scene.lights, bounds);
     for (SceneLight light : scene.lights) {
-        if (all.lights.size() == most_lights) {
+        if (all.lights.size() == max_lights) {
             warnings.push_back("light \"" + light.name + "\" is left out: no more than " +
-                               std::to_string(most_lights) + " lights are drawn with");
+                               std::to_string(max_lights) + " lights are drawn with");
             continue;
         }
         all.casts[all.lights.size()] = true;

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "common/app/lesson_app.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <iostream>
+#include <mutex>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+
+#include "common/app/memory.hpp"
+#include "common/app/threads.hpp"
+#include "common/image/backdrop.hpp"
+#include "common/image/image_io.hpp"
+#include "common/image/input_error.hpp"
+#include "common/math/color.hpp"
+#include "common/model/model_file.hpp"
+
+namespace rasterbook {
+
+namespace {
+
+constexpr int greatest_side = 16384;
+
+/// Reads "1280x720"; anything else is a usage error.
+ivec2 parse_size(const std::string& text) {
+    ivec2 size;
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.x);
+    const bool has_cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.y) : width;
+    const auto is_side = [](int side) { return side >= 1 && side <= greatest_side; };
+    if (!has_cross || height.ec != std::errc() || height.ptr != end || !is_side(size.x) ||
+        !is_side(size.y))
+        throw CLI::ValidationError("--size", "'" + text +
+                                                 "' is not WIDTHxHEIGHT with sides from 1 to " +
+                                                 std::to_string(greatest_side));
+    return size;
+}
+
+/// Reads "90" or "0-29/90"; anything else is a usage error.
+Frames parse_frames(const std::string& text) {
+    try {
+        return frames_from(text);
+    } catch (const std::invalid_argument& error) {
+        throw CLI::ValidationError("--frames", error.what());
+    }
+}
+
+/// The model as named, or else the one of that name among the course's models.
+std::filesystem::path find_model(const std::filesystem::path& name) {
+    const std::filesystem::path own = std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name;
+    std::error_code ignored;
+    for (const auto& candidate : {name, own})
+        if (!name.empty() && std::filesystem::exists(candidate, ignored)) return candidate;
+    throw InputError(name, "there is no such file; tried " +
+                               std::filesystem::absolute(name).string() +
+                               (own == name ? "" : " and " + own.string()));
+}
+
+double elapsed_ms(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+        .count();
+}
+
+/// What was done for one picture, or for several.
+struct Tally {
+    int pictures = 0;
+    bool is_empty = true;  ///< Nothing of the model is to be seen in any.
+    Counters counters;
+    double render_ms = 0, write_ms = 0;  ///< Of each picture, added up.
+
+    void add(const Tally& others) {
+        pictures += others.pictures;
+        is_empty = is_empty && others.is_empty;
+        counters.add(others.counters);
+        render_ms += others.render_ms;
+        write_ms += others.write_ms;
+    }
+};
+
+void print_stats(const LessonProgram& program, ivec2 size, const Tally& tally, double load_ms,
+                 double total_ms) {
+    std::ostringstream json;
+    json << "{\"lesson\": \"" << program.name << "\", \"width\": " << size.x
+         << ", \"height\": " << size.y;
+    for (std::size_t i = 0; i < counter_names.size(); ++i)
+        json << ", \"" << counter_names[i] << "\": " << tally.counters.values[i];
+    json << ", \"load_ms\": " << load_ms << ", \"render_ms\": " << tally.render_ms
+         << ", \"write_ms\": " << tally.write_ms << ", \"total_ms\": " << total_ms << "}\n";
+    std::cout << json.str() << std::flush;
+}
+
+/// Renders a picture and writes it.
+Tally make_picture(const LessonProgram& program, const FrameOptions& frame,
+                   const std::filesystem::path& file) {
+    const LessonOptions& options = program.options;
+    Tally tally;
+    const auto render_start = std::chrono::steady_clock::now();
+    Image<vec3> rendered = program.render(frame, tally.counters);
+    tally.is_empty = is_backdrop(rendered);
+    const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
+    tally.render_ms = elapsed_ms(render_start);
+
+    const auto write_start = std::chrono::steady_clock::now();
+    write_image(file, srgb8_from_linear(picture));
+    tally.write_ms = elapsed_ms(write_start);
+    tally.pictures = 1;
+    return tally;
+}
+
+/// The file of one of the pictures.
+std::filesystem::path file_of(const LessonOptions& options, int frame) {
+    return options.frames.of_turn > 1 ? name_of_frame(options.out, frame) : options.out;
+}
+
+/// All pictures, several at once. Each depends on its number alone, not on what was drawn before.
+Tally make_film(const LessonProgram& program) {
+    const LessonOptions& options = program.options;
+    const Frames& frames = options.frames;
+    const int at_once = std::min(options.jobs, frames.count());
+    const int threads = program.threads ? std::max(1, *program.threads / at_once) : 1;
+    const float first_yaw_degrees = program.orbit ? program.orbit->yaw_degrees : 0;
+    const bool shows_progress = frames.count() > 1 && isatty(STDERR_FILENO);
+    Tally tally;
+    std::mutex mutex;
+    const auto make_frame = [&](int frame) {
+        const Tally done =
+            make_picture(program, {first_yaw_degrees + degrees_at(frame, frames), threads},
+                         file_of(options, frame));
+        const std::lock_guard lock(mutex);
+        tally.add(done);
+        if (shows_progress)
+            std::cerr << "\rframe " << tally.pictures << " of " << frames.count()
+                      << (tally.pictures == frames.count() ? "\n" : "") << std::flush;
+    };
+    try {
+        for_each_at_once(at_once, frames.first, frames.last, make_frame);
+    } catch (...) {
+        if (shows_progress && tally.pictures > 0) std::cerr << '\n';
+        throw;
+    }
+    return tally;
+}
+
+void make_pictures(const LessonProgram& program) {
+    LessonOptions& options = program.options;
+    const auto start = std::chrono::steady_clock::now();
+    const Scene& scene = program.prepare(load_model(find_model(options.model)));
+    const double load_ms = elapsed_ms(start);
+    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+
+    const ivec2 size = options.size;
+    options.size *= options.samples_per_side;
+    const Tally tally = make_film(program);
+
+    if (tally.is_empty)
+        std::cerr << "warning: " << options.model.string()
+                  << ": nothing of it is to be seen; perhaps its faces are named clockwise or have "
+                     "no area\n";
+    if (options.stats)
+        print_stats(program, size, tally, load_ms, elapsed_ms(start));
+    else if (const std::string first = file_of(options, options.frames.first).string();
+             tally.pictures > 1)
+        std::cout << "wrote " << tally.pictures << " pictures, " << first << " and so on\n";
+    else
+        std::cout << "wrote " << first << '\n';
+}
+
+}  // namespace
+
+void Knobs::flag(const char* name, bool& value, const char* help) {
+    command_line_.add_flag(name, value, help);
+}
+
+namespace {
+
+template <typename Number>
+void add_number(CLI::App& line, const std::string& name, Number& value, Number least, Number most,
+                const std::string& help) {
+    const auto in_words = [](Number number) {
+        std::ostringstream words;
+        words << number;
+        return words.str();
+    };
+    const auto take = [=, &value](const std::string& word) {
+        Number number;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (error != std::errc() || end != word.data() + word.size() ||
+            !(number >= least && number <= most))
+            throw CLI::ValidationError(name, "'" + word + "' is not a number from " +
+                                                 in_words(least) + " to " + in_words(most));
+        value = number;
+    };
+    line.add_option_function<std::string>(name, take, help + " [" + in_words(value) + "]")
+        ->type_name("NUMBER");
+}
+
+}  // namespace
+
+void Knobs::number(const char* name, float& value, float least, float most, const char* help) {
+    add_number(command_line_, name, value, least, most, help);
+}
+
+void Knobs::number(const char* name, int& value, int least, int most, const char* help) {
+    add_number(command_line_, name, value, least, most, help);
+}
+
+void Knobs::text(const char* name, std::string& value, const char* type, const char* help) {
+    command_line_.add_option(name, value, help)->type_name(type);
+}
+
+void Knobs::choice(const char* name, const char* preset,
+                   std::vector<std::pair<const char*, std::function<void()>>> words,
+                   const char* help) {
+    std::string all;
+    for (const auto& [word, call] : words) all += (all.empty() ? "" : "|") + std::string(word);
+    const auto take = [=](const std::string& given) {
+        for (const auto& [word, call] : words)
+            if (given == word) return call();
+        throw CLI::ValidationError(name, "'" + given + "' is not one of " + all);
+    };
+    command_line_
+        .add_option_function<std::string>(name, take, std::string(help) + " [" + preset + "]")
+        ->type_name(all);
+}
+
+void Knobs::add_word(const char* word, double meaning, bool is_preset) {
+    words_.emplace_back(word, meaning);
+    if (is_preset) preset_ = word;
+}
+
+void Knobs::add_choice(const char* name, const char* help, void* value,
+                       void (*set)(void*, double)) {
+    std::vector<std::pair<const char*, std::function<void()>>> calls;
+    for (const auto& [word, meaning] : words_)
+        calls.emplace_back(word, [=, chosen = meaning] { set(value, chosen); });
+    choice(name, preset_, std::move(calls), help);
+    words_.clear();
+    preset_ = "";
+}
+
+int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
+    keep_freed_memory();
+    LessonOptions& options = program.options;
+    options.jobs = threads_of_the_machine();
+    options.out = program.name + ".png";
+    CLI::App line(program.title, program.name);
+    line.add_option(
+            "--model", options.model,
+            "The model to draw: .obj, .gltf or .glb [" + options.model.string() + " of the course]")
+        ->type_name("FILE");
+    line.add_option("--out", options.out,
+                    "The picture to write: .png, .bmp or .tga [" + options.out.string() + "]")
+        ->type_name("FILE")
+        ->check([](const std::string& name) {
+            try {
+                check_image_name(name);
+                return std::string();
+            } catch (const InputError& error) { return std::string(error.what()); }
+        });
+    line.add_option_function<std::string>(
+            "--size", [&](const std::string& text) { options.size = parse_size(text); },
+            "The picture's size in pixels [1280x720]")
+        ->type_name("WIDTHxHEIGHT");
+    line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
+    Knobs knobs(line);
+    knobs.choice("--samples", options.samples_per_side, {{"1", 1}, {"4", 2}, {"16", 4}, {"64", 8}},
+                 "Samples a pixel, averaged: smoother, and that many times the time and memory");
+    if (program.orbit) {
+        Orbit& orbit = *program.orbit;
+        knobs.number("--yaw", orbit.yaw_degrees, -36000, 36000,
+                     "The camera's way around the scene, in degrees");
+        knobs.number("--pitch", orbit.pitch_degrees, -90, 90,
+                     "Its height over the horizon, in degrees");
+        knobs.number("--distance", orbit.distance, 0.01f, 1e6f,
+                     "Its distance from the scene's centre, in radii of the scene");
+        knobs.number("--fov", orbit.fov_degrees, 1, 170,
+                     "What it sees from the lower to the upper border, in degrees");
+        line.add_option_function<std::string>(
+                "--frames", [&](const std::string& text) { options.frames = parse_frames(text); },
+                "Pictures of one turn around the scene, or of a part of it; --out then takes "
+                "turn_%04d.png [1]")
+            ->type_name("N|A-B/N");
+        knobs.number("--jobs", options.jobs, 1, max_threads,
+                     "Frames at once, each with its share of the threads; unasked, no more than "
+                     "take 1 GiB");
+    }
+    if (program.show_depth)
+        knobs.flag("--depth", *program.show_depth,
+                   "Show the depth buffer: near is bright, nothing is black");
+    program.declare_knobs(knobs);
+
+    try {
+        line.parse(argc, argv);
+        const bool is_film = options.frames.of_turn > 1;
+        if (is_film && line.count("--out") == 0) options.out = program.name + "_%04d.png";
+        if (is_film && name_of_frame(options.out, 0) == options.out)
+            throw CLI::ValidationError("--out",
+                                       "the name for several frames needs their number, as "
+                                       "in turn_%04d.png");
+        if (is_film && line.count("--jobs") == 0)
+            options.jobs = frames_at_once(program.threads ? *program.threads : options.jobs,
+                                          options.frames, options.size * options.samples_per_side);
+        make_pictures(program);
+        if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
+        return 0;
+    } catch (const CLI::CallForHelp&) {
+        std::cout << line.help();
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        std::cerr << "error: " << error.what() << " (--help lists what there is)\n";
+        return 2;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "error: not enough memory for this model at this size\n";
+        return 1;
+    } catch (const std::exception& error) {
+        std::cerr << "error: " << error.what() << '\n';
+        return 1;
+    }
+}
+
+}  // namespace rasterbook

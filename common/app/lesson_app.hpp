@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The program around a lesson's picture: command line, model, output, --stats, errors.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "common/app/counters.hpp"
+#include "common/app/image_sequence.hpp"
+#include "common/image/image.hpp"
+#include "common/model/mesh.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace rasterbook {
+
+/// What every lesson can be asked for. A lesson adds its own knobs in a struct derived from this.
+struct LessonOptions {
+    std::filesystem::path model = "teapot.obj";
+    std::filesystem::path out;  ///< By default NAME.png in the current folder.
+    ivec2 size{1280, 720};      ///< Pixels to render, each side 1 to 16384 for one sample a pixel.
+    int samples_per_side = 1;   ///< The picture is rendered this many times as wide and as high.
+    bool stats = false;
+    Frames frames;
+    int jobs = 0;  ///< Frames that are drawn and written at once; 0: as many as there are threads.
+};
+
+/// Where the camera stands and how wide it sees, from lesson 04 on: a lesson whose options have an
+/// `Orbit orbit` is given the knobs for it, and --frames.
+struct Orbit {
+    float yaw_degrees = -30.0f;   ///< Around the scene, counter-clockwise as seen from above.
+    float pitch_degrees = 27.0f;  ///< Above the horizon, -90 to 90.
+    float distance = 1.4f;        ///< From the scene's centre, in radii of the scene, > 0.
+    float fov_degrees = 36.0f;    ///< From the picture's lower to its upper border, 1 to 170.
+
+    bool operator==(const Orbit&) const = default;
+};
+
+/// Where a lesson declares its knobs: one line gives the flag, its help, its check and its default.
+/// Texts have to outlive it, as literals do.
+class Knobs {
+  public:
+    explicit Knobs(CLI::App& command_line) : command_line_(command_line) {}
+
+    /// `--name`: sets `value` to true.
+    void flag(const char* name, bool& value, const char* help);
+
+    /// `--name NUMBER`: from `least` to `most`; `value` holds the default and takes the number.
+    void number(const char* name, float& value, float least, float most, const char* help);
+    void number(const char* name, int& value, int least, int most, const char* help);
+
+    /// `--name TEXT`: any text; `value` holds the default and takes the text.
+    void text(const char* name, std::string& value, const char* type, const char* help);
+
+    /// `--name WORD`: one of the words; `value` holds the default and takes the choice.
+    ///
+    /// @tparam Value  An enumeration or a number.
+    template <typename Value>
+    void choice(const char* name, Value& value,
+                std::initializer_list<std::pair<const char*, Value>> words, const char* help) {
+        // Little is compiled for each Value and lesson: the rest works with numbers.
+        for (const auto& [word, meaning] : words)
+            add_word(word, static_cast<double>(meaning), meaning == value);
+        add_choice(name, help, &value, [](void* to, double chosen) {
+            *static_cast<Value*>(to) = static_cast<Value>(chosen);
+        });
+    }
+
+    /// Calls one of the functions when its word is given. A knob that is declared later is taken
+    /// later.
+    void choice(const char* name, const char* preset,
+                std::vector<std::pair<const char*, std::function<void()>>> words, const char* help);
+
+  private:
+    void add_word(const char* word, double meaning, bool is_preset);
+    void add_choice(const char* name, const char* help, void* value, void (*set)(void*, double));
+
+    CLI::App& command_line_;
+    std::vector<std::pair<const char*, double>> words_;  ///< Of the choice that is being declared.
+    const char* preset_ = "";
+};
+
+/// Declares the knobs of several groups of options, each by its `declare(Knobs&)`.
+template <typename... Groups>
+void declare_all(Knobs& knobs, Groups&... groups) {
+    (groups.declare(knobs), ...);
+}
+
+/// What one frame has of its own; the rest is the same for all.
+struct FrameOptions {
+    float yaw_degrees;
+    int threads;  ///< For those lessons that draw a picture with several.
+};
+
+/// A lesson, ready to run: run_lesson fills it in.
+struct LessonProgram {
+    std::string name;   ///< NN_name
+    std::string title;  ///< One sentence for --help.
+    LessonOptions& options;
+    Orbit* orbit;        ///< Of the options, or null.
+    bool* show_depth;    ///< Of the options, or null.
+    const int* threads;  ///< Of the options, or null: then one thread draws a picture.
+    std::function<void(Knobs&)> declare_knobs;
+    std::function<const Scene&(Scene)> prepare;  ///< Called once, with the model as it was read.
+
+    /// Called by several threads at once, each with counters of its own.
+    std::function<Image<vec3>(const FrameOptions&, Counters&)> render;
+};
+
+/// The scene in what a lesson draws.
+inline const Scene& scene_of(const Scene& scene) { return scene; }
+template <typename Assets>
+const Scene& scene_of(const Assets& assets) {
+    return assets.scene;
+}
+
+/// @return  The exit status: 0, 1 for bad input, 2 for bad usage; errors are one line on stderr.
+int run_lesson_program(const LessonProgram& program, int argc, char** argv);
+
+/// Runs a lesson: reads the command line and the model, renders, writes the picture.
+///
+/// @tparam Options     Derived from LessonOptions; may have `void declare(Knobs&)`, an `Orbit
+///                     orbit`, a `bool show_depth`, and `threads.threads`, the number of threads
+///                     that draw.
+/// @param make_assets  Called once as make_assets(Scene, const Options&): gives what is drawn, with
+///                     a Scene `scene`.
+/// @param render       Called for each picture as render(const Options&, const Assets&, Counters&);
+///                     gives the picture in linear colour. Where there are several pictures,
+///                     several threads call it at once: what it keeps from one to the next must be
+///                     thread_local.
+template <typename Options, typename MakeAssets, typename Render>
+int run_lesson(int argc, char** argv, std::string name, std::string title, MakeAssets make_assets,
+               Render render) {
+    Options options;
+    std::optional<std::invoke_result_t<MakeAssets, Scene, const Options&>> assets;
+    Orbit* orbit = nullptr;
+    bool* show_depth = nullptr;
+    const int* threads = nullptr;
+    if constexpr (requires { options.show_depth; }) show_depth = &options.show_depth;
+    if constexpr (requires { options.orbit; }) orbit = &options.orbit;
+    if constexpr (requires { options.threads.threads; }) threads = &options.threads.threads;
+    return run_lesson_program(
+        {std::move(name), std::move(title), options, orbit, show_depth, threads,
+         [&](Knobs& knobs) {
+             if constexpr (requires { options.declare(knobs); }) options.declare(knobs);
+         },
+         [&](Scene model) -> const Scene& {
+             assets.emplace(make_assets(std::move(model), options));
+             return scene_of(*assets);
+         },
+         [&](const FrameOptions& frame, Counters& counters) {
+             Options own = options;
+             if constexpr (requires { own.orbit; }) own.orbit.yaw_degrees = frame.yaw_degrees;
+             if constexpr (requires { own.threads.threads; }) own.threads.threads = frame.threads;
+             return render(own, *assets, counters);
+         }},
+        argc, argv);
+}
+
+/// The same of a lesson that draws the scene as it was read.
+template <typename Options, typename Render>
+int run_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
+    return run_lesson<Options>(
+        argc, argv, std::move(name), std::move(title),
+        [](Scene scene, const Options&) { return scene; }, std::move(render));
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+#include "common/model/gltf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "common/image/input_error.hpp"
+#include "common/math/numerics.hpp"
+#include "common/model/gltf_document.hpp"
+#include "common/model/gltf_materials.hpp"
+#include "common/model/mtl.hpp"
+
+namespace rasterbook {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A point of a mesh: points that agree in all of this are one.
+struct PointKey {
+    std::array<std::uint32_t, 7> bits;  ///< Of position and colour.
+    bool operator==(const PointKey&) const = default;
+};
+
+struct PointHash {
+    std::size_t operator()(const PointKey& key) const {
+        std::uint64_t hash = 0;
+        for (const std::uint32_t word : key.bits)
+            hash = std::rotl((hash ^ word) * 0x9e3779b97f4a7c15, 27);
+        return hash;
+    }
+};
+
+/// Turns normals as a matrix turns surfaces: its inverse transpose but for a factor > 0, so that
+/// it is of use where the matrix is singular, too.
+dmat3 world_from_normal(const dmat4& world_from_node) {
+    const dvec3 x = world_from_node[0], y = world_from_node[1], z = world_from_node[2];
+    const dmat3 cofactors(glm::cross(y, z), glm::cross(z, x), glm::cross(x, y));
+    return glm::dot(x, cofactors[0]) < 0 ? -cofactors : cofactors;
+}
+
+bool is_mirrored(const dmat4& world_from_node) {
+    return glm::determinant(dmat3(world_from_node)) < 0;
+}
+
+/// Of a camera, which is turned and moved alone: what else its node does is taken away.
+dmat4 without_scale(const dmat4& world_from_node) {
+    const dvec3 z = normalize_or(dvec3(world_from_node[2]), dvec3(0, 0, 1));
+    const dvec3 any = std::abs(z.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    const dvec3 x = normalize_or(glm::cross(dvec3(world_from_node[1]), z),
+                                 normalize_or(glm::cross(any, z), any));
+    return {dvec4(x, 0), dvec4(glm::cross(z, x), 0), dvec4(z, 0), world_from_node[3]};
+}
+
+/// Reads a scene.
+class GltfReader {
+  public:
+    GltfReader(const fs::path& file, std::size_t max_vertices)
+        : file_(file), model_(read_gltf_document(file, complaint_)), vertices_left_(max_vertices) {}
+    Scene read();
+
+  private:
+    /// A node that is to be read.
+    struct Visit {
+        int node;
+        dmat4 world_from_parent;
+    };
+
+    /// What a primitive's elements have; positions are always there.
+    struct Arrays {
+        std::optional<GltfArray> positions, normals, colors, uvs;
+    };
+
+    /// Where a primitive stands.
+    struct Place {
+        dmat4 world_from_node;
+        dmat3 world_from_normal;
+    };
+
+    void warn_of_document();
+    void read_nodes(std::vector<int> roots);
+    std::vector<int> roots() const;
+    dmat4 parent_from_node(const tinygltf::Node& node) const;
+    void read_mesh(const tinygltf::Node& node, const dmat4& world_from_node);
+    void read_primitive(const tinygltf::Primitive& primitive, const dmat4& world_from_node);
+    Arrays arrays_of(const tinygltf::Primitive& primitive) const;
+    Vertex add_vertex(const Arrays& arrays, std::uint32_t element, const Place& place);
+    void add_flat_normal(Triangle& triangle);
+    std::vector<std::uint32_t> triangle_vertices(const tinygltf::Primitive& primitive,
+                                                 std::size_t points);
+    void add_camera(const tinygltf::Node& node, const dmat4& world_from_node);
+    void add_light(const tinygltf::Node& node, const dmat4& world_from_node);
+    void add_cone(SceneLight& light, const tinygltf::SpotLight& spot) const;
+
+    [[noreturn]] void fail(const std::string& what) const { throw InputError(file_, what); }
+    void warn(const std::string& what) { warnings_.add(file_, 0, what); }
+    /// An element of one of the document's lists.
+    template <typename Element>
+    const Element& at(const std::vector<Element>& list, int index, const std::string& what) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= list.size())
+            fail(what + " " + std::to_string(index) + " is not there");
+        return list[static_cast<std::size_t>(index)];
+    }
+    vec3 narrowed(dvec3 v, const std::string& what) const {
+        const vec3 narrow(v);
+        for (int i = 0; i < 3; ++i)
+            if (!std::isfinite(narrow[i])) fail(what + " is too large");
+        return narrow;
+    }
+
+    const fs::path& file_;
+    std::string complaint_;
+    const tinygltf::Model model_;
+    std::size_t vertices_left_;
+    Scene scene_;
+    Warnings warnings_;
+    std::string node_name_, where_;  ///< For messages: the node's, and the primitive's.
+
+    // Of the mesh that is being read.
+    Mesh mesh_;
+    bool has_colors_ = false;
+    std::unordered_map<PointKey, std::uint32_t, PointHash> index_of_point_;
+};
+
+void GltfReader::warn_of_document() {
+    if (!complaint_.empty()) warn(complaint_);
+    for (const std::string& name : model_.extensionsUsed)
+        if (!is_known_gltf_extension(name)) warn("the extension " + name + " is passed over");
+    if (!model_.animations.empty()) warn("animations are passed over");
+}
+
+Scene GltfReader::read() {
+    warn_of_document();
+    scene_.materials = gltf_materials(model_, file_, warnings_);
+    read_nodes(roots());
+    if (scene_.meshes.empty()) fail("holds no faces");
+    scene_.warnings = warnings_.take();
+    scene_.is_gltf = true;
+    return std::move(scene_);
+}
+
+/// Of the default scene; of the first, where none is said to be that; of a file without scenes, all
+/// nodes that are no other's child.
+std::vector<int> GltfReader::roots() const {
+    if (!model_.scenes.empty())
+        return at(model_.scenes, std::max(model_.defaultScene, 0), "scene").nodes;
+    std::vector<bool> is_child(model_.nodes.size());
+    for (const tinygltf::Node& node : model_.nodes)
+        for (const int child : node.children)
+            if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
+                is_child[static_cast<std::size_t>(child)] = true;
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+        if (!is_child[i]) roots.push_back(static_cast<int>(i));
+    return roots;
+}
+
+/// Depth first, in the order of the file; by a list of its own, for the depth may be any.
+void GltfReader::read_nodes(std::vector<int> roots) {
+    std::vector<bool> is_seen(model_.nodes.size());
+    std::vector<Visit> visits;
+    const auto add = [&](const std::vector<int>& nodes, const dmat4& world_from_parent) {
+        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
+            visits.push_back({*node, world_from_parent});
+    };
+    add(roots, dmat4(1));
+    while (!visits.empty()) {
+        const Visit visit = visits.back();
+        visits.pop_back();
+        const tinygltf::Node& node = at(model_.nodes, visit.node, "node");
+        const auto index = static_cast<std::size_t>(visit.node);
+        node_name_ = "node " + std::to_string(visit.node) +
+                     (node.name.empty() ? "" : " \"" + node.name + "\"");
+        if (is_seen[index]) fail(node_name_ + " has two parents, or is below itself");
+        is_seen[index] = true;
+        const dmat4 world_from_node = visit.world_from_parent * parent_from_node(node);
+        if (node.mesh >= 0) read_mesh(node, world_from_node);
+        if (node.camera >= 0) add_camera(node, world_from_node);
+        if (node.extensions.contains("KHR_lights_punctual")) add_light(node, world_from_node);
+        add(node.children, world_from_node);
+    }
+}
+
+/// The matrix, or what is first scaled, then turned, then moved.
+dmat4 GltfReader::parent_from_node(const tinygltf::Node& node) const {
+    const auto numbers = [&](const std::vector<double>& list, std::size_t count, const char* what) {
+        if (!list.empty() && list.size() != count)
+            fail(node_name_ + ": " + what + " has " + std::to_string(list.size()) +
+                 " numbers, not " + std::to_string(count));
+        return !list.empty();
+    };
+    dmat4 matrix(1);
+    if (numbers(node.matrix, 16, "matrix")) {
+        for (std::size_t i = 0; i < 16; ++i)
+            matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
+        return matrix;
+    }
+    if (numbers(node.rotation, 4, "rotation")) {
+        const std::vector<double>& q = node.rotation;
+        const dvec4 all(q[0], q[1], q[2], q[3]);
+        const double square = glm::dot(all, all);
+        if (!(square > 0) || !std::isfinite(square)) fail(node_name_ + ": rotation has no length");
+        const double s = 2 / square;
+        const auto [x, y, z, w] = std::array{q[0], q[1], q[2], q[3]};
+        matrix = matrix_from_rows<double>(
+            {1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w), 0},
+            {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w), 0},
+            {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y), 0}, {0, 0, 0, 1});
+    }
+    if (numbers(node.scale, 3, "scale"))
+        for (int i = 0; i < 3; ++i) matrix[i] *= node.scale[static_cast<std::size_t>(i)];
+    if (numbers(node.translation, 3, "translation"))
+        for (int i = 0; i < 3; ++i) matrix[3][i] = node.translation[static_cast<std::size_t>(i)];
+    return matrix;
+}
+
+void GltfReader::read_mesh(const tinygltf::Node& node, const dmat4& world_from_node) {
+    const tinygltf::Mesh& from = at(model_.meshes, node.mesh, node_name_ + ": mesh");
+    if (node.skin >= 0) warn("skins are passed over: figures stand as they were modelled");
+    mesh_ = {};
+    mesh_.name = node.name.empty() ? from.name : node.name;
+    index_of_point_.clear();
+    has_colors_ = std::ranges::any_of(from.primitives, [](const tinygltf::Primitive& primitive) {
+        return primitive.attributes.contains("COLOR_0");
+    });
+    for (std::size_t i = 0; i < from.primitives.size(); ++i) {
+        where_ = "mesh " + std::to_string(node.mesh) +
+                 (from.name.empty() ? "" : " \"" + from.name + "\"") + ", primitive " +
+                 std::to_string(i);
+        // The place of a skinned mesh is that of its joints, not of its node.
+        read_primitive(from.primitives[i], node.skin >= 0 ? dmat4(1) : world_from_node);
+    }
+    if (!mesh_.triangles.empty()) scene_.meshes.push_back(std::move(mesh_));
+}
+
+/// The points of a primitive's triangles: strips and fans are taken apart.
+std::vector<std::uint32_t> GltfReader::triangle_vertices(const tinygltf::Primitive& primitive,
+                                                         std::size_t points) {
+    std::optional<GltfArray> indices;
+    if (primitive.indices >= 0) {
+        indices.emplace(model_, primitive.indices, file_, where_ + ": indices");
+        if (indices->components() != 1 || !indices->is_unsigned())
+            indices->fail("has no whole numbers, one by one");
+    }
+    const std::size_t count = indices ? indices->size() : points;
+    const auto point = [&](std::size_t i) {
+        const double index = indices ? indices->number(i, 0) : static_cast<double>(i);
+        if (!(index < static_cast<double>(points)))
+            fail(where_ + ": index " + std::to_string(static_cast<std::uint32_t>(index)) +
+                 " is out of range: there are " + std::to_string(points) + " positions");
+        return static_cast<std::uint32_t>(index);
+    };
+    const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    const bool is_strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
+    const std::size_t triangles = is_list ? count / 3 : std::max<std::size_t>(count, 2) - 2;
+    if (is_list && count % 3 != 0)
+        warn(where_ + ": " + std::to_string(count) + " vertices are not a number of triangles");
+    if (triangles > vertices_left_ / 3) fail("has more vertices than are accepted");
+    vertices_left_ -= 3 * triangles;
+    std::vector<std::uint32_t> vertices;
+    vertices.reserve(3 * triangles);
+    for (std::size_t i = 0; i < triangles; ++i) {
+        // Every second triangle of a strip has its first two vertices in the other order.
+        const std::size_t odd = i % 2;
+        const std::array<std::size_t, 3> at = is_list    ? std::array{3 * i, 3 * i + 1, 3 * i + 2}
+                                              : is_strip ? std::array{i + odd, i + 1 - odd, i + 2}
+                                                         : std::array{std::size_t{0}, i + 1, i + 2};
+        for (const std::size_t vertex : at) vertices.push_back(point(vertex));
+    }
+    return vertices;
+}
+
+void GltfReader::read_primitive(const tinygltf::Primitive& primitive,
+                                const dmat4& world_from_node) {
+    if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP)
+        return warn(where_ + (primitive.mode == TINYGLTF_MODE_POINTS ? ": points" : ": lines") +
+                    " are not drawn");
+    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        fail(where_ + ": there is no mode " + std::to_string(primitive.mode));
+    if (!primitive.targets.empty())
+        warn("morph targets are passed over: meshes have their first shape");
+    if (!primitive.attributes.contains("POSITION")) return warn(where_ + ": has no positions");
+    const Arrays arrays = arrays_of(primitive);
+    const Place place{world_from_node, world_from_normal(world_from_node)};
+    const bool turns_winding = is_mirrored(world_from_node);
+    const auto material = static_cast<std::uint32_t>(primitive.material + 1);
+
+    std::unordered_map<std::uint32_t, Vertex> vertex_of_element;
+    const auto vertex = [&](std::uint32_t element) {
+        const auto [found, is_new] = vertex_of_element.try_emplace(element, Vertex{0});
+        if (is_new) found->second = add_vertex(arrays, element, place);
+        return found->second;
+    };
+    const std::vector<std::uint32_t> elements =
+        triangle_vertices(primitive, arrays.positions->size());
+    for (std::size_t i = 0; i < elements.size(); i += 3) {
+        Triangle triangle{{vertex(elements[i]), vertex(elements[i + 1]), vertex(elements[i + 2])},
+                          material};
+        if (turns_winding) std::swap(triangle.vertices[1], triangle.vertices[2]);
+        if (!arrays.normals) add_flat_normal(triangle);
+        mesh_.faces.push_back({static_cast<std::uint32_t>(mesh_.vertices.size()), 3, material});
+        mesh_.vertices.insert(mesh_.vertices.end(), triangle.vertices.begin(),
+                              triangle.vertices.end());
+        mesh_.triangles.push_back(triangle);
+    }
+}
+
+/// The arrays of a primitive that are of use, all as long as its positions.
+GltfReader::Arrays GltfReader::arrays_of(const tinygltf::Primitive& primitive) const {
+    int uv_set = 0;
+    if (primitive.material != -1)
+        uv_set = uv_set_of(at(model_.materials, primitive.material, where_ + ": material"));
+    Arrays arrays;
+    const auto open = [&](std::optional<GltfArray>& array, const std::string& name, int least,
+                          int most) {
+        const auto found = primitive.attributes.find(name);
+        if (found == primitive.attributes.end()) return;
+        array.emplace(model_, found->second, file_, where_ + ": " + name);
+        if (array->components() < least || array->components() > most)
+            array->fail("has " + std::to_string(array->components()) + " numbers an element");
+        if (array->size() != arrays.positions->size())
+            array->fail("has " + std::to_string(array->size()) + " elements for " +
+                        std::to_string(arrays.positions->size()) + " positions");
+    };
+    open(arrays.positions, "POSITION", 3, 3);
+    open(arrays.normals, "NORMAL", 3, 3);
+    open(arrays.colors, "COLOR_0", 3, 4);
+    open(arrays.uvs, "TEXCOORD_" + std::to_string(uv_set), 2, 2);
+    return arrays;
+}
+
+/// A point of the mesh, new unless one of its position and colour is there, and what else a vertex
+/// has.
+Vertex GltfReader::add_vertex(const Arrays& arrays, std::uint32_t element, const Place& place) {
+    // + 0.0f: of -0 and 0 one.
+    const vec3 position = narrowed(place.world_from_node * arrays.positions->vector(element),
+                                   where_ + ": a position") +
+                          0.0f;
+    const vec4 color = arrays.colors ? vec4(arrays.colors->vector(element)) + 0.0f : vec4(1);
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    const PointKey key{{bits(position.x), bits(position.y), bits(position.z), bits(color.r),
+                        bits(color.g), bits(color.b), bits(color.a)}};
+    const auto [point, is_new] =
+        index_of_point_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
+    if (is_new) {
+        mesh_.positions.push_back(position);
+        mesh_.bounds.add(position);
+        if (has_colors_) mesh_.colors.push_back(color);
+    }
+    Vertex vertex{point->second};
+    if (arrays.uvs) {
+        const dvec4 uv = arrays.uvs->vector(element);
+        vertex.uv = static_cast<std::uint32_t>(mesh_.uvs.size());
+        mesh_.uvs.push_back(vec2(narrowed({uv.x, 1 - uv.y, 0}, where_ + ": a TEXCOORD")));
+    }
+    if (arrays.normals) {
+        const dvec3 normal = place.world_from_normal * dvec3(arrays.normals->vector(element));
+        vertex.normal = static_cast<std::uint32_t>(mesh_.normals.size());
+        mesh_.normals.push_back(vec3(normalize_or(normal, dvec3(0))));
+    }
+    return vertex;
+}
+
+/// Of the face itself, as the specification has it where a file gives none.
+void GltfReader::add_flat_normal(Triangle& triangle) {
+    const auto position = [&](std::size_t i) {
+        return dvec3(mesh_.positions[triangle.vertices[i].position]);
+    };
+    const dvec3 across = glm::cross(position(1) - position(0), position(2) - position(0));
+    for (Vertex& vertex : triangle.vertices)
+        vertex.normal = static_cast<std::uint32_t>(mesh_.normals.size());
+    mesh_.normals.push_back(vec3(normalize_or(across, dvec3(0))));
+}
+
+void GltfReader::add_camera(const tinygltf::Node& node, const dmat4& world_from_node) {
+    const tinygltf::Camera& from = at(model_.cameras, node.camera, node_name_ + ": camera");
+    const std::string name = node.name.empty() ? from.name : node.name;
+    if (from.type != "perspective")
+        return warn(node_name_ + ": a camera without perspective is passed over");
+    const tinygltf::PerspectiveCamera& lens = from.perspective;
+    const double far = lens.zfar > 0 ? lens.zfar : std::numeric_limits<double>::infinity();
+    const dmat4 place = without_scale(world_from_node);
+    narrowed(place[3], node_name_ + ": its place");
+    const SceneCamera camera{name, mat4(place), static_cast<float>(lens.yfov),
+                             static_cast<float>(lens.znear), static_cast<float>(far)};
+    if (!(camera.fov_y_radians > 0 && camera.fov_y_radians < 3.14159f && camera.near > 0 &&
+          camera.near < camera.far))
+        fail(node_name_ + ": its camera has no possible yfov, znear and zfar");
+    scene_.cameras.push_back(camera);
+}
+
+/// The cone of a spot, between whose angles its light fades.
+void GltfReader::add_cone(SceneLight& light, const tinygltf::SpotLight& spot) const {
+    const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
+    if (!(inner >= 0 && inner <= outer && outer > 0 && outer < 1.5707964))
+        fail(node_name_ + ": the cone of its light has no possible angles");
+    light.cos_none = static_cast<float>(std::cos(outer));
+    light.cos_full = static_cast<float>(std::cos(inner));
+    // An edge without width would be a division by 0.
+    light.cos_full = std::max(light.cos_full, std::nextafter(light.cos_none, 2.0f));
+}
+
+void GltfReader::add_light(const tinygltf::Node& node, const dmat4& world_from_node) {
+    const tinygltf::Value& extension = node.extensions.at("KHR_lights_punctual");
+    const double index = std::clamp(number_in(extension, "light", -1), -1.0, 1e9);
+    const tinygltf::Light& from =
+        at(model_.lights, static_cast<int>(index), node_name_ + ": light");
+    const std::map<std::string, SceneLight::Kind> kinds = {
+        {"directional", SceneLight::Kind::directional},
+        {"point", SceneLight::Kind::point},
+        {"spot", SceneLight::Kind::spot}};
+    if (!kinds.contains(from.type))
+        fail(node_name_ + ": there is no kind of light \"" + from.type + "\"");
+    if (!from.color.empty() && from.color.size() < 3)
+        fail(node_name_ + ": the colour of its light has no 3 numbers");
+    const dvec3 color =
+        from.color.empty() ? dvec3(1) : dvec3(from.color[0], from.color[1], from.color[2]);
+
+    SceneLight light{};
+    light.name = node.name.empty() ? from.name : node.name;
+    light.kind = kinds.at(from.type);
+    light.color = narrowed(glm::max(from.intensity * color, dvec3(0)), node_name_ + ": its light");
+    light.position_world = narrowed(world_from_node[3], node_name_ + ": its place");
+    light.direction_world = vec3(normalize_or(-dvec3(world_from_node[2]), dvec3(0, 0, -1)));
+    light.range =
+        from.range > 0 ? static_cast<float>(from.range) : std::numeric_limits<float>::infinity();
+    if (light.kind == SceneLight::Kind::spot) add_cone(light, from.spot);
+    scene_.lights.push_back(light);
+}
+
+}  // namespace
+
+Scene load_gltf(const fs::path& file, std::size_t max_vertices) {
+    return GltfReader(file, max_vertices).read();
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Wavefront OBJ and MTL, as real exporters write them.
+#pragma once
+
+#include <filesystem>
+
+#include "common/model/mesh.hpp"
+
+namespace rasterbook {
+
+/// Reads a model and the material libraries that it names.
+///
+/// Time is linear in the file's size, for faces of very many vertices see triangulate(). Statements
+/// that the course does not use are ignored, and so are numbers after x y z and u v. A comment
+/// begins with a `#` at the beginning of a word. A positive index may refer to an element further
+/// down. A missing material library or an unknown material is a warning and gives the default
+/// material; of two materials with one name the first counts.
+///
+/// @param max_elements  As many positions, uvs, normals, and vertices of one group, are accepted.
+/// @return  One mesh for each name of a group (`o` or `g`) that has faces; polygons as written and
+///          cut into triangles. A single mesh keeps all positions, uvs and normals of the file; of
+///          several, each has those that its faces use.
+/// @throws InputError  With file and line, when an index is 0 or out of range, a face has fewer
+///          than 3 vertices, a number does not parse or is not finite, the file is not text
+///          (control characters, UTF-16), or it has more elements than accepted; without line, when
+///          it has no faces, is missing or is not a regular file. The file may also be a material
+///          library.
+Scene load_obj(const std::filesystem::path& file, std::uint32_t max_elements = no_index);
+
+}  // namespace rasterbook

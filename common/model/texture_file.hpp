@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Reads the images that materials name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/image/image.hpp"
+#include "common/model/mesh.hpp"
+
+namespace rasterbook {
+
+/// The image that a material names, from its file or from inside the model's file.
+///
+/// @param statement   That names it, for the message.
+/// @param keep_going  An image that cannot be read is a warning, and a gaudy chessboard that nobody
+///                    overlooks takes its place.
+/// @throws InputError  Else: names the statement of the material library that asks for the image,
+///                     and the image.
+Image<u8vec4> read_texture_file(const TextureMap& map, const char* statement, bool keep_going,
+                                std::vector<std::string>& warnings);
+
+}  // namespace rasterbook

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// From triangles in the world to triangles on the screen: culled, transformed, clipped, projected,
+/// snapped. Introduced in lesson 04; derivation: docs/derivations/04_mvp.md.
+#pragma once
+
+#include <vector>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/clip.hpp"
+#include "04_mvp/transform.hpp"
+#include "common/app/counters.hpp"
+#include "common/model/mesh.hpp"
+
+namespace rasterbook {
+
+/// A triangle on the screen, or what clipping has left of it.
+struct ProjectedTriangle {
+    const Mesh& mesh;
+    const Triangle& triangle;  ///< The whole one.
+    ClippedTriangle clipped;   ///< Clip space, and barycentric coordinates in the whole one.
+    ScreenTriangle on_screen;
+    TriangleDepth depth;
+    bool is_back_facing;
+};
+
+/// Divides by w, and snaps to the screen's grid (Eq. 4.9 and 2.8).
+inline ProjectedTriangle project(const Mesh& mesh, const Triangle& triangle,
+                                 const ClippedTriangle& clipped, ivec2 size) {
+    const vec3 a = screen_from_clip(clipped[0].position_clip, size);
+    const vec3 b = screen_from_clip(clipped[1].position_clip, size);
+    const vec3 c = screen_from_clip(clipped[2].position_clip, size);
+    const ScreenTriangle on_screen = snap_triangle(a, b, c);
+    return {mesh,
+            triangle,
+            clipped,
+            on_screen,
+            TriangleDepth(vec3(a.z, b.z, c.z)),
+            !is_front_facing(on_screen)};
+}
+
+/// Which triangles are not drawn because of the side that they show.
+enum class Culling { back_faces, none };
+
+/// Visits what can be seen of a scene, in its order.
+///
+/// Counts meshes and triangles, and those of each that are culled.
+///
+/// @param size       Of the picture, in pixels.
+/// @param visit      Called as visit(const ProjectedTriangle&).
+/// @param transform  Called as transform(positions): takes a mesh's positions to clip space.
+/// @param clip       Called as clip(vertices_clip): gives the ClippedTriangles of one triangle.
+template <typename CounterPolicy, typename Visit, typename Transform, typename Clip>
+void for_each_visible_triangle(const Scene& scene, const mat4& clip_from_world, ivec2 size,
+                               Culling culling, CounterPolicy& counters, Visit&& visit,
+                               Transform&& transform, Clip&& clip) {
+    for (const Mesh& mesh : scene.meshes) {
+        counters.add(Counter::meshes_in);
+        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
+            counters.add(Counter::meshes_culled_by_frustum);
+            continue;
+        }
+        if (!mesh.tangents.empty()) counters.add(Counter::meshes_with_tangents);
+        const std::vector<vec4> positions_clip = transform(mesh.positions);
+        for (const Triangle& triangle : mesh.triangles) {
+            counters.add(Counter::triangles_in);
+            for (const ClippedTriangle& clipped : clip(vertices_of(triangle, positions_clip))) {
+                const ProjectedTriangle projected = project(mesh, triangle, clipped, size);
+                if (projected.is_back_facing && culling == Culling::back_faces)
+                    counters.add(Counter::triangles_culled_by_facing);
+                else
+                    visit(projected);
+            }
+        }
+    }
+}
+
+/// The same, transformed in float and clipped by all six planes.
+template <typename CounterPolicy, typename Visit>
+void for_each_visible_triangle(const Scene& scene, const mat4& clip_from_world, ivec2 size,
+                               Culling culling, CounterPolicy& counters, Visit&& visit) {
+    for_each_visible_triangle(
+        scene, clip_from_world, size, culling, counters, visit,
+        [&](const std::vector<vec3>& positions) { return transform(clip_from_world, positions); },
+        clip_triangle);
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What shading has to know of a triangle and of a point on it. Introduced in lesson 06.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "04_mvp/projection.hpp"
+#include "05_textures/interpolation.hpp"
+#include "05_textures/textures.hpp"
+#include "06_phong/effects.hpp"
+#include "06_phong/phong.hpp"
+#include "common/app/counters.hpp"
+
+namespace rasterbook {
+
+/// A triangle's material with its textures, and its vertex attributes.
+struct TriangleSurface {
+    const Material& material;
+    EffectMask effects;
+    const Texture *texture, *specular_texture;  ///< Null where the material names none.
+    SurfaceColor own_color;                     ///< Of the material alone.
+    std::array<vec2, 3> uvs{}, specular_uvs{};  ///< Only of what is read.
+    std::array<vec3, 3> positions_world;
+    std::array<vec3, 3> normals_world;  ///< Length 1, of the side that is seen; 0: none.
+};
+
+/// @param scene    As complete_normals() leaves its meshes.
+/// @param effects  Of the triangle's material.
+inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTextures& textures,
+                                        EffectMask effects, const ProjectedTriangle& projected) {
+    const Mesh& mesh = projected.mesh;
+    const Triangle& triangle = projected.triangle;
+    const std::size_t i = triangle.material;
+    TriangleSurface surface{.material = scene.materials[i],
+                            .effects = effects,
+                            .texture = textures.diffuse[i].get(),
+                            .specular_texture = textures.specular[i].get(),
+                            .own_color = surface_color(scene.materials[i]),
+                            .positions_world = {},
+                            .normals_world = {}};
+    if (surface.effects[Effect::texture])
+        surface.uvs = uvs_of(mesh, triangle, surface.material.diffuse_map);
+    if (surface.effects[Effect::specular_map])
+        surface.specular_uvs = uvs_of(mesh, triangle, surface.material.specular_map);
+    for (std::size_t v = 0; v < 3; ++v) {
+        const Vertex& vertex = triangle.vertices[v];
+        surface.positions_world[v] = mesh.positions[vertex.position];
+        if (vertex.normal == no_index) continue;
+        const vec3 normal = mesh.normals[vertex.normal];
+        surface.normals_world[v] = projected.is_back_facing ? -normal : normal;
+    }
+    return surface;
+}
+
+/// The colours of a fragment: the material's own, times its textures.
+template <typename CounterPolicy>
+SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycentrics& at,
+                           Filter filter, CounterPolicy& counters) {
+    SurfaceColor color = surface.own_color;
+    if (surface.effects[Effect::texture]) {
+        counters.add(Counter::texture_samples);
+        color.tint(vec3(sample(*surface.texture, filter, fragment_uv(surface.uvs, at))));
+    }
+    if (surface.effects[Effect::specular_map]) {
+        counters.add(Counter::texture_samples);
+        color.specular *=
+            vec3(sample(*surface.specular_texture, filter, fragment_uv(surface.specular_uvs, at)));
+    }
+    return color;
+}
+
+/// A point of a surface as light falls on it.
+///
+/// @param normal_world  Of any length (Eq. 6.8); where it has none, the first vertex's counts.
+template <typename CounterPolicy>
+SurfacePoint<float> surface_point(const TriangleSurface& surface, Barycentrics at,
+                                  vec3 normal_world, vec3 eye_world, CounterPolicy& counters) {
+    counters.add(Counter::fragments_lit);
+    SurfacePoint<float> point{interpolate(surface.positions_world, at),
+                              unit_or(normal_world, surface.normals_world[0]), vec3(0)};
+    if (surface.effects[Effect::highlight]) {
+        counters.add(Counter::highlights);
+        point.toward_eye = unit_or(eye_world - point.position_world, point.normal_world);
+    }
+    return point;
+}
+
+/// The highlight of its material.
+inline PhongHighlight highlight_of(const TriangleSurface& surface) {
+    return {surface.effects[Effect::highlight], surface.material.shininess};
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Normals from the maps that a scene's materials name. Introduced in lesson 08.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "04_mvp/projection.hpp"
+#include "05_textures/interpolation.hpp"
+#include "05_textures/textures.hpp"
+#include "06_phong/effects.hpp"
+#include "06_phong/normals.hpp"
+#include "08_normal_maps/normal_map.hpp"
+#include "08_normal_maps/normal_map_variants.hpp"
+#include "08_normal_maps/tangent_frame.hpp"
+#include "common/app/counters.hpp"
+
+namespace rasterbook {
+
+/// The normal maps of a scene: for each material.
+struct NormalMaps {
+    MaterialTextures textures;     ///< `norm`, or else `map_Bump`; null for what is not lit.
+    std::vector<MapSpace> spaces;  ///< In which its normals stand.
+};
+
+/// @param all_effects  A lit material without a map is given one that changes nothing.
+/// @throws InputError  As load_textures() has it.
+inline NormalMaps load_normal_maps(Scene& scene, const TextureOptions& options,
+                                   const NormalMapVariant& variant, bool all_effects) {
+    const auto calls_for_map = [&](const Material& material) {
+        return is_lit(material) && variant.space != MapSpace::none;
+    };
+    NormalMaps maps{load_textures(
+                        scene, &Material::normal_map, "norm", options,
+                        [&](const Image<u8vec4>& image, Wrap) { return variant.normals(image); },
+                        calls_for_map),
+                    std::vector<MapSpace>(scene.materials.size(), MapSpace::tangent)};
+    const MaterialTextures bumps = load_textures(
+        scene, &Material::bump_map, "map_Bump", options,
+        [&](const Image<u8vec4>& image, Wrap wrap) {
+            return variant.normals_of_bumps(image, wrap);
+        },
+        [&](const Material& material) {
+            return calls_for_map(material) && material.normal_map.file.empty();
+        });
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        if (maps.textures[i]) maps.spaces[i] = variant.space;
+        if (bumps[i]) maps.textures[i] = bumps[i];
+        if (!maps.textures[i] && is_lit(scene.materials[i]) && all_effects)
+            maps.textures[i] = constant_texture(vec4(0, 0, 1, 1));
+    }
+    return maps;
+}
+
+/// lesson 06's plan, with normal maps.
+inline std::vector<EffectMask> plan_effects(const Scene& scene, const SurfaceTextures& textures,
+                                            const NormalMaps& normal_maps, bool all_effects) {
+    std::vector<EffectMask> effects = plan_effects(scene, textures, all_effects);
+    for (std::size_t i = 0; i < effects.size(); ++i)
+        effects[i].set(Effect::normal_map, normal_maps.textures[i] != nullptr);
+    return effects;
+}
+
+/// The map of a material that its normals come from.
+inline const TextureMap& normal_map_of(const Material& material) {
+    return material.normal_map.file.empty() ? material.bump_map : material.normal_map;
+}
+
+/// Gives each mesh tangents for which a normal map in tangent space calls.
+inline void make_tangents(Scene& scene, const NormalMaps& maps, const NormalMapVariant& variant) {
+    if (variant.frame != FrameOf::vertex) return;
+    for (Mesh& mesh : scene.meshes)
+        if (std::ranges::any_of(mesh.triangles, [&](const Triangle& triangle) {
+                return maps.textures[triangle.material] &&
+                       maps.spaces[triangle.material] == MapSpace::tangent;
+            }))
+            mesh.tangents = vertex_tangents(mesh, [&](const Triangle& triangle) {
+                return uvs_of(mesh, triangle, normal_map_of(scene.materials[triangle.material]));
+            });
+}
+
+/// A triangle's normal map, and what its vertices have for it.
+struct TriangleNormalMap {
+    const Texture* texture = nullptr;  ///< Null where there is no map; then the rest means nothing.
+    MapSpace space = MapSpace::tangent;
+    float side = 1;             ///< -1 as seen from behind: what stands out there is a dent here.
+    float bump_multiplier = 1;  ///< -bm
+    std::array<vec2, 3> uvs{};
+    std::array<vec3, 3> tangents{};  ///< Of the vertices, or thrice that of the face.
+    float handedness = 1;
+    TangentFrame face{};  ///< For FrameOf::face.
+};
+
+/// @param scene  With tangents, as make_tangents() leaves them.
+inline TriangleNormalMap triangle_normal_map(const NormalMapVariant& variant, const Scene& scene,
+                                             const NormalMaps& maps,
+                                             const ProjectedTriangle& projected) {
+    const auto& [positions, indices, material] = std::tie(
+        projected.mesh.positions, projected.triangle.vertices, projected.triangle.material);
+    TriangleNormalMap map{.texture = maps.textures[material].get()};
+    if (map.texture == nullptr) return map;
+    const TextureMap& named = normal_map_of(scene.materials[material]);
+    map.space = maps.spaces[material];
+    map.side = projected.is_back_facing ? -1.0f : 1.0f;
+    map.bump_multiplier = named.bump_multiplier;
+    map.uvs = uvs_of(projected.mesh, projected.triangle, named);
+    if (map.space == MapSpace::object) return map;
+    if (variant.frame == FrameOf::vertex) {
+        const std::vector<vec4>& tangents = projected.mesh.tangents;
+        for (std::size_t i = 0; i < 3; ++i)
+            map.tangents[i] = map.side * vec3(tangents[indices[i].normal]);
+        map.handedness = map.side * tangents[indices[0].normal].w;
+        return map;
+    }
+    const UvDirections directions =
+        uv_directions({positions[indices[0].position], positions[indices[1].position],
+                       positions[indices[2].position]},
+                      map.uvs);
+    map.handedness = directions.handedness < 0 ? -map.side : map.side;
+    map.tangents.fill(map.side * directions.tangent);
+    map.face =
+        tangent_frame(map.tangents[0], map.side * face_normal(projected.mesh, projected.triangle),
+                      map.handedness);
+    return map;
+}
+
+/// The frame in a fragment, as the variant has it.
+inline TangentFrame frame_at(const TriangleNormalMap& map, const NormalMapVariant& variant,
+                             Barycentrics at, vec3 normal) {
+    if (variant.frame == FrameOf::face)
+        return {map.face.tangent, map.face.bitangent, unit_or(normal, map.face.normal)};
+    const vec3 tangent = interpolate(map.tangents, at);
+    if (variant.frame == FrameOf::vertex && variant.orthonormal == Orthonormal::at_vertices)
+        return {tangent, map.handedness * glm::cross(normal, tangent), normal};
+    return tangent_frame(tangent, normal, map.handedness);
+}
+
+/// The normal that a map makes of a surface's own.
+///
+/// @param normal  Interpolated, not yet scaled.
+/// @return        Of any length.
+template <typename CounterPolicy>
+vec3 normal_mapped(const TriangleNormalMap& map, const NormalMapVariant& variant,
+                   const FragmentBarycentrics& at, vec3 normal, Filter filter,
+                   CounterPolicy& counters) {
+    if (map.texture == nullptr) return normal;
+    counters.add(Counter::normal_map_samples);
+    vec3 in_map = sample_normal(*map.texture, filter, fragment_uv(map.uvs, at));
+    if (variant.channels == Channels::xy) in_map = with_z(vec2(in_map));
+    if (map.space == MapSpace::object) return map.side * in_map;
+    if (map.bump_multiplier != 1) in_map.x *= map.bump_multiplier, in_map.y *= map.bump_multiplier;
+    return perturbed(frame_at(map, variant, at.here, normal), in_map, normal);
+}
+
+/// Where the key light stands: low, so that its light rakes over what stands out.
+constexpr vec3 low_key(-1.2f, 0.3f, 0.22f);
+
+}  // namespace rasterbook

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The shadow maps of all lights, and how much of each light reaches a point. Introduced in lesson
+/// 09; derivation: docs/derivations/09_shadow_maps.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/trigonometric.hpp>
+
+#include "04_mvp/projection.hpp"
+#include "06_phong/effects.hpp"
+#include "06_phong/light.hpp"
+#include "09_shadow_maps/light_view.hpp"
+#include "09_shadow_maps/shadow_map.hpp"
+#include "09_shadow_maps/shadow_variants.hpp"
+
+namespace rasterbook {
+
+/// Whether a material stops light: where it is lit itself (a sky or a bulb, illum 0, is not), and
+/// where none passes through (d is 1).
+inline bool casts_shadows(const Material& material) {
+    return is_lit(material) && material.opacity >= 1 && material.alpha != AlphaMode::blend;
+}
+
+/// What of a scene casts shadows, and what gets them.
+struct ShadowBounds {
+    Bounds casters, receivers;  ///< World space, of their triangles; empty where there are none.
+};
+
+inline ShadowBounds shadow_bounds(const Scene& scene) {
+    ShadowBounds bounds;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Triangle& triangle : mesh.triangles) {
+            const Material& material = scene.materials[triangle.material];
+            for (const Vertex& vertex : triangle.vertices) {
+                const vec3 position = mesh.positions[vertex.position];
+                if (casts_shadows(material)) bounds.casters.add(position);
+                if (is_lit(material)) bounds.receivers.add(position);
+            }
+        }
+    return bounds;
+}
+
+/// A warm light from the left, so low that shadows are long, and a cool one in front. The second
+/// stands for the sky, whose light comes from all sides.
+///
+/// @param key     The warm light's kind.
+/// @param bounds  Of the scene, world space.
+inline std::array<Light, 2> raking_lights(LightKind key, const Bounds& bounds) {
+    const vec3 center = bounds.center();
+    const float radius = bounds.radius();
+    const vec3 toward_key = unit_or(vec3(-0.9f, 0.5f, -0.2f), vec3(0, 1, 0));
+    const vec3 toward_sky = unit_or(vec3(0.5f, 0.7f, 0.9f), vec3(0, 1, 0));
+    Light light{key, 1.5f * vec3(1.0f, 0.87f, 0.68f), toward_key};
+    if (key != LightKind::directional) {
+        light.position_world = center + radius * vec3(-0.7f, 0.8f, 0.0f);
+        light.half_distance = std::max(radius, std::numeric_limits<float>::min());
+        light.color *= 2.0f;
+    }
+    if (key == LightKind::spot) {
+        const vec3 target = center + radius * vec3(0.12f, -0.15f, 0.1f);
+        light.direction_world = unit_or(target - light.position_world, -toward_key);
+        light.cos_full = std::cos(glm::radians(19.0f));
+        light.cos_none = std::cos(glm::radians(24.0f));
+    }
+    return {light, Light{LightKind::directional, vec3(0.13f, 0.18f, 0.27f), toward_sky}};
+}
+
+/// The key light casts shadows. The sky casts none: what comes from all sides has no edges.
+constexpr std::array<bool, 2> light_casts = {true, false};
+
+static_assert(margin_texels > max_pcf_radius);
+
+constexpr std::size_t max_lights = 16;
+constexpr std::size_t max_shadow_maps = 12;  ///< Of all lights: those of two point lights.
+
+/// A light's shadow maps.
+struct LightShadowMaps {
+    static constexpr std::size_t no_map = 6;
+
+    Light light;
+    std::vector<ShadowMap> maps;
+    std::size_t first_map = 0;               ///< Counted through all lights.
+    std::array<std::size_t, 6> map_of_view;  ///< no_map where nothing can be in shadow.
+    bool is_drawn = false;                   ///< Else the maps are there, but empty.
+    bool has_faces = false;                  ///< The views are those of cube_face().
+};
+
+/// The shadow maps of all lights.
+struct ShadowMaps {
+    int radius;  ///< Of a test: 2 radius + 1 texels a side.
+    Bias bias;
+    std::vector<LightShadowMaps> of_light;
+};
+
+/// A light's maps, not yet drawn: one for each view in which there are a caster and a receiver.
+inline LightShadowMaps make_shadow_maps(const Light& light, int size, const ShadowBounds& bounds,
+                                        const Bounds& reach) {
+    LightShadowMaps made{.light = light, .maps = {}, .map_of_view = {}};
+    const LightViews views = light_views(light, bounds.casters, bounds.receivers, size);
+    made.map_of_view.fill(LightShadowMaps::no_map);
+    made.has_faces = views.count == 6;
+    made.maps.reserve(views.count);
+    for (std::size_t i = 0; i < views.count; ++i) {
+        if (is_outside_frustum(bounds.casters, views.clip_from_world[i]) ||
+            is_outside_frustum(bounds.receivers, views.clip_from_world[i]))
+            continue;
+        made.map_of_view[i] = made.maps.size();
+        made.maps.emplace_back(views.clip_from_world[i], views.is_perspective, size, reach,
+                               DepthBuffer(ivec2(size + 2 * max_pcf_radius), unset));
+    }
+    return made;
+}
+
+/// The shadow maps of a scene, drawn as `draw` does it.
+///
+/// @param all_effects  Lights without shadows have maps, too, with nothing in them.
+/// @param lights       At most max_lights. One whose maps would be more than max_shadow_maps with
+///                     those before it has none, and casts no shadow.
+/// @param casts        For each light, whether it casts shadows.
+/// @param draw         Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths,
+///                     and draws the scene's casters, or nothing where a map stays empty.
+template <typename CounterPolicy, typename Draw>
+ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, const Scene& scene,
+                            const ShadowBounds& bounds, std::span<const Light> lights,
+                            std::span<const bool> casts, CounterPolicy& counters, Draw&& draw) {
+    assert(lights.size() <= max_lights && casts.size() >= lights.size());
+    ShadowMaps shadow_maps{variant.radius(), variant.bias, {}};
+    const Bounds all = scene.bounds();
+    std::size_t count = 0;
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+        LightShadowMaps of_light;
+        if (casts[l]) of_light = make_shadow_maps(lights[l], variant.size, bounds, all);
+        of_light.is_drawn = !of_light.maps.empty();
+        if (!of_light.is_drawn && all_effects)
+            of_light = make_shadow_maps(lights[l], variant.size, {all, all}, all);
+        if (count + of_light.maps.size() > max_shadow_maps) of_light = {};
+        of_light.light = lights[l];
+        of_light.first_map = count;
+        count += of_light.maps.size();
+        for (ShadowMap& map : of_light.maps) {
+            counters.add(Counter::shadow_passes);
+            draw(map, of_light.is_drawn);
+        }
+        shadow_maps.of_light.push_back(std::move(of_light));
+    }
+    return shadow_maps;
+}
+
+/// The same, drawn one mesh after the other, for the lights of this lesson.
+template <typename CounterPolicy>
+ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, const Scene& scene,
+                            const ShadowBounds& bounds, std::span<const Light> lights,
+                            CounterPolicy& counters) {
+    const auto casts = [&](std::size_t material) {
+        return casts_shadows(scene.materials[material]);
+    };
+    return draw_shadow_maps(variant, all_effects, scene, bounds, lights, light_casts, counters,
+                            [&](ShadowMap& map, bool is_drawn) {
+                                map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
+                                if (is_drawn)
+                                    for (const Mesh& mesh : scene.meshes)
+                                        draw_casters(map, mesh, casts, counters);
+                            });
+}
+
+/// A triangle on which shadows fall, and the biases that have been fitted to it.
+///
+/// A triangle has two sides. A point is on the one to which its normal leads, and the bias of that
+/// side in a map is fitted at the first test there. It is the same whichever point is the first.
+struct TriangleReceiver {
+    std::array<vec3, 3> vertices;
+    dvec3 front;  ///< The flat triangle's normal, of any length.
+    /// By map and side: front, back.
+    std::array<std::array<std::optional<Receiver>, 2>, max_shadow_maps> biases{};
+};
+
+inline TriangleReceiver triangle_receiver(const std::array<vec3, 3>& vertices) {
+    const dvec3 a = vertices[0], b = vertices[1], c = vertices[2];
+    return {vertices, glm::cross(b - a, c - a)};
+}
+
+/// A surface gets all of a light from this cosine on; from there to 0, where it turns away, less
+/// and less (Eq. 9.16). A normal map may still lean it towards the light, but it is in shadow.
+constexpr float full_cosine = 0.1f;
+
+/// How much of a light reaches a point of a triangle: 0 to 1.
+///
+/// No map is asked where the surface is turned away from the light.
+///
+/// @param l       The light's number.
+/// @param normal  The surface's own, no map's; of any length.
+template <typename CounterPolicy>
+float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleReceiver& triangle,
+                       vec3 position, vec3 normal, CounterPolicy& counters) {
+    const LightShadowMaps& of_light = shadow_maps.of_light[l];
+    if (of_light.maps.empty()) return 1;
+    const vec3 from_light = position - of_light.light.position_world;
+    const vec3 toward_light = of_light.light.kind == LightKind::directional
+                                  ? of_light.light.direction_world
+                                  : unit_or(-from_light, vec3(0, 1, 0));
+    const float cosine = glm::dot(unit_or(normal, vec3(0)), toward_light);
+    if (!(cosine > 0)) return of_light.is_drawn ? 0.0f : 1.0f;
+    const std::size_t i = of_light.map_of_view[of_light.has_faces ? cube_face(from_light) : 0];
+    const float faded = of_light.is_drawn ? min(cosine / full_cosine, 1.0f) : 1.0f;
+    if (i == LightShadowMaps::no_map) return faded;
+    counters.add(Counter::shadow_tests);
+    const ShadowMap& map = of_light.maps[i];
+    const bool is_back = glm::dot(triangle.front, dvec3(normal)) < 0;
+    std::optional<Receiver>& bias = triangle.biases[of_light.first_map + i][is_back];
+    if (!bias)  // most triangles are seen in one map of a point light, and from one side
+        bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
+                        is_back ? -triangle.front : triangle.front);
+    return faded * pcf_visibility(map, shadow_maps.radius, *bias, position);
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A scene of any file with all that it calls for. Introduced in lesson 11.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "04_mvp/camera.hpp"
+#include "04_mvp/clip.hpp"
+#include "06_phong/effects.hpp"
+#include "06_phong/normals.hpp"
+#include "08_normal_maps/normal_mapping.hpp"
+#include "09_shadow_maps/shadows.hpp"
+#include "10_threading/binned_triangles.hpp"
+#include "10_threading/split.hpp"
+#include "11_scenes/scene_lights.hpp"
+#include "11_scenes/scene_plan.hpp"
+#include "11_scenes/toon_material.hpp"
+#include "common/app/counters.hpp"
+#include "common/image/backdrop.hpp"
+
+namespace rasterbook {
+
+/// A scene, its lights, its plan and its outlines.
+struct SceneAssets {
+    Scene scene;
+    SurfaceTextures textures;
+    NormalMaps normal_maps;
+    ShadowBounds shadow_bounds;
+    SceneLights lit_by;
+    ScenePlan plan;
+    std::vector<OutlineHull> hulls;
+    bool is_on_paper;  ///< All of it is a comic, with dark outlines: paper lies behind.
+};
+
+/// Whether all that is seen of a scene has a comic's paint, and some of it an outline.
+inline bool is_comic(const Scene& scene) {
+    bool has_outlines = false;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Triangle& triangle : mesh.triangles) {
+            const Material& material = scene.materials[triangle.material];
+            if (!material.toon) return false;
+            has_outlines = has_outlines || has_outline(material);
+        }
+    return has_outlines;
+}
+
+/// For --all-effects, beside what lesson 06 adds: unlit materials get a comic's paint of one
+/// colour, and vertices white colours.
+inline void add_neutral_inputs(Scene& scene) {
+    for (Mesh& mesh : scene.meshes) {
+        for (const Triangle& triangle : mesh.triangles) {
+            Material& material = scene.materials[triangle.material];
+            if (!is_lit(material) && !material.toon)
+                material.toon = ToonMaterial{.shade = material.diffuse};
+        }
+        if (mesh.colors.empty()) mesh.colors.assign(mesh.positions.size(), vec4(1));
+    }
+}
+
+/// @param options  Has TextureOptions `texture`, NormalMapVariant `normal_map` and LightOptions
+///                 `shading`.
+template <typename Options>
+SceneAssets make_scene_assets(Scene from, const Options& options) {
+    const bool all_effects = options.shading.all_effects;
+    Scene scene = with_outline_materials(std::move(from));
+    const bool is_on_paper = is_comic(scene);
+    complete_normals(scene);
+    SurfaceTextures textures = load_surface_textures(scene, options.texture);
+    NormalMaps normal_maps =
+        load_normal_maps(scene, options.texture, options.normal_map, all_effects);
+    make_tangents(scene, normal_maps, options.normal_map);
+    if (all_effects) {
+        add_neutral_inputs(scene, textures);
+        add_neutral_inputs(scene);
+    }
+    const ShadowBounds bounds = shadow_bounds(scene);
+    SceneLights lit_by = lights_of(scene, options.shading.key_light, scene.warnings);
+    const PlanInputs inputs{.has_lights = !lit_by.lights.empty(),
+                            .has_shadows = bounds.casters.min.x <= bounds.casters.max.x &&
+                                           bounds.receivers.min.x <= bounds.receivers.max.x,
+                            .normal_maps = options.normal_map.space != MapSpace::none,
+                            .two_sided = options.shading.two_sided,
+                            .all_effects = all_effects};
+    ScenePlan plan = plan_scene(scene, textures, normal_maps, inputs);
+    std::vector<OutlineHull> hulls = outline_hulls(scene);
+    for (const Material& material : scene.materials)
+        if (!material.opacity_map.file.empty())
+            scene.warnings.push_back("material \"" + material.name +
+                                     "\": map_d is passed over: holes are drawn for glTF files, by "
+                                     "the fourth number of their colour");
+    return {std::move(scene),  std::move(textures), std::move(normal_maps), bounds,
+            std::move(lit_by), std::move(plan),     std::move(hulls),       is_on_paper};
+}
+
+/// Draws paper behind a part of a picture.
+inline void draw_paper(Image<vec3>& color, const Tile& part) {
+    for_each_strip(part, [&](const PixelBox& strip) {
+        for (int y = strip.first.y; y <= strip.last.y; ++y)
+            for (int x = strip.first.x; x <= strip.last.x; ++x) color[{x, y}] = paper_color;
+    });
+}
+
+/// The outlines as a camera is to see them.
+inline std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera) {
+    std::vector<Mesh> outlines;
+    outlines.reserve(assets.hulls.size());
+    for (const OutlineHull& hull : assets.hulls) outlines.push_back(pushed(hull, camera));
+    return outlines;
+}
+
+/// What may be seen of a scene and its outlines. Only the scene's own meshes are counted.
+template <typename CounterPolicy>
+std::vector<const Mesh*> seen_meshes(const Scene& scene, std::span<const Mesh> outlines,
+                                     const mat4& clip_from_world, CounterPolicy& counters) {
+    std::vector<const Mesh*> meshes = meshes_in_view(scene, clip_from_world, counters);
+    for (const Mesh& mesh : outlines)
+        if (!is_outside_frustum(mesh.bounds, clip_from_world)) meshes.push_back(&mesh);
+    return meshes;
+}
+
+/// Triangles that are drawn together: those of materials that are opaque, or are glass, and that
+/// are seen from both sides or from the front alone.
+struct Pass {
+    bool is_blended;  ///< They become transparent: glass, and with all effects forced the others,
+                      ///< too.
+    bool is_glass;
+    Culling culling;
+    std::vector<const Mesh*> meshes{};
+
+    bool takes(const ScenePlan& scene_plan, std::size_t material) const {
+        const MaterialPlan& plan = scene_plan.materials[material];
+        return plan[Effect::blend] == is_blended && plan.is_glass == is_glass &&
+               plan.two_sided == (culling == Culling::none);
+    }
+};
+
+/// The passes that a scene calls for: what is opaque first, as glass is drawn over it.
+///
+/// @param meshes  Those in the camera's view: of the scene, and of outlines.
+inline std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* const> meshes) {
+    std::vector<Pass> passes;
+    for (const auto& [is_blended, is_glass] :
+         {std::pair{false, false}, {true, false}, {true, true}})
+        for (const Culling culling : {Culling::back_faces, Culling::none}) {
+            Pass pass{is_blended, is_glass, culling};
+            for (const Mesh* const mesh : meshes)
+                if (std::ranges::any_of(mesh->triangles, [&](const Triangle& triangle) {
+                        return pass.takes(plan, triangle.material);
+                    }))
+                    pass.meshes.push_back(mesh);
+            if (!pass.meshes.empty()) passes.push_back(std::move(pass));
+        }
+    return passes;
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Shader permutations: the pipeline of a triangle, compiled for one set of effects after the
+/// other, and chosen once for a material. Introduced in lesson 11; derivation:
+/// docs/derivations/11_scenes.md.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "03_z_buffer/depth_buffer.hpp"
+#include "05_textures/interpolation.hpp"
+#include "06_phong/phong.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "08_normal_maps/normal_mapping.hpp"
+#include "09_shadow_maps/shadows.hpp"
+#include "10_threading/split.hpp"
+#include "11_scenes/blending.hpp"
+#include "11_scenes/scene_assets.hpp"
+
+namespace rasterbook {
+
+/// How a fragment gets its colour.
+enum class ShadingModel { unlit, phong, toon };
+
+/// The effects that a shader is compiled with.
+struct Permutation {
+    ShadingModel model = ShadingModel::unlit;
+    bool normal_map = false;
+    bool shadow = false;
+
+    bool operator==(const Permutation&) const = default;
+};
+
+/// All permutations. A comic's paint has one alone, since few materials have it: whether there is a
+/// normal map is asked at run time (Eq. 11.3).
+constexpr std::array all_permutations = {
+    Permutation{ShadingModel::unlit, false, false}, Permutation{ShadingModel::phong, false, false},
+    Permutation{ShadingModel::phong, false, true},  Permutation{ShadingModel::phong, true, false},
+    Permutation{ShadingModel::phong, true, true},   Permutation{ShadingModel::toon, true, true}};
+
+/// The permutation that is compiled with what a material's plan has, and as little beyond it as
+/// there is.
+inline std::size_t permutation_of(const MaterialPlan& plan) {
+    Permutation effects{plan[Effect::toon]    ? ShadingModel::toon
+                        : plan[Effect::light] ? ShadingModel::phong
+                                              : ShadingModel::unlit,
+                        plan[Effect::normal_map], plan[Effect::shadow]};
+    if (effects.model != ShadingModel::phong)
+        effects.normal_map = effects.shadow = effects.model == ShadingModel::toon;
+    for (std::size_t i = 0; i < all_permutations.size(); ++i)
+        if (all_permutations[i] == effects) return i;
+    assert(false && "all sets have a permutation");
+    return 0;
+}
+
+/// What a picture is drawn with, and into.
+struct Frame {
+    const SceneAssets& assets;
+    NormalMapVariant normal_map;
+    Filter filter;
+    vec3 eye_world;
+    const ShadowMaps& shadow_maps;
+    Image<vec3>& color;
+    DepthBuffer& depth;
+};
+
+/// The colors of a triangle's vertices.
+struct VertexColors {
+    bool are_there = false;
+    std::array<vec4, 3> of_vertices{};
+
+    /// Exactly the vertices' color where all three agree: barycentric coordinates add up to 1 but
+    /// for rounding.
+    vec4 at(Barycentrics at) const {
+        return of_vertices[0] + at.y * (of_vertices[1] - of_vertices[0]) +
+               at.z * (of_vertices[2] - of_vertices[0]);
+    }
+};
+
+inline VertexColors vertex_colors(EffectMask effects, const ProjectedTriangle& projected) {
+    const std::vector<vec4>& colors = projected.mesh.colors;
+    VertexColors result{effects[Effect::vertex_colors] && !colors.empty()};
+    for (std::size_t i = 0; result.are_there && i < 3; ++i)
+        result.of_vertices[i] = colors[projected.triangle.vertices[i].position];
+    return result;
+}
+
+/// How opaque a fragment is, 0 to 1: by the material, its texture and the vertices (Eq. 11.7).
+template <typename CounterPolicy>
+float opacity_at(const TriangleSurface& surface, const VertexColors& colors,
+                 const FragmentBarycentrics& at, Filter filter, CounterPolicy& counters) {
+    float opacity = surface.material.opacity;
+    if (surface.effects[Effect::texture]) {
+        counters.add(Counter::texture_samples);
+        opacity *= sample(*surface.texture, filter, fragment_uv(surface.uvs, at)).a;
+    }
+    if (colors.are_there) opacity *= colors.at(at.here).a;
+    return clamp(opacity, 0.0f, 1.0f);
+}
+
+/// Draws what of a triangle lies in a tile.
+///
+/// @param transparent  Takes the fragments through which one sees what lies behind.
+template <Permutation with, typename CounterPolicy>
+void draw_triangle(const Frame& frame, const ProjectedTriangle& projected, const Tile& tile,
+                   TransparentFragments& transparent, CounterPolicy& counters) {
+    const SceneAssets& assets = frame.assets;
+    const std::span<const Light> lights = assets.lit_by.lights;
+    const MaterialPlan& plan = assets.plan.materials[projected.triangle.material];
+    TriangleSurface surface =
+        triangle_surface(assets.scene, assets.textures, plan.effects, projected);
+    if constexpr (with.model == ShadingModel::toon)
+        surface.own_color.ambient = surface.material.toon->shade;
+    const PerspectiveSetup setup = perspective_setup(projected);
+    const VertexColors colors = vertex_colors(plan.effects, projected);
+    TriangleNormalMap normal_map;
+    if constexpr (with.normal_map)
+        normal_map =
+            triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
+    TriangleReceiver receiver = triangle_receiver(surface.positions_world);
+
+    const auto shaded = [&](const FragmentBarycentrics& at) {
+        SurfaceColor own = surface_color(surface, at, frame.filter, counters);
+        if (colors.are_there) {  // Eq. 11.10
+            counters.add(Counter::colored_fragments);
+            own.tint(vec3(colors.at(at.here)));
+        }
+        if constexpr (with.model == ShadingModel::unlit) {
+            return unlit(own);
+        } else {
+            const vec3 own_normal = interpolate(surface.normals_world, at.here);
+            vec3 normal = own_normal;
+            if constexpr (with.normal_map)
+                normal = normal_mapped(normal_map, frame.normal_map, at, own_normal, frame.filter,
+                                       counters);
+            const SurfacePoint<float> point =
+                surface_point(surface, at.here, normal, frame.eye_world, counters);
+            const auto visibility = [&](std::size_t l) {
+                if constexpr (with.shadow)
+                    return light_visibility(frame.shadow_maps, l, receiver, point.position_world,
+                                            own_normal, counters);
+                else
+                    return 1.0f;
+            };
+            if constexpr (with.model == ShadingModel::phong) {
+                return phong(own, ambient_light,
+                             reflected_light(lights, point, highlight_of(surface), visibility));
+            } else {
+                counters.add(Counter::toon_fragments);
+                const float level = toon_level(lights, point.position_world, normal,
+                                               *surface.material.toon, visibility);
+                return own.emission + toon_paint(own.ambient, own.diffuse, level);
+            }
+        }
+    };
+
+    const bool is_masked = plan[Effect::mask], is_blended = plan[Effect::blend];
+    fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
+        counters.add(Counter::fragments_tested);
+        const float depth = projected.depth.at(on_screen);
+        if (!(depth < frame.depth.depths()[pixel])) return;
+        const FragmentBarycentrics at = perspective_correct(setup, on_screen);
+        float opacity = 1;  // also of what is neither glass nor has holes
+        if (is_masked || plan.is_glass)
+            opacity = opacity_at(surface, colors, at, frame.filter, counters);
+        if (is_masked) {
+            counters.add(Counter::alpha_tested_fragments);
+            if (!passes_alpha_test(opacity, surface.material.alpha_cutoff)) return;
+            opacity = 1;
+        }
+        counters.add(Counter::fragments_shaded);
+        const vec3 color = shaded(at);
+        if (is_blended) {  // what lies behind stays visible: no depth is written
+            counters.add(Counter::blended_fragments);
+            transparent.add({pixel, depth, opacity, color});
+        } else {
+            frame.depth.test_and_write(pixel, depth);
+            frame.color[pixel] = color;
+        }
+    });
+}
+
+/// For each material its shader.
+template <typename CounterPolicy>
+class Shaders {
+  public:
+    using Shader = void (*)(const Frame&, const ProjectedTriangle&, const Tile&,
+                            TransparentFragments&, CounterPolicy&);
+
+    explicit Shaders(const ScenePlan& plan) {
+        for (const MaterialPlan& material : plan.materials)
+            of_material_.push_back(table[permutation_of(material)]);
+    }
+
+    Shader operator[](std::size_t material) const { return of_material_[material]; }
+
+  private:
+    template <std::size_t... i>
+    static constexpr std::array<Shader, sizeof...(i)> compiled(std::index_sequence<i...>) {
+        return {&draw_triangle<all_permutations[i], CounterPolicy>...};
+    }
+    static constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
+
+    std::vector<Shader> of_material_;
+};
+
+}  // namespace rasterbook

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Surfaces of a file that want to be drawn as in a comic: light in two colours, and an outline of
+/// their own. Introduced in lesson 11; derivation: docs/derivations/11_scenes.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "04_mvp/camera.hpp"
+#include "06_phong/light.hpp"
+#include "07_toon/outline.hpp"
+#include "07_toon/toon.hpp"
+#include "common/math/functions.hpp"
+#include "common/model/mesh.hpp"
+
+namespace rasterbook {
+
+/// How much of the lit colour a light gives, before shadows: 0 to 1 (Eq. 11.4).
+///
+/// @param cosine  Of the angle between normal and light. NaN counts as no light.
+inline float toon_step(float cosine, const ToonMaterial& look) {
+    const float turned = cosine + look.shift, half_width = 1 - look.toony;
+    if (half_width <= 0) return turned >= 0 ? 1.0f : 0.0f;
+    const float step = (turned + half_width) / (2 * half_width);
+    return std::min(std::max(0.0f, step), 1.0f);  // 0 first: never NaN
+}
+
+/// The level of light on a point: 0 is its colour in the shade, 1 its lit one (Eq. 11.5).
+///
+/// How bright the lights are does not count, only how bright they are beside the brightest one
+/// there: so a picture in one light has two colours for each paint, and no more.
+///
+/// @param normal_world  Of any length. Without a direction, all lights graze it: the cosine is 0.
+/// @return  0 to 1; 0 where no light arrives.
+/// @param share         Called as share(l): how much of light l reaches the point. Half of it is
+///                      all: a comic's shadows have edges.
+template <typename Share>
+float toon_level(std::span<const Light> lights, vec3 position_world, vec3 normal_world,
+                 const ToonMaterial& look, Share&& share) {
+    const vec3 normal = unit_or(normal_world, vec3(0));
+    float sum = 0, brightest = 0;
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+        const Incoming incoming = incoming_light(lights[l], position_world);
+        const float arriving = brightness(incoming.color);
+        brightest = std::max(brightest, arriving);
+        if (share(l) >= 0.5f) sum += arriving * toon_step(glm::dot(normal, incoming.toward), look);
+    }
+    return brightest > 0 ? std::min(sum / brightest, 1.0f) : 0.0f;
+}
+
+/// From the colour in the shade to the lit one. Where both are equal, it is exactly that colour.
+inline vec3 toon_paint(vec3 shade, vec3 lit, float level) { return shade + level * (lit - shade); }
+
+/// A mesh's outline: its faces turned inside out, of the outline's colour, to be pushed outwards.
+struct OutlineHull {
+    Mesh mesh;
+    std::vector<vec3> places, normals;  ///< Of each position: before it is pushed; whereto.
+    std::vector<float> widths;          ///< World space, or in heights of the picture.
+    std::vector<bool> on_screen;        ///< Whether its width is in heights of the picture.
+};
+
+/// The material of a toon material's outline: unlit, of its colour.
+inline Material outline_material(const Material& of) {
+    Material material;
+    material.name = "outline of " + of.name;
+    material.illumination = 0;
+    material.diffuse = material.ambient = of.toon->outline_color;
+    return material;
+}
+
+/// Whether a material has an outline of its own.
+inline bool has_outline(const Material& material) {
+    return material.toon && material.toon->outline != ToonMaterial::Outline::none &&
+           material.toon->outline_width > 0;
+}
+
+/// Adds the materials of outlines to a scene: behind all of its own, in their order.
+inline Scene with_outline_materials(Scene scene) {
+    const std::size_t count = scene.materials.size();
+    for (std::size_t i = 0; i < count; ++i)
+        if (has_outline(scene.materials[i]))
+            scene.materials.push_back(outline_material(scene.materials[i]));
+    return scene;
+}
+
+/// The first of these materials: those before it are the scene's own.
+inline std::size_t first_outline_material(std::span<const Material> materials) {
+    return materials.size() -
+           static_cast<std::size_t>(std::ranges::count_if(materials, has_outline));
+}
+
+/// The hulls of all meshes of a scene that has been given outlines' materials.
+inline std::vector<OutlineHull> outline_hulls(const Scene& scene) {
+    std::map<std::size_t, std::uint32_t> outline_of;
+    for (std::size_t i = 0, next = first_outline_material(scene.materials);
+         i < scene.materials.size(); ++i)
+        if (has_outline(scene.materials[i])) outline_of[i] = static_cast<std::uint32_t>(next++);
+    std::vector<OutlineHull> hulls;
+    for (const Mesh& mesh : scene.meshes) {
+        OutlineHull hull;
+        hull.widths.assign(mesh.positions.size(), 0.0f);
+        hull.on_screen.assign(mesh.positions.size(), false);
+        for (const Triangle& triangle : mesh.triangles) {
+            const auto outline = outline_of.find(triangle.material);
+            if (outline == outline_of.end()) continue;
+            const auto& [a, b, c] = triangle.vertices;
+            const Vertex p{a.position}, q{b.position}, r{c.position};
+            hull.mesh.triangles.push_back({{p, r, q}, outline->second});
+            const ToonMaterial& look = *scene.materials[triangle.material].toon;
+            for (const Vertex vertex : {p, q, r}) {
+                hull.widths[vertex.position] = look.outline_width;
+                hull.on_screen[vertex.position] = look.outline == ToonMaterial::Outline::screen;
+            }
+        }
+        if (hull.mesh.triangles.empty()) continue;
+        hull.mesh.name = "outline of " + mesh.name;
+        hull.mesh.positions = hull.places = mesh.positions;
+        hull.normals = hull_normals(mesh);
+        hulls.push_back(std::move(hull));
+    }
+    return hulls;
+}
+
+/// A hull as a camera is to see it: each point is pushed along its normal, by the outline's width
+/// in the world, or by the length that looks so wide where the point is (Eq. 11.6).
+inline Mesh pushed(const OutlineHull& hull, const Camera& camera) {
+    Mesh mesh = hull.mesh;
+    const float height_per_distance = 2 * std::tan(camera.fov_y_radians / 2);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        float width = hull.widths[i];
+        if (hull.on_screen[i]) {
+            const vec3 seen(camera.view_from_world * vec4(hull.places[i], 1));
+            width *= height_per_distance * std::max(-seen.z, 0.0f);
+        }
+        mesh.positions[i] = hull.places[i] + width * hull.normals[i];
+        mesh.bounds.add(mesh.positions[i]);
+    }
+    return mesh;
+}
+
+}  // namespace rasterbook

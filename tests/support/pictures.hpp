@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Pictures that a lesson draws of the course's models, and what is asked of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+
+#include "common/app/counters.hpp"
+#include "common/image/image.hpp"
+#include "common/model/mesh.hpp"
+#include "common/model/model_file.hpp"
+
+namespace rasterbook::test {
+
+/// One of the course's models: "scene.obj".
+inline Scene loaded(const std::string& name) {
+    return load_model(std::filesystem::path(RASTERBOOK_ASSETS) / "models" / name);
+}
+
+/// Whether two pictures agree in every bit: -0 differs from 0, and NaN agrees with itself.
+inline bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
+    return a.size() == b.size() &&
+           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+/// A picture, and what was done to make it.
+struct Drawn {
+    Image<vec3> picture;
+    Counters counters;
+
+    std::uint64_t count(Counter counter) const {
+        return counters.values[static_cast<std::size_t>(counter)];
+    }
+};
+
+/// @param render  Called as render(options, assets, counters): that of a lesson
+/// (support/lessons.hpp).
+template <typename Options, typename Assets, typename Render>
+Drawn drawn(const Options& options, const Assets& assets, Render&& render) {
+    Drawn result;
+    result.picture = render(options, assets, result.counters);
+    return result;
+}
+
+}  // namespace rasterbook::test
