@@ -1,10 +1,12 @@
 """Where things are on the site, for the texts and for the comments in the code."""
 
 import re
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 LESSONS = sorted(folder.name for folder in (ROOT / "lessons").glob("[0-9][0-9]_*"))
+FILES = Counter(file.name for file in (ROOT / "lessons").glob("[0-9][0-9]_*/*.[ch]pp"))
 EQUATION = re.compile(r"\bEq\. \d+\.\d+(?:(?:, | and )\d+\.\d+)*")
 
 
@@ -20,6 +22,6 @@ def link_equations(citation: str) -> str:
 def source_page(path: Path) -> str:
     """Doxygen's name for the page with a file's code: that of lessons/02_x/main.cpp is
     02__x_2main_8cpp_source.html, since other lessons have a main.cpp too."""
-    name = str(path.relative_to(ROOT / "lessons")) if path.name == "main.cpp" else path.name
+    name = str(path.relative_to(ROOT / "lessons")) if FILES[path.name] > 1 else path.name
     escapes = {"_": "__", "/": "_2", ".": "_8"}
     return "".join(escapes.get(c, c) for c in name) + "_source.html"
