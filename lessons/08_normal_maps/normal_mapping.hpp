@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
 #include <tuple>
 #include <vector>
 
@@ -57,7 +56,7 @@ inline NormalMaps load_normal_maps(Scene& scene, const TextureOptions& options,
     return maps;
 }
 
-/// lesson 06's plan, with normal maps.
+/// Lesson 06's plan, with normal maps.
 inline std::vector<EffectMask> plan_effects(const Scene& scene, const SurfaceTextures& textures,
                                             const NormalMaps& normal_maps, bool all_effects) {
     std::vector<EffectMask> effects = plan_effects(scene, textures, all_effects);
