@@ -40,8 +40,8 @@ lesson_06::Options small_picture() {
 
 /// The image before it is written, linear.
 Image<vec3> picture_of(const Scene& scene, const lesson_06::Options& options) {
-    NoCounters none;
-    return lesson_06::render(options, lesson_06::make_assets(scene, options), none);
+    Counters ignored;
+    return lesson_06::render(options, lesson_06::make_assets(scene, options), ignored);
 }
 
 Drawn drawn_of(const PhongAssets& assets, const lesson_06::Options& options) {
@@ -167,7 +167,7 @@ TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
         {"teapot", loaded("teapot.obj")},
         {"scene_bumpy", loaded("scene_bumpy.obj")},
         {"illum", squares_of_illum_0_1_2("", "")}};
-    NoCounters none;
+    Counters ignored;
     for (const auto& [name, scene] : scenes) {
         lesson_06::Options options = small_picture();
         const PhongAssets as_called_for = lesson_06::make_assets(scene, options);
@@ -177,8 +177,9 @@ TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
             for (const Highlight highlight : {Highlight::phong, Highlight::blinn}) {
                 options.shading.shading = shading;
                 options.shading.highlight = highlight;
-                const Image<vec3> picture = lesson_06::render(options, as_called_for, none);
-                EXPECT_TRUE(are_the_same_bits(picture, lesson_06::render(options, with_all, none)))
+                const Image<vec3> picture = lesson_06::render(options, as_called_for, ignored);
+                EXPECT_TRUE(
+                    are_the_same_bits(picture, lesson_06::render(options, with_all, ignored)))
                     << name << ", shading " << static_cast<int>(shading);
                 EXPECT_FALSE(is_backdrop(picture)) << name;
             }

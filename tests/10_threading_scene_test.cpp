@@ -30,6 +30,7 @@
 #include "support/pictures.hpp"
 #include "support/pretend_pool.hpp"
 #include "support/printers.hpp"
+#include "support/sanitizer.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -40,13 +41,8 @@ constexpr std::array thread_counts = {1, 2, 3, 4, 7, 8, 16, 61};
 constexpr std::array splits = {Split::rows, Split::interleaved, Split::tiles};
 constexpr std::array kinds = {LightKind::directional, LightKind::point, LightKind::spot};
 
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr int repeats = 2;  // each is looked at closely, and takes far longer
-constexpr ivec2 middling_size(96, 54);
-#else
-constexpr int repeats = 100;
-constexpr ivec2 middling_size(160, 90);
-#endif
+constexpr int repeats = is_sanitized ? 2 : 100;
+constexpr ivec2 middling_size = is_sanitized ? ivec2(96, 54) : ivec2(160, 90);
 
 lesson_10::Options small_picture(ivec2 size = {64, 36}) {
     lesson_10::Options options;
@@ -195,15 +191,15 @@ TEST(Threading, HardCase_NothingToDraw) {
 TEST(Threading, Eq10_7_HardCase_AnyThreadsAndSplitGiveTheSameBitsAHundredTimes) {
     lesson_10::Options options = small_picture();
     const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-    NoCounters none;
-    const Image<vec3> expected = expected_of(options, assets, none);
+    Counters ignored;
+    const Image<vec3> expected = expected_of(options, assets, ignored);
     const std::uint64_t hash = hash_of(expected);
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         for (const Split split : splits) {
             options.threads.split = split;
             for (int i = 0; i < repeats; ++i)
-                ASSERT_EQ(hash_of(lesson_10::render(options, assets, pool, none)), hash)
+                ASSERT_EQ(hash_of(lesson_10::render(options, assets, pool, ignored)), hash)
                     << threads << " threads, split " << int(split) << ", the " << i + 1
                     << "th time";
         }
@@ -212,16 +208,17 @@ TEST(Threading, Eq10_7_HardCase_AnyThreadsAndSplitGiveTheSameBitsAHundredTimes) 
 
 TEST(Threading, Eq10_7_HardCase_AnyOrderOfTheTasksGivesTheSameBits) {
     lesson_10::Options options = small_picture(middling_size);
-    NoCounters none;
+    Counters ignored;
     for (const LightKind kind : kinds) {
         options.shading.key_light = kind;
         const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-        const Image<vec3> expected = expected_of(options, assets, none);
+        const Image<vec3> expected = expected_of(options, assets, ignored);
         for (std::uint32_t seed = 0; seed < 12; ++seed) {
             ShuffledPool pool(1 + seed % 5 * 3, seed);
             options.threads.split = splits[seed % 3];
             options.threads.tile = seed % 2 ? 32 : 5;
-            ASSERT_TRUE(are_the_same_bits(lesson_10::render(options, assets, pool, none), expected))
+            ASSERT_TRUE(
+                are_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
                 << "light " << int(kind) << ", seed " << seed;
         }
     }
@@ -265,19 +262,19 @@ TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
 
 TEST(Threading, HardCase_PicturesOfAFewPixels) {
     look_up("Eq. 10.3");
-    NoCounters none;
+    Counters ignored;
     for (const ivec2 size : {ivec2(1, 1), {1, 7}, {7, 1}, {2, 2}, {3, 61}}) {
         lesson_10::Options options = small_picture(size);
         options.shadow.size = 16;
         const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-        const Image<vec3> expected = expected_of(options, assets, none);
+        const Image<vec3> expected = expected_of(options, assets, ignored);
         for (const int threads : thread_counts) {
             ThreadPool pool(threads);
             for (const Split split : splits)
                 for (const int tile : {1, 64}) {
                     options.threads.split = split, options.threads.tile = tile;
-                    EXPECT_TRUE(
-                        are_the_same_bits(lesson_10::render(options, assets, pool, none), expected))
+                    EXPECT_TRUE(are_the_same_bits(lesson_10::render(options, assets, pool, ignored),
+                                                  expected))
                         << size.x << "x" << size.y << ", " << threads << " threads, split "
                         << int(split) << ", tile " << tile;
                 }
@@ -289,8 +286,8 @@ TEST(Threading, HardCase_AWorkerThatThrowsWhileItDraws) {
     look_up("The pool");
     lesson_10::Options options = small_picture();
     const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-    NoCounters none;
-    const Image<vec3> expected = expected_of(options, assets, none);
+    Counters ignored;
+    const Image<vec3> expected = expected_of(options, assets, ignored);
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         for (const Split split : splits)
@@ -305,7 +302,7 @@ TEST(Threading, HardCase_AWorkerThatThrowsWhileItDraws) {
                     EXPECT_STREQ(error.what(), "a worker is tired");
                 }
                 EXPECT_TRUE(
-                    are_the_same_bits(lesson_10::render(options, assets, pool, none), expected))
+                    are_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
                     << "afterwards, " << threads << " threads";
             }
     }
@@ -359,16 +356,16 @@ TEST(Threading, HardCase_WhoDrewWhatIsShownAsItWas) {
     // Each tile by a worker that is known: it is tinted in that worker's colour.
     lesson_10::Options options = small_picture(middling_size);
     const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-    NoCounters none;
+    Counters ignored;
     OneByOnePool pool;
     for (const Split split : splits) {
         options.threads.split = split, options.threads.show = false;
-        Image<vec3> expected = lesson_10::render(options, assets, pool, none);
+        Image<vec3> expected = lesson_10::render(options, assets, pool, ignored);
         const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
         for (std::size_t i = 0; i < tiling.count(); ++i)
             tint(expected, tiling[i], pool.worker_of(i));
         options.threads.show = true;
-        EXPECT_TRUE(are_the_same_bits(lesson_10::render(options, assets, pool, none), expected));
+        EXPECT_TRUE(are_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected));
     }
     // What was brighter is brighter still, in each colour, and none is black.
     for (std::size_t worker = 0; worker < 8; ++worker) {
@@ -406,9 +403,10 @@ TEST(Threading, PictureOfWhoDrewWhat) {
     options.size = {960, 540};
     options.threads.show = true, options.threads.tile = 64;
     const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-    NoCounters none;
+    Counters ignored;
     ShuffledPool shuffled(4, 1);
-    EXPECT_TRUE(equals_golden(lesson_10::render(options, assets, shuffled, none), "10_threading"));
+    EXPECT_TRUE(
+        equals_golden(lesson_10::render(options, assets, shuffled, ignored), "10_threading"));
     struct {
         std::size_t size() const { return 4; }
         void run(std::size_t tasks, const std::function<void(std::size_t, std::size_t)>& task) {
@@ -417,5 +415,5 @@ TEST(Threading, PictureOfWhoDrewWhat) {
     } in_turn;
     options.threads.split = Split::rows;
     EXPECT_TRUE(
-        equals_golden(lesson_10::render(options, assets, in_turn, none), "10_threading_rows"));
+        equals_golden(lesson_10::render(options, assets, in_turn, ignored), "10_threading_rows"));
 }

@@ -48,8 +48,8 @@ Drawn drawn(Scene scene, const lesson_11::Options& options) {
     return test::drawn(options, make_scene_assets(std::move(scene), options),
                        [](const auto& of, const auto& assets, auto& counters) {
                            ThreadPool pool(2);
-                           NoClock no_clock;
-                           return lesson_11::render(of, assets, pool, counters, no_clock);
+                           StepClock clock;
+                           return lesson_11::render(of, assets, pool, counters, clock);
                        });
 }
 
@@ -209,22 +209,22 @@ TEST(SceneFiles, HardCase_AnyNumberOfThreadsAndAnyOrderGiveTheSameBits) {
     for (const Scene& model : all) {
         lesson_11::Options options = small_picture();
         const SceneAssets assets = make_scene_assets(model, options);
-        NoCounters none;
-        NoClock no_clock;
+        Counters ignored;
+        StepClock clock;
         std::optional<Image<vec3>> expected;
         for (const int threads : {1, 2, 3, 7, 16})
             for (const Split split : {Split::rows, Split::interleaved, Split::tiles}) {
                 options.threads.split = split;
                 options.threads.tile = 8 + threads;
                 ThreadPool pool(threads);
-                Image<vec3> picture = lesson_11::render(options, assets, pool, none, no_clock);
+                Image<vec3> picture = lesson_11::render(options, assets, pool, ignored, clock);
                 if (!expected)
                     expected = std::move(picture);
                 else
                     EXPECT_TRUE(are_the_same_bits(picture, *expected)) << threads;
                 ShuffledPool shuffled(static_cast<std::size_t>(threads), 7);
                 EXPECT_TRUE(are_the_same_bits(
-                    lesson_11::render(options, assets, shuffled, none, no_clock), *expected));
+                    lesson_11::render(options, assets, shuffled, ignored, clock), *expected));
             }
     }
 }

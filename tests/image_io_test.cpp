@@ -22,6 +22,7 @@
 #include "common/image/bmp.hpp"
 #include "common/image/input_error.hpp"
 #include "common/image/tga.hpp"
+#include "support/sanitizer.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -29,14 +30,6 @@
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #include <stb/stb_image.h>
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define RASTERBOOK_SANITIZER_MAPS_MEMORY
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define RASTERBOOK_SANITIZER_MAPS_MEMORY
-#endif
-#endif
 
 namespace rasterbook {
 namespace {
@@ -72,14 +65,10 @@ class Limit {
 
 /// As RLIMIT_AS: lets the process take at most so many bytes more than it has.
 rlim_t address_space_with(rlim_t more) {
-#ifdef RASTERBOOK_SANITIZER_MAPS_MEMORY
-    static_cast<void>(more);
-    return RLIM_INFINITY;  // The sanitizer maps terabytes and would fail at once.
-#else
+    if (test::is_sanitized) return RLIM_INFINITY;  // it would fail at once
     rlim_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more;
-#endif
 }
 
 Bytes tga_header(int type, ivec2 size, int bits, int descriptor, int colors = 0) {
@@ -504,9 +493,7 @@ std::vector<BadFile> files_that_claim_too_much() {
 }
 
 TEST_F(ImageIo, HardCase_MemoryIsNotSetAsideForAClaim) {
-#ifdef RASTERBOOK_SANITIZER_MAPS_MEMORY
-    GTEST_SKIP() << "the sanitizer needs more address space than any limit";
-#endif
+    if (test::is_sanitized) GTEST_SKIP() << "the sanitizer needs more address space than any limit";
     for (const auto& [what, bytes, message] : files_that_claim_too_much()) {
         const fs::path file = put(bytes);
         const Limit limit(RLIMIT_AS, address_space_with(8 << 20));

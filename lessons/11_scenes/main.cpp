@@ -38,9 +38,9 @@ struct Options : LessonOptions {
     }
 };
 
-template <typename Pool, typename CounterPolicy, typename Clock>
+template <typename Pool, typename CounterPolicy>
 Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool,
-                   CounterPolicy& total, Clock& clock) {
+                   CounterPolicy& total, StepClock& clock) {
     const auto& [scene, textures, normal_maps, bounds, lit_by, plan, hulls, is_on_paper] = assets;
     const Camera camera = camera_of_picture(options, options.scene.camera, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -97,13 +97,17 @@ Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool
 int main(int argc, char** argv) {
     return run_lesson<Options>(
         argc, argv, "11_scenes", "Draws a scene of any file, and what it calls for.",
-        make_scene_assets<Options>, [](const auto& options, const auto& assets, auto& counters) {
+        make_scene_assets<Options>,
+        [](const Options& options, const SceneAssets& assets, Counters& total) {
             thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
-            const auto draw = [&](auto& counted, auto&& clock) {
-                return render(options, assets, *pool, counted, clock);
-            };
-            return options.scene.explain ? explained(options, assets, counters, draw)
-                                         : draw(counters, StepClock());
+            Counters counters;                                 // of this picture alone
+            StepClock clock;
+            Image<vec3> picture = render(options, assets, *pool, counters, clock);
+            if (options.scene.explain)
+                explain(assets, camera_of_picture(options, options.scene.camera, assets.scene).name,
+                        counters, clock);
+            total.add(counters);
+            return picture;
         });
 }

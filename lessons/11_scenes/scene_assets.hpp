@@ -12,7 +12,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
 #include "06_phong/effects.hpp"
-#include "06_phong/normals.hpp"
+#include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "10_threading/binned_triangles.hpp"
@@ -37,64 +37,15 @@ struct SceneAssets {
     bool is_on_paper;  ///< All of it is a comic, with dark outlines: paper lies behind.
 };
 
-/// Whether all that is seen of a scene has a comic's paint, and some of it an outline.
-inline bool is_comic(const Scene& scene) {
-    bool has_outlines = false;
-    for (const Mesh& mesh : scene.meshes)
-        for (const Triangle& triangle : mesh.triangles) {
-            const Material& material = scene.materials[triangle.material];
-            if (!material.toon) return false;
-            has_outlines = has_outlines || has_outline(material);
-        }
-    return has_outlines;
-}
-
-/// For --all-effects, beside what lesson 06 adds: unlit materials get a comic's paint of one
-/// colour, and vertices white colours.
-inline void add_neutral_inputs(Scene& scene) {
-    for (Mesh& mesh : scene.meshes) {
-        for (const Triangle& triangle : mesh.triangles) {
-            Material& material = scene.materials[triangle.material];
-            if (!is_lit(material) && !material.toon)
-                material.toon = ToonMaterial{.shade = material.diffuse};
-        }
-        if (mesh.colors.empty()) mesh.colors.assign(mesh.positions.size(), vec4(1));
-    }
-}
+/// Makes of a scene, as its file has it, all that is drawn.
+SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
+                              const LightOptions& shading, const NormalMapVariant& normal_map);
 
 /// @param options  Has TextureOptions `texture`, NormalMapVariant `normal_map` and LightOptions
 ///                 `shading`.
 template <typename Options>
 SceneAssets make_scene_assets(Scene from, const Options& options) {
-    const bool all_effects = options.shading.all_effects;
-    Scene scene = with_outline_materials(std::move(from));
-    const bool is_on_paper = is_comic(scene);
-    complete_normals(scene);
-    SurfaceTextures textures = load_surface_textures(scene, options.texture);
-    NormalMaps normal_maps =
-        load_normal_maps(scene, options.texture, options.normal_map, all_effects);
-    make_tangents(scene, normal_maps, options.normal_map);
-    if (all_effects) {
-        add_neutral_inputs(scene, textures);
-        add_neutral_inputs(scene);
-    }
-    const ShadowBounds bounds = shadow_bounds(scene);
-    SceneLights lit_by = lights_of(scene, options.shading.key_light, scene.warnings);
-    const PlanInputs inputs{.has_lights = !lit_by.lights.empty(),
-                            .has_shadows = bounds.casters.min.x <= bounds.casters.max.x &&
-                                           bounds.receivers.min.x <= bounds.receivers.max.x,
-                            .normal_maps = options.normal_map.space != MapSpace::none,
-                            .two_sided = options.shading.two_sided,
-                            .all_effects = all_effects};
-    ScenePlan plan = plan_scene(scene, textures, normal_maps, inputs);
-    std::vector<OutlineHull> hulls = outline_hulls(scene);
-    for (const Material& material : scene.materials)
-        if (!material.opacity_map.file.empty())
-            scene.warnings.push_back("material \"" + material.name +
-                                     "\": map_d is passed over: holes are drawn for glTF files, by "
-                                     "the fourth number of their colour");
-    return {std::move(scene),  std::move(textures), std::move(normal_maps), bounds,
-            std::move(lit_by), std::move(plan),     std::move(hulls),       is_on_paper};
+    return make_scene_assets(std::move(from), options.texture, options.shading, options.normal_map);
 }
 
 /// Draws paper behind a part of a picture.

@@ -14,7 +14,6 @@
 
 #include "06_phong/effects.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
-#include "11_scenes/toon_material.hpp"
 
 namespace rasterbook {
 
@@ -73,49 +72,7 @@ struct PlanInputs {
 /// 1; and for unlit materials the two colours of a comic, both the same.
 ///
 /// @param scene,textures,normal_maps  With those inputs already.
-inline ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
-                            const NormalMaps& normal_maps, const PlanInputs& inputs) {
-    ScenePlan scene_plan{std::vector<MaterialPlan>(scene.materials.size())};
-    const std::vector<EffectMask> effects =
-        plan_effects(scene, textures, normal_maps, inputs.all_effects);
-    std::vector<bool> has_colors(scene.materials.size());
-    for (const Mesh& mesh : scene.meshes)
-        for (const Triangle& triangle : mesh.triangles) {
-            scene_plan.materials[triangle.material].is_seen = true;
-            if (!mesh.colors.empty()) has_colors[triangle.material] = true;
-        }
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        MaterialPlan& plan = scene_plan.materials[i];
-        const Material& material = scene.materials[i];
-        const bool is_unlit = !is_lit(material), is_toon = material.toon.has_value();
-        const bool is_phong = !is_unlit && !is_toon;
-        const bool is_outline = i >= first_outline_material(scene.materials);
-        const char* const unlit = is_toon ? "a comic's paint" : "unlit";
-        plan.two_sided = !is_outline && (material.two_sided || inputs.two_sided);
-        plan.set(Effect::light, is_phong && inputs.has_lights, is_phong ? "no lights" : unlit);
-        plan.set(Effect::highlight, is_phong && effects[i][Effect::highlight],
-                 !is_phong                    ? unlit
-                 : material.illumination == 1 ? "illum 1"
-                                              : "black");
-        plan.set(Effect::texture, effects[i][Effect::texture], "names no picture");
-        plan.set(Effect::specular_map, is_phong && effects[i][Effect::specular_map],
-                 is_phong ? "names no picture" : unlit);
-        plan.set(Effect::vertex_colors, has_colors[i] || inputs.all_effects, "vertices have none");
-        plan.set(Effect::normal_map, !is_unlit && effects[i][Effect::normal_map],
-                 is_unlit              ? "unlit"
-                 : !inputs.normal_maps ? "none are read"
-                                       : "names none");
-        plan.set(Effect::shadow, !is_unlit && (inputs.has_shadows || inputs.all_effects),
-                 is_unlit ? "unlit" : "nothing is thrown");
-        plan.set(Effect::toon, is_toon, "not asked for");
-        plan.set(Effect::outline, has_outline(material), "not asked for");
-        const bool is_masked = material.alpha == AlphaMode::mask;
-        plan.is_glass = !is_masked && (material.alpha == AlphaMode::blend || material.opacity < 1);
-        plan.set(Effect::mask, is_masked, "opaque");
-        plan.set(Effect::blend, plan.is_glass || inputs.all_effects,
-                 is_masked ? "holes only" : "opaque");
-    }
-    return scene_plan;
-}
+ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
+                     const NormalMaps& normal_maps, const PlanInputs& inputs);
 
 }  // namespace rasterbook

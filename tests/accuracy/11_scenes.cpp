@@ -31,8 +31,8 @@ constexpr double frames_in_millions = 1e6;  // so that nanoseconds become millis
 Image<vec3> drawn(const lesson_11::Options& options, const SceneAssets& assets) {
     static ThreadPool pool(1);
     NoCounters none;
-    NoClock no_clock;
-    return lesson_11::render(options, assets, pool, none, no_clock);
+    StepClock clock;
+    return lesson_11::render(options, assets, pool, none, clock);
 }
 
 /// Differences of codes, white being 1: as the eye weighs them.

@@ -146,8 +146,8 @@ Image<vec3> samples_of(Settings settings, ThreadPool& pool, CounterPolicy counte
     const SceneAssets& assets = assets_of(settings);
     if (settings.is_moved && assets.scene.cameras.empty())
         settings.orbit.yaw_degrees += glm::degrees(way_radians.x);
-    NoClock no_clock;
-    return lesson_11::render(settings, assets, pool, counters, no_clock);
+    StepClock clock;
+    return lesson_11::render(settings, assets, pool, counters, clock);
 }
 
 /// The same as the settings have it. Light and power are never both other than the lesson's.

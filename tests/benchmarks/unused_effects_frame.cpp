@@ -73,8 +73,8 @@ auto assets_of(const Scene& model, const AnyOptions& options) {
 Image<vec3> draw(const auto& options, const auto& assets, auto& counters) {
     if constexpr (LESSON == 11) {
         static ThreadPool pool(1);
-        NoClock no_clock;
-        return render(options, assets, pool, counters, no_clock);
+        StepClock clock;
+        return render(options, assets, pool, counters, clock);
     } else {
         return render(options, assets, counters);
     }

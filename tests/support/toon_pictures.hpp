@@ -25,8 +25,8 @@ inline Drawn drawn_toon(const Scene& scene, const lesson_07::Options& options) {
                  [](auto&... arguments) { return lesson_07::render(arguments...); });
 }
 inline Image<vec3> toon_picture(const Scene& scene, const lesson_07::Options& options) {
-    NoCounters none;
-    return lesson_07::render(options, lesson_07::make_assets(scene, options), none);
+    Counters ignored;
+    return lesson_07::render(options, lesson_07::make_assets(scene, options), ignored);
 }
 
 inline std::uint64_t count(const Counters& counters, Counter counter) {

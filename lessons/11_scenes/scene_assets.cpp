@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "11_scenes/scene_assets.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "06_phong/normals.hpp"
+
+namespace rasterbook {
+
+namespace {
+
+/// Whether all that is seen of a scene has a comic's paint, and some of it an outline.
+bool is_comic(const Scene& scene) {
+    bool has_outlines = false;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Triangle& triangle : mesh.triangles) {
+            const Material& material = scene.materials[triangle.material];
+            if (!material.toon) return false;
+            has_outlines = has_outlines || has_outline(material);
+        }
+    return has_outlines;
+}
+
+/// For --all-effects, beside what lesson 06 adds: unlit materials get a comic's paint of one
+/// colour, and vertices white colours.
+void add_neutral_inputs(Scene& scene) {
+    for (Mesh& mesh : scene.meshes) {
+        for (const Triangle& triangle : mesh.triangles) {
+            Material& material = scene.materials[triangle.material];
+            if (!is_lit(material) && !material.toon)
+                material.toon = ToonMaterial{.shade = material.diffuse};
+        }
+        if (mesh.colors.empty()) mesh.colors.assign(mesh.positions.size(), vec4(1));
+    }
+}
+
+}  // namespace
+
+ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
+                     const NormalMaps& normal_maps, const PlanInputs& inputs) {
+    ScenePlan scene_plan{std::vector<MaterialPlan>(scene.materials.size())};
+    const std::vector<EffectMask> effects =
+        plan_effects(scene, textures, normal_maps, inputs.all_effects);
+    std::vector<bool> has_colors(scene.materials.size());
+    for (const Mesh& mesh : scene.meshes)
+        for (const Triangle& triangle : mesh.triangles) {
+            scene_plan.materials[triangle.material].is_seen = true;
+            if (!mesh.colors.empty()) has_colors[triangle.material] = true;
+        }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        MaterialPlan& plan = scene_plan.materials[i];
+        const Material& material = scene.materials[i];
+        const bool is_unlit = !is_lit(material), is_toon = material.toon.has_value();
+        const bool is_phong = !is_unlit && !is_toon;
+        const bool is_outline = i >= first_outline_material(scene.materials);
+        const char* const unlit = is_toon ? "a comic's paint" : "unlit";
+        plan.two_sided = !is_outline && (material.two_sided || inputs.two_sided);
+        plan.set(Effect::light, is_phong && inputs.has_lights, is_phong ? "no lights" : unlit);
+        plan.set(Effect::highlight, is_phong && effects[i][Effect::highlight],
+                 !is_phong                    ? unlit
+                 : material.illumination == 1 ? "illum 1"
+                                              : "black");
+        plan.set(Effect::texture, effects[i][Effect::texture], "names no picture");
+        plan.set(Effect::specular_map, is_phong && effects[i][Effect::specular_map],
+                 is_phong ? "names no picture" : unlit);
+        plan.set(Effect::vertex_colors, has_colors[i] || inputs.all_effects, "vertices have none");
+        plan.set(Effect::normal_map, !is_unlit && effects[i][Effect::normal_map],
+                 is_unlit              ? "unlit"
+                 : !inputs.normal_maps ? "none are read"
+                                       : "names none");
+        plan.set(Effect::shadow, !is_unlit && (inputs.has_shadows || inputs.all_effects),
+                 is_unlit ? "unlit" : "nothing is thrown");
+        plan.set(Effect::toon, is_toon, "not asked for");
+        plan.set(Effect::outline, has_outline(material), "not asked for");
+        const bool is_masked = material.alpha == AlphaMode::mask;
+        plan.is_glass = !is_masked && (material.alpha == AlphaMode::blend || material.opacity < 1);
+        plan.set(Effect::mask, is_masked, "opaque");
+        plan.set(Effect::blend, plan.is_glass || inputs.all_effects,
+                 is_masked ? "holes only" : "opaque");
+    }
+    return scene_plan;
+}
+
+SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
+                              const LightOptions& shading, const NormalMapVariant& normal_map) {
+    const bool all_effects = shading.all_effects;
+    Scene scene = with_outline_materials(std::move(from));
+    const bool is_on_paper = is_comic(scene);
+    complete_normals(scene);
+    SurfaceTextures textures = load_surface_textures(scene, texture);
+    NormalMaps normal_maps = load_normal_maps(scene, texture, normal_map, all_effects);
+    make_tangents(scene, normal_maps, normal_map);
+    if (all_effects) {
+        add_neutral_inputs(scene, textures);
+        add_neutral_inputs(scene);
+    }
+    const ShadowBounds bounds = shadow_bounds(scene);
+    SceneLights lit_by = lights_of(scene, shading.key_light, scene.warnings);
+    const PlanInputs inputs{.has_lights = !lit_by.lights.empty(),
+                            .has_shadows = bounds.casters.min.x <= bounds.casters.max.x &&
+                                           bounds.receivers.min.x <= bounds.receivers.max.x,
+                            .normal_maps = normal_map.space != MapSpace::none,
+                            .two_sided = shading.two_sided,
+                            .all_effects = all_effects};
+    ScenePlan plan = plan_scene(scene, textures, normal_maps, inputs);
+    std::vector<OutlineHull> hulls = outline_hulls(scene);
+    for (const Material& material : scene.materials)
+        if (!material.opacity_map.file.empty())
+            scene.warnings.push_back("material \"" + material.name +
+                                     "\": map_d is passed over: holes are drawn for glTF files, by "
+                                     "the fourth number of their colour");
+    return {std::move(scene),  std::move(textures), std::move(normal_maps), bounds,
+            std::move(lit_by), std::move(plan),     std::move(hulls),       is_on_paper};
+}
+
+}  // namespace rasterbook
