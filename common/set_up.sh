@@ -43,30 +43,63 @@ find_lesson() {
     return 1
 }
 
-# Sets `preset`, the build's: "release", or "mine" when $1 is --mine; then says what is the reader's.
-# shellcheck disable=SC2034  # it is for the script that calls
+# Sets `preset`, the build's: "release"; or for --mine, "mine", and what may follow it, --fast or --sanitize, "mine_fast" or
+# "mine_sanitize". `taken` is the number of arguments that say so.
+# shellcheck disable=SC2034  # they are for the script that calls
 choose_preset() {
     preset=release
+    taken=0
     [ "${1-}" = --mine ] || return 0
     preset=mine
-    local headers=(mine/[0-9][0-9]_*/*.hpp)
-    if [ ! -e "${headers[0]}" ]; then
-        echo "error: there is no header in mine/ yet; ./lessons/run --start NN puts one there" >&2
+    taken=1
+    case ${2-} in
+        --fast | --sanitize) preset=mine_${2#--} taken=2 ;;
+    esac
+    local files=(mine/[0-9][0-9]_*/*.[ch]pp)
+    if [ ! -e "${files[0]}" ]; then
+        echo "error: there is nothing in mine/ yet; ./lessons/run --start NN puts a lesson's files there" >&2
         return 1
     fi
-    echo "Yours: ${headers[*]}"
 }
 
 # Builds the targets in build/$preset; a build folder of another place, as in a moved clone, starts anew.
 build() {
-    local home fresh=() note=
+    local home fresh=() log
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
     [ -z "$home" ] || [ "$home" = "$PWD" ] || fresh=(--fresh)
-    [ "$home" = "$PWD" ] || note=" (the first time takes a minute or two)"
-    quietly cmake --preset "$preset" "${fresh[@]}"
-    cmake --build --preset "$preset" --target "$@" -- -n | grep -q 'no work to do' && return
-    echo "Building$note"
-    quietly cmake --build --preset "$preset" --target "$@"
+    # What is the reader's own is built again and again: then only what has changed is looked at.
+    if [[ $preset != mine* ]] || [ "$home" != "$PWD" ] || [ CMakePresets.json -nt "build/$preset/CMakeCache.txt" ]; then
+        quietly cmake --preset "$preset" "${fresh[@]}"
+    fi
+    log=$(mktemp)
+    if ! cmake --build --preset "$preset" --target "$@" 2>&1 | show_progress "$log"; then
+        cat "$log" >&2
+        rm -f "$log"
+        echo "error: this does not compile" >&2
+        return 1
+    fi
+    [[ $preset != mine* ]] || cat "$log" >&2  # warnings
+    rm -f "$log"
+}
+
+# Reads what a build prints: says how far it is, and writes what compilers say into the file $1. On a terminal the count moves
+# in one line; elsewhere there is a line now and then.
+show_progress() {
+    local line said=$SECONDS is_shown=
+    while IFS= read -r line; do
+        if [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]]; then
+            if [ -t 1 ]; then
+                printf '\rBuilding: %s of %s ' "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}"
+                is_shown=1
+            elif ((BASH_REMATCH[1] > 0 && BASH_REMATCH[1] < BASH_REMATCH[2] && SECONDS - said >= 15)); then
+                echo "Building: ${BASH_REMATCH[1]} of ${BASH_REMATCH[2]}"
+                said=$SECONDS
+            fi
+        elif [[ ! $line =~ ^(FAILED: |ninja: |-- |:\ \&\& |[^ ]*/(c\+\+|g\+\+|clang\+\+)[^ ]*\ |ccache ) ]]; then
+            printf '%s\n' "$line" >>"$1"
+        fi
+    done
+    [ -z "$is_shown" ] || printf '\r%*s\r' 40 ''
 }
 
 # Runs a command quietly; shows what it printed when it fails.
@@ -80,4 +113,19 @@ quietly() {
         return 1
     fi
     rm -f "$log"
+}
+
+# Prints the lines "$1: ..." of the comment in the README of lesson $2.
+marks_of() { sed -n "s/^$1: //p" "lessons/$2/README.md"; }
+
+# Prints one line of the steps of lesson $2, by its number $1: EQUATIONS | OPTIONS | PICTURES | TITLE.
+step_of() {
+    local line
+    line=$(marks_of step "$2" | sed -n "${1}p")
+    if [[ ! $1 =~ ^[1-9]$ ]] || [ -z "$line" ]; then
+        echo "error: lesson ${2%%_*} has no step '$1'; its steps are:" >&2
+        marks_of step "$2" | awk -F ' *[|] *' '{ print "  " NR ": " $4 }' >&2
+        return 1
+    fi
+    printf '%s\n' "$line"
 }

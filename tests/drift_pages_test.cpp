@@ -31,6 +31,45 @@ TEST(Drift, LinksWithinATextLeadToItsHeadings) {
     EXPECT_GT(links, 20);
 }
 
+// What ./tests/run --mine NN --step K goes by: "step: EQUATIONS | OPTIONS | PICTURES | TITLE".
+TEST(Drift, EachEquationAndPictureBelongsToOneStepOfItsLesson) {
+    for (const std::string& name : lessons()) {
+        std::multiset<std::string> equations, pictures;
+        for (const std::string& step :
+             all_between(read_text(root / "lessons" / name / "README.md"), "\nstep: ", "\n")) {
+            std::istringstream fields(step);
+            std::string numbers, options, of_step, title, word;
+            std::getline(fields, numbers, '|') && std::getline(fields, options, '|') &&
+                std::getline(fields, of_step, '|') && std::getline(fields, title, '|');
+            EXPECT_GT(title.size(), 5u) << name << ": " << step;
+            for (std::istringstream words(of_step); words >> word;)
+                if (word != "-") pictures.insert(word);
+            for (std::istringstream words(numbers); words >> word;) {  // 5.7, or 5.1-5.3
+                const std::string last = word.substr(word.find('-') + 1);
+                const std::string chapter = word.substr(0, word.find('.'));
+                for (int i = std::stoi(word.substr(word.find('.') + 1));
+                     i <= std::stoi(last.substr(last.find('.') + 1)); ++i)
+                    equations.insert(chapter + '_' + std::to_string(i));
+            }
+        }
+        std::set<std::string> tested, drawn;
+        for (const std::string& test : all_between(tests_of(name), "TEST(", ")")) {
+            const std::string test_name = test.substr(test.find(' ') + 1);
+            if (test_name.starts_with("PictureOf")) drawn.insert(test_name);
+            if (test_name.starts_with("Eq"))
+                tested.insert(
+                    test_name.substr(2, test_name.find('_', test_name.find('_') + 1) - 2));
+        }
+        EXPECT_GT(tested.size(), 0u) << name;
+        for (const std::string& equation : tested)
+            EXPECT_EQ(equations.count(equation), 1u) << name << ", Eq. " << equation;
+        for (const std::string& picture : drawn)
+            EXPECT_EQ(pictures.count(picture), 1u) << name << ", " << picture;
+        for (const std::string& picture : pictures)
+            EXPECT_TRUE(drawn.contains(picture)) << name << ", " << picture;
+    }
+}
+
 TEST(Drift, TheStripHasAPanelForEachLessonThatAsksForOne) {
     constexpr std::size_t panel = 168, gap = 6;  // px, as docs/pictures.py has them
     std::size_t panels = 0;

@@ -5,6 +5,8 @@
 
 #include <cassert>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <span>
@@ -79,9 +81,18 @@ class Image {
 
   private:
     std::size_t index(ivec2 p) const {
-        assert(contains(p) && "the pixel lies outside the image");
+#ifndef NDEBUG
+        if (!contains(p)) fail_outside(p);
+#endif
         return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(size_.x) +
                static_cast<std::size_t>(p.x);
+    }
+
+    /// An assertion that says which pixel of which image was asked for.
+    [[noreturn]] void fail_outside(ivec2 p) const {
+        std::fprintf(stderr, "pixel (%d, %d) lies outside of the image of %d x %d pixels\n", p.x, p.y,
+                     size_.x, size_.y);
+        std::abort();
     }
 
     ivec2 size_{0, 0};

@@ -47,6 +47,7 @@ OTHERS = [
     Page("glossary", "Glossary", ROOT / "docs/glossary.md"),
     Page("conventions", "Conventions", ROOT / "docs/conventions.md"),
     Page("gltf", "glTF scenes", ROOT / "docs/gltf.md"),
+    Page("working_on_your_own", "Working on your own", ROOT / "docs/working_on_your_own.md"),
     Page("animation", "Animation", ROOT / "docs/animation.md"),
     Page("assets", "Assets", ROOT / "assets/README.md"),
 ]

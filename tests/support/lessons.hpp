@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// The lessons' Options, make_assets() and render(), each in a namespace of its own: lesson_09 and
-/// so on.
+/// so on. In tests of the reader's headers, too, it is the course's main.cpp.
 #pragma once
 
 // All that the lessons' main.cpp include, so that what is left of those are their own lines.
@@ -49,49 +49,49 @@ int run_lesson(Arguments&&...) {
 #define main static lesson_main [[maybe_unused]]
 namespace lesson_04 {
 using rasterbook::test::run_lesson;
-#include "04_mvp/main.cpp"
+#include "lessons/04_mvp/main.cpp"
 }  // namespace lesson_04
 namespace lesson_05 {
 using rasterbook::test::run_lesson;
-#include "05_textures/main.cpp"
+#include "lessons/05_textures/main.cpp"
 }  // namespace lesson_05
 namespace lesson_06 {
 using rasterbook::test::run_lesson;
-#include "06_phong/main.cpp"
+#include "lessons/06_phong/main.cpp"
 inline auto make_assets(Scene scene, const Options& options) {
     return make_phong_assets(std::move(scene), options);
 }
 }  // namespace lesson_06
 namespace lesson_07 {
 using rasterbook::test::run_lesson;
-#include "07_toon/main.cpp"
+#include "lessons/07_toon/main.cpp"
 inline auto make_assets(Scene scene, const Options& options) {
     return make_toon_assets(std::move(scene), options);
 }
 }  // namespace lesson_07
 namespace lesson_08 {
 using rasterbook::test::run_lesson;
-#include "08_normal_maps/main.cpp"
+#include "lessons/08_normal_maps/main.cpp"
 inline auto make_assets(Scene scene, const Options& options) {
     return make_normal_map_assets(std::move(scene), options);
 }
 }  // namespace lesson_08
 namespace lesson_09 {
 using rasterbook::test::run_lesson;
-#include "09_shadow_maps/main.cpp"
+#include "lessons/09_shadow_maps/main.cpp"
 inline auto make_assets(Scene scene, const Options& options) {
     return make_shadow_assets(std::move(scene), options);
 }
 }  // namespace lesson_09
 namespace lesson_10 {
 using rasterbook::test::run_lesson;
-#include "10_threading/main.cpp"
+#include "lessons/10_threading/main.cpp"
 inline auto make_assets(Scene scene, const Options& options) {
     return make_shadow_assets(std::move(scene), options);
 }
 }  // namespace lesson_10
 namespace lesson_11 {
 using rasterbook::test::run_lesson;
-#include "11_scenes/main.cpp"
+#include "lessons/11_scenes/main.cpp"
 }  // namespace lesson_11
 #undef main

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "support/look_up.hpp"
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <sstream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -21,30 +25,89 @@ std::string equation_in(const std::string& name) {
     return "Eq. " + number;
 }
 
+const std::filesystem::path root = std::filesystem::path(RASTERBOOK_ASSETS).parent_path();
+
 /// "04_mvp" for 04_mvp_clip_test.cpp: the lesson whose name begins the file's.
 std::string lesson_of(const std::filesystem::path& file) {
     const std::string stem = file.stem().string();
-    const auto lessons = std::filesystem::path(RASTERBOOK_ASSETS).parent_path() / "lessons";
-    for (const auto& lesson : std::filesystem::directory_iterator(lessons))
+    for (const auto& lesson : std::filesystem::directory_iterator(root / "lessons"))
         if (const std::string name = lesson.path().filename().string();
             stem.starts_with(name + '_'))
             return name;
     return stem;
 }
 
-class PlacePrinter : public testing::EmptyTestEventListener {
+/// Of a failing test, so many lines are shown of the first failure: what fails first explains most,
+/// and thousands of lines explain nothing.
+constexpr int most_lines = 32;
+
+std::string first_lines(const std::string& text) {
+    std::size_t end = 0;
+    for (int line = 0; line < most_lines && end != std::string::npos; ++line)
+        end = text.find('\n', end + (line > 0));
+    return end == std::string::npos ? text : text.substr(0, end) + "\n...";
+}
+
+/// The name of the test, where to read, and the first failure.
+class FailurePrinter : public testing::EmptyTestEventListener {
+  public:
+    /// @param report  A folder: takes a file for each test that fails, named so that equations come
+    ///                in their order; `passed` with the names of those that pass; and `running`,
+    ///                the one that is under way, if a crash ends it. Without, failures are printed.
+    explicit FailurePrinter(const char* report) : report_(report ? report : "") {}
+
+  private:
     void OnTestStart(const testing::TestInfo& test) override {
         place_of_this_test = equation_in(test.name());
+        test_ = &test;
+        failures_ = 0;
+        text_.str("");
+        if (!report_.empty()) std::ofstream(report_ / "running") << test.name() << '\n';
     }
+
+    void OnTestPartResult(const testing::TestPartResult& result) override {
+        if (result.skipped()) std::cout << result.message() << '\n';
+        if (!result.failed() || ++failures_ > 1) return;
+        const std::filesystem::path file = result.file_name() ? result.file_name() : "";
+        if (test_ != nullptr) {
+            text_ << "FAILED " << test_->test_suite_name() << '.' << test_->name() << '\n';
+            if (!place_of_this_test.empty())
+                text_ << "To read: docs/derivations/" << lesson_of(test_->file()) << ".md, "
+                      << place_of_this_test << '\n';
+        }
+        text_ << file.lexically_relative(root).string() << ':' << result.line_number() << ": "
+              << first_lines(result.message()) << '\n';
+    }
+
     void OnTestEnd(const testing::TestInfo& test) override {
-        if (test.result()->Passed() || place_of_this_test.empty()) return;
-        std::cout << "To read: docs/derivations/" << lesson_of(test.file()) << ".md, "
-                  << place_of_this_test << '\n';
+        if (failures_ > 1) text_ << "(" << failures_ - 1 << " more failures in this test)\n";
+        if (report_.empty()) {
+            std::cout << text_.str() << std::flush;
+            return;
+        }
+        std::filesystem::remove(report_ / "running");
+        if (failures_ == 0)
+            std::ofstream(report_ / "passed", std::ios::app) << test.name() << '\n';
+        else
+            std::ofstream(report_ / (place_of_this_test + "~" + test.name())) << text_.str();
     }
+
+    void OnTestProgramEnd(const testing::UnitTest& all) override {
+        if (report_.empty())
+            std::cout << all.successful_test_count() << " of " << all.test_to_run_count()
+                      << " tests passed\n";
+    }
+
+    std::filesystem::path report_;
+    const testing::TestInfo* test_ = nullptr;  ///< That runs.
+    int failures_ = 0;
+    std::ostringstream text_;
 };
 
 const bool listens = [] {
-    testing::UnitTest::GetInstance()->listeners().Append(new PlacePrinter);
+    testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
+    delete listeners.Release(listeners.default_result_printer());
+    listeners.Append(new FailurePrinter(std::getenv("RASTERBOOK_REPORT")));
     return true;
 }();
 
