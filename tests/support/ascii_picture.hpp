@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -18,21 +19,23 @@ namespace rasterbook::test {
 
 using Pixels = std::set<std::pair<int, int>>;  ///< (x, y)
 
-/// `#` right, `?` missing, `!` extra, `.` rightly empty; cut to the area around the pixels.
+/// `#` right, `?` missing, `!` extra, `.` rightly empty; cut to the area around the pixels, and to
+/// what lies around the first one that is wrong.
 inline std::string ascii_difference(const Pixels& actual, const Pixels& expected) {
-    constexpr int greatest_width = 100, greatest_height = 60;
-    Pixels all = actual;
+    Pixels all = actual, wrong;
     all.insert(expected.begin(), expected.end());
     if (all.empty()) return "(no pixels)\n";
-    int left = all.begin()->first, right = left, top = all.begin()->second, bottom = top;
-    for (const auto& [x, y] : all) {
-        left = std::min(left, x), right = std::max(right, x);
-        top = std::min(top, y), bottom = std::max(bottom, y);
-    }
-    std::string picture = "top-left pixel (" + std::to_string(left) + ", " + std::to_string(top) +
-                          "), # right, ? missing, ! extra\n";
-    for (int y = top; y <= std::min(bottom, top + greatest_height - 1); ++y) {
-        for (int x = left; x <= std::min(right, left + greatest_width - 1); ++x) {
+    std::ranges::set_symmetric_difference(actual, expected, std::inserter(wrong, wrong.end()));
+    const auto [x0, y0] = wrong.empty() ? *all.begin() : *wrong.begin();
+    ivec2 low(x0, y0), high(x0, y0);
+    for (const auto& [x, y] : all)
+        low = glm::min(low, ivec2(x, y)), high = glm::max(high, ivec2(x, y));
+    constexpr ivec2 before(20, 8), after(59, 15);
+    low = glm::max(low, ivec2(x0, y0) - before), high = glm::min(high, ivec2(x0, y0) + after);
+    std::string picture = "top-left pixel (" + std::to_string(low.x) + ", " +
+                          std::to_string(low.y) + "), # right, ? missing, ! extra\n";
+    for (int y = low.y; y <= high.y; ++y) {
+        for (int x = low.x; x <= high.x; ++x) {
             const bool is = actual.contains({x, y}), should = expected.contains({x, y});
             picture += is ? (should ? '#' : '!') : (should ? '?' : '.');
         }
