@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "02_triangle_fill/triangle.hpp"
 
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <iostream>
@@ -17,24 +18,33 @@
 #include "support/exact.hpp"
 #include "support/golden.hpp"
 #include "support/look_up.hpp"
+#include "support/same_image.hpp"
 #include "support/triangulations.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::exact_center, rasterbook::test::exact_twice_area,
     rasterbook::test::exactly_snapped, rasterbook::test::Pixels, rasterbook::test::same_pixels,
-    rasterbook::test::look_up;
+    rasterbook::test::look_up, rasterbook::test::same_image;
 
 namespace {
 
+std::string name(vec2 a, vec2 b, vec2 c) {
+    return "the triangle " + testing::PrintToString(std::array{a, b, c});
+}
+
+/// The covered pixels; also that each is inside and visited once.
 Pixels covered(vec2 a, vec2 b, vec2 c, ivec2 size) {
     Pixels pixels;
-    bool all_inside = true, all_new = true;
+    std::string wrong;
     fill_triangle(snap_triangle(a, b, c), size, [&](ivec2 p, vec3) {
-        all_inside &= p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y;
-        all_new &= pixels.insert({p.x, p.y}).second;
+        const bool is_inside = p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y;
+        const bool is_new = pixels.insert({p.x, p.y}).second;
+        if ((!is_inside || !is_new) && wrong.empty())
+            wrong = testing::PrintToString(p) + (is_inside ? " twice" : ", which is outside");
     });
-    EXPECT_TRUE(all_inside) << "visits pixels outside the picture";
-    EXPECT_TRUE(all_new) << "visits a pixel twice";
+    if (!wrong.empty())
+        ADD_FAILURE() << name(a, b, c) << " in a picture of " << size.x << " x " << size.y
+                      << " pixels visits pixel " << wrong;
     return pixels;
 }
 
@@ -65,6 +75,45 @@ Pixels exactly_covered_pixels(std::array<ivec2, 3> vertices, ivec2 size) {
     return pixels;
 }
 
+/// For EXPECT_TRUE: snapped to the right places, with the right area.
+testing::AssertionResult is_exactly_snapped(vec2 a, vec2 b, vec2 c) {
+    const ScreenTriangle triangle = snap_triangle(a, b, c);
+    const std::array exact = {exactly_snapped(a), exactly_snapped(b), exactly_snapped(c)};
+    if (triangle.vertices != exact)
+        return testing::AssertionFailure() << name(a, b, c) << " is snapped (Eq. 2.8) to "
+                                           << testing::PrintToString(triangle.vertices)
+                                           << ", expected " << testing::PrintToString(exact);
+    const int128 twice_area = exact_twice_area(exact[0], exact[1], exact[2]);
+    if (triangle.twice_area != twice_area)
+        return testing::AssertionFailure()
+               << name(a, b, c) << " has the twice_area (Eq. 2.2, in 64 bits: Eq. 2.9) "
+               << triangle.twice_area << ", expected " << static_cast<std::int64_t>(twice_area);
+    return testing::AssertionSuccess();
+}
+
+/// For EXPECT_TRUE: the edge function is exact.
+testing::AssertionResult is_exact_edge_function(ivec2 a, ivec2 b, ivec2 p) {
+    const std::int64_t actual = edge_function(a, b, p);
+    const int128 exact = exact_twice_area(a, b, p);
+    if (actual == exact) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << "edge_function(" << testing::PrintToString(a) << ", " << testing::PrintToString(b)
+           << ", " << testing::PrintToString(p) << ") is " << actual << ", expected "
+           << static_cast<std::int64_t>(exact);
+}
+
+/// For EXPECT_TRUE: where the way around a, b, c goes by p, the three edge functions add up.
+testing::AssertionResult add_up(ivec2 a, ivec2 b, ivec2 c, ivec2 p) {
+    const int128 sum =
+        int128{edge_function(a, b, p)} + edge_function(b, c, p) + edge_function(c, a, p);
+    if (sum == edge_function(a, b, c)) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << "a, b, c, p: " << testing::PrintToString(std::array{a, b, c, p})
+           << ": E_ab(p) = " << edge_function(a, b, p) << ", E_bc(p) = " << edge_function(b, c, p)
+           << ", E_ca(p) = " << edge_function(c, a, p)
+           << "; their sum is not E_ab(c) = " << edge_function(a, b, c);
+}
+
 Image<int> hits_of(const std::vector<std::array<vec2, 3>>& triangles, ivec2 size) {
     Image<int> hits(size);
     for (const auto& [a, b, c] : triangles)
@@ -85,15 +134,20 @@ constexpr ivec2 snapped_a(256, 256), snapped_b(256, 1280), snapped_c(1280, 256),
 }  // namespace
 
 TEST(TriangleFill, Eq2_1_SidesSeenCounterClockwiseHaveTheInsideOnTheirLeft) {
-    EXPECT_GT(edge_function(snapped_a, snapped_b, snapped_c), 0);
-    EXPECT_LT(edge_function(snapped_a, snapped_c, snapped_b), 0);
+    EXPECT_GT(edge_function(snapped_a, snapped_b, snapped_c), 0)
+        << "y points down: from (1, 1) to (1, 5), which is downwards, (5, 1) lies on the left";
+    EXPECT_LT(edge_function(snapped_a, snapped_c, snapped_b), 0)
+        << "from (1, 1) to (5, 1), (1, 5) lies on the right";
 }
 
 TEST(TriangleFill, Eq2_2_EdgeFunctionsOfTheWorkedExample) {
     constexpr std::int64_t unit = 256 * 256;  // one square pixel
-    EXPECT_EQ(edge_function(snapped_b, snapped_c, center), 4 * unit);
-    EXPECT_EQ(edge_function(snapped_c, snapped_a, center), 6 * unit);
-    EXPECT_EQ(edge_function(snapped_a, snapped_b, center), 6 * unit);
+    EXPECT_EQ(edge_function(snapped_b, snapped_c, center), 4 * unit)
+        << "from b = (1, 5) to c = (5, 1), at (2.5, 2.5); in 1/65536 square pixel";
+    EXPECT_EQ(edge_function(snapped_c, snapped_a, center), 6 * unit)
+        << "from c = (5, 1) to a = (1, 1), at (2.5, 2.5); in 1/65536 square pixel";
+    EXPECT_EQ(edge_function(snapped_a, snapped_b, center), 6 * unit)
+        << "from a = (1, 1) to b = (1, 5), at (2.5, 2.5); in 1/65536 square pixel";
     EXPECT_EQ(edge_function(snapped_b, snapped_c, {384, 1152}), 0) << "a centre on the side";
 }
 
@@ -106,7 +160,7 @@ TEST(TriangleFill, Eq2_9_EdgeFunctionsAreExactUpToTheCoordinateLimit) {
     for (int i = 0; i < 100'000; ++i) {
         const ivec2 p(any(random), any(random)), q(any(random), any(random)),
             r(any(random), any(random));
-        ASSERT_TRUE(edge_function(p, q, r) == exact_twice_area(p, q, r)) << "case " << i;
+        ASSERT_TRUE(is_exact_edge_function(p, q, r)) << "in 64 bits; seed 3, case " << i;
     }
 }
 
@@ -132,47 +186,56 @@ TEST(TriangleFill, Eq2_8_VerticesSnapToTheNearest256thOfAPixel) {
 }
 
 TEST(TriangleFill, Eq2_3_EdgeFunctionsAddUpToTwiceTheArea) {
-    EXPECT_EQ(snap_triangle(a, b, c).twice_area, 16 * 256 * 256);
+    EXPECT_EQ(snap_triangle(a, b, c).twice_area, 16 * 256 * 256)
+        << "of the triangle (1, 1), (1, 5), (5, 1), in 1/65536 square pixel";
+    EXPECT_TRUE(add_up(snapped_a, snapped_b, snapped_c, center));
+}
+
+TEST(TriangleFill, Eq2_9_EdgeFunctionsOfAllSizesAddUpToTwiceTheArea) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> any(-(1 << 30) + 1, (1 << 30) - 1);
     for (int i = 0; i < 100'000; ++i) {
         const ivec2 p(any(random), any(random)), q(any(random), any(random)),
             r(any(random), any(random)), s(any(random), any(random));
-        const int128 sum =
-            int128{edge_function(p, q, s)} + edge_function(q, r, s) + edge_function(r, p, s);
-        ASSERT_TRUE(sum == edge_function(p, q, r)) << "case " << i;
+        ASSERT_TRUE(add_up(p, q, r, s)) << "in 64 bits; seed 1, case " << i;
     }
 }
 
 TEST(TriangleFill, FacingIsSeenFromTheFront) {
-    look_up("Front and back");
-    EXPECT_TRUE(is_front_facing(snap_triangle(a, b, c)));
-    EXPECT_FALSE(is_front_facing(snap_triangle(a, c, b)));
-    EXPECT_FALSE(is_front_facing(snap_triangle(a, a, b)));
+    look_up("Eq. 2.3 and Front and back");
+    EXPECT_TRUE(is_front_facing(snap_triangle(a, b, c)))
+        << "(1, 1), (1, 5), (5, 1) is seen counter-clockwise, as y points down";
+    EXPECT_FALSE(is_front_facing(snap_triangle(a, c, b)))
+        << "(1, 1), (5, 1), (1, 5) is seen clockwise";
+    EXPECT_FALSE(is_front_facing(snap_triangle(a, a, b))) << "a triangle of no area";
 }
 
 TEST(TriangleFill, Eq2_5_EdgeStepsEqualTheEdgeFunctionAtTheNeighbours) {
     const EdgeWalk edge(snapped_b, snapped_c, 1, {1, 2});
     constexpr std::int64_t unit = 256 * 256;  // one square pixel
-    EXPECT_EQ(edge.value, 8 * unit);
-    EXPECT_EQ(edge.step_x, -4 * unit);
-    EXPECT_EQ(edge.step_y, -4 * unit);
+    EXPECT_EQ(edge.value, 8 * unit)
+        << "from (1, 5) to (5, 1), at the centre of pixel (1, 2), which is (1.5, 2.5)";
+    EXPECT_EQ(edge.step_x, -4 * unit) << "from (1, 5) to (5, 1): 256 times the normal's x";
+    EXPECT_EQ(edge.step_y, -4 * unit) << "from (1, 5) to (5, 1): 256 times the normal's y";
     EXPECT_EQ(edge.value, edge_function(snapped_b, snapped_c, {384, 640}));
     EXPECT_EQ(edge.value + edge.step_x, edge_function(snapped_b, snapped_c, {640, 640}));
     EXPECT_EQ(edge.value + edge.step_y, edge_function(snapped_b, snapped_c, {384, 896}));
 }
 
 TEST(TriangleFill, Eq2_6_ColumnsOfTheWorkedExample) {
-    const EdgeWalk edge(snapped_b, snapped_c, 1, {1, 2});  // a right side, on row 2
-    std::int64_t first = 0, last = 9;
-    edge.narrow(first, last);
-    EXPECT_EQ(first, 0);
-    EXPECT_EQ(last, 1);
-    const EdgeWalk left(snapped_c, snapped_b, 1, {1, 2});  // the same side of the neighbour
-    first = 0, last = 9;
-    left.narrow(first, last);
-    EXPECT_EQ(first, 2);
-    EXPECT_EQ(last, 9);
+    // Columns 0 to 9 of row 2, counted from pixel 1; the centre of column 2 is on the side.
+    const auto narrowed = [](ivec2 from, ivec2 to, std::int64_t least) {
+        EdgeWalk edge(from, to, 1, {1, 2});
+        edge.least = least;
+        std::int64_t first = 0, last = 9;
+        edge.narrow(first, last);
+        return std::pair(first, last);
+    };
+    using Columns = std::pair<std::int64_t, std::int64_t>;
+    EXPECT_EQ(narrowed(snapped_b, snapped_c, 1), Columns(0, 1))
+        << "of 0 to 9, by the right side from (1, 5) to (5, 1), whose least value is 1";
+    EXPECT_EQ(narrowed(snapped_c, snapped_b, 0), Columns(2, 9))
+        << "of 0 to 9, by the left side from (5, 1) to (1, 5), whose least value is 0";
 }
 
 TEST(TriangleFill, Eq2_6_ColumnsWhereTheDivisionLeavesARest) {
@@ -200,11 +263,31 @@ TEST(TriangleFill, Eq2_7_LeastValueOfEachKindOfSide) {
     EXPECT_EQ(least({256, 1280}, {1280, 1280}), 1) << "level, towards the right: at the bottom";
 }
 
-TEST(TriangleFill, Eq2_4_BarycentricsOfTheWorkedExample) {
+TEST(TriangleFill, Eq2_7_OwnedColumnsOfTheWorkedExample) {
+    const auto narrowed = [](ivec2 from, ivec2 to) {
+        std::int64_t first = 0, last = 9;
+        EdgeWalk(from, to, 1, {1, 2}).narrow(first, last);
+        return std::pair(first, last);
+    };
+    using Columns = std::pair<std::int64_t, std::int64_t>;
+    EXPECT_EQ(narrowed(snapped_b, snapped_c), Columns(0, 1))
+        << "of 0 to 9: the centre of column 2 is on the side from (1, 5) to (5, 1), a right one";
+    EXPECT_EQ(narrowed(snapped_c, snapped_b), Columns(2, 9))
+        << "of 0 to 9: for the neighbour it is a left side, which owns the centre on it";
+}
+
+TEST(TriangleFill, Eq2_4_AtThePixelsOfTheWorkedExample) {
+    EXPECT_EQ(EdgeWalk(snapped_b, snapped_c, 1, {2, 2}).value, 4 * 256 * 256)
+        << "the value of the side from b to c at pixel (2, 2), whose centre is (2.5, 2.5): Eq. 2.5";
     Image<vec3> barycentrics({8, 8});
     fill_triangle(snap_triangle(a, b, c), barycentrics.size(),
                   [&](ivec2 p, vec3 w) { barycentrics[p] = w; });
-    EXPECT_EQ(barycentrics[ivec2(2, 2)], vec3(0.25f, 0.375f, 0.375f));
+    EXPECT_EQ(barycentrics[ivec2(2, 2)], vec3(0.25f, 0.375f, 0.375f))
+        << "the shares of a = (1, 1), b = (1, 5), c = (5, 1) at pixel (2, 2); (0, 0, 0): it was "
+           "not visited";
+    // Here no two are equal.
+    EXPECT_EQ(barycentrics[ivec2(1, 2)], vec3(0.5f, 0.375f, 0.125f))
+        << "the shares of a = (1, 1), b = (1, 5), c = (5, 1) at pixel (1, 2)";
 }
 
 TEST(TriangleFill, Eq2_4_BarycentricsAreWithinTwoUlpOfTheExactOnes) {
@@ -219,6 +302,7 @@ TEST(TriangleFill, Eq2_4_BarycentricsAreWithinTwoUlpOfTheExactOnes) {
         const vec2 first = point(), second = point(), third = point();
         const ivec2 p = exactly_snapped(first), q = exactly_snapped(second),
                     r = exactly_snapped(third);
+        ASSERT_TRUE(is_exactly_snapped(first, second, third)) << "seed 2, case " << i;
         const auto area = static_cast<long double>(exact_twice_area(p, q, r));
         fill_triangle(
             snap_triangle(first, second, third), {64, 48}, [&](ivec2 pixel, vec3 barycentrics) {
@@ -230,16 +314,19 @@ TEST(TriangleFill, Eq2_4_BarycentricsAreWithinTwoUlpOfTheExactOnes) {
                 const long double exact[] = {share(q, r), share(r, p), share(p, q)};
                 for (int k = 0; k < 3; ++k)
                     if (exact[k] < 0 && first_wrong.empty())
-                        first_wrong = "a pixel is visited that is not covered";
+                        first_wrong = name(first, second, third) + ": pixel " +
+                                      testing::PrintToString(pixel) + " is visited and not covered";
                     else if (!(barycentrics[k] >= 0 &&
                                std::abs(barycentrics[k] - exact[k]) <= two_ulp * exact[k]) &&
                              first_wrong.empty()) {
                         std::ostringstream text;
-                        text << "vertices (" << first.x << ", " << first.y << "), (" << second.x
-                             << ", " << second.y << "), (" << third.x << ", " << third.y
-                             << "), pixel (" << pixel.x << ", " << pixel.y
-                             << "): the coordinate of vertex " << "abc"[k] << " is "
-                             << barycentrics[k] << ", exactly " << exact[k];
+                        text << name(first, second, third) << ", pixel "
+                             << testing::PrintToString(pixel) << ": the coordinate of vertex "
+                             << "abc"[k] << " is " << barycentrics[k] << ", expected " << exact[k];
+                        if (exact[k] > 0)
+                            text << ", off by "
+                                 << std::abs(barycentrics[k] - exact[k]) / exact[k] / FLT_EPSILON
+                                 << " ulp, which may be 2";
                         first_wrong = text.str();
                     }
             });
@@ -254,7 +341,11 @@ TEST(TriangleFill, Eq2_4_BarycentricsDoNotDependOnThePicturesSize) {
     fill_triangle(t, {64, 48}, [&](ivec2 p, vec3 w) { barycentrics[p] = w; });
     int visited = 0;
     fill_triangle(t, {31, 17}, [&](ivec2 p, vec3 w) {
-        EXPECT_EQ(w, barycentrics[p]);
+        if (!HasFailure()) {
+            EXPECT_EQ(w, barycentrics[p])
+                << "at pixel " << testing::PrintToString(p)
+                << " of a picture of 31 x 17 pixels, and of one of 64 x 48";
+        }
         ++visited;
     });
     EXPECT_EQ(visited, 31 * 17);
@@ -269,28 +360,35 @@ TEST(TriangleFill, Eq2_4_PartsOfAPictureTogetherShowAllOfIt) {
     for (const ivec2 first : {ivec2(0, 0), ivec2(40, 0), ivec2(0, 7), ivec2(40, 7)}) {
         const ivec2 last(first.x == 0 ? 39 : 63, first.y == 0 ? 6 : 47);
         fill_triangle(t, first, last, [&](ivec2 p, vec3 barycentrics) {
-            EXPECT_EQ(glm::clamp(p, first, last), p);
-            EXPECT_EQ(parts[p], unseen) << "visited twice";
+            if (HasFailure()) return;
+            EXPECT_EQ(glm::clamp(p, first, last), p)
+                << "pixel " << testing::PrintToString(p) << " lies outside of the part from "
+                << testing::PrintToString(first) << " to " << testing::PrintToString(last);
+            EXPECT_EQ(parts[p], unseen) << "pixel " << testing::PrintToString(p) << " twice";
             parts[p] = barycentrics;
         });
     }
-    EXPECT_EQ(parts, whole);
-    EXPECT_NE(whole, Image<vec3>(size, unseen));
+    EXPECT_TRUE(same_image("what four parts together hold", parts, whole));
+    EXPECT_FALSE(whole == Image<vec3>(size, unseen)) << "nothing is visited";
     fill_triangle(t, {40, 7}, {39, 47}, [](ivec2, vec3) { FAIL() << "in nothing"; });
 }
 
 TEST(TriangleFill, Eq2_7_SharedSideBelongsToOneOfTwoNeighbours) {
     EXPECT_TRUE(
-        same_pixels(covered(a, b, c, {8, 8}), {{1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2}, {1, 3}}));
+        same_pixels(covered(a, b, c, {8, 8}), {{1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2}, {1, 3}}))
+        << "(1, 1), (1, 5), (5, 1): its right side runs through centres";
     Pixels expected;
     for (int y = 1; y <= 4; ++y)
         for (int x = 5 - y; x <= 4; ++x) expected.insert({x, y});
-    EXPECT_TRUE(same_pixels(covered(b, {5, 5}, c, {8, 8}), expected));
+    EXPECT_TRUE(same_pixels(covered(b, {5, 5}, c, {8, 8}), expected))
+        << "its neighbour (1, 5), (5, 5), (5, 1): the same side is a left one";
 }
 
 TEST(TriangleFill, Eq2_7_LeftAndTopSidesOwnTheCentresOnThem) {
     // A square whose sides run through pixel centres: row and column 1 are in, 3 are out.
     Pixels pixels = covered({1.5f, 1.5f}, {1.5f, 3.5f}, {3.5f, 1.5f}, {8, 8});
+    EXPECT_TRUE(same_pixels(pixels, {{1, 1}, {2, 1}, {1, 2}}))
+        << "(1.5, 1.5), (1.5, 3.5), (3.5, 1.5): a left, a right and a top side through centres";
     pixels.merge(covered({1.5f, 3.5f}, {3.5f, 3.5f}, {3.5f, 1.5f}, {8, 8}));
     EXPECT_TRUE(same_pixels(pixels, {{1, 1}, {2, 1}, {1, 2}, {2, 2}}));
 }
@@ -314,8 +412,7 @@ TEST(TriangleFill, ExhaustiveAllTrianglesOfAQuarterPixelLatticeAreExact) {
                     expected |= static_cast<unsigned>(exactly_covered(vertices, {bit % 3, bit / 3}))
                                 << bit;
                 if (actual != expected)
-                    FAIL() << "vertices in 1/256 pixel: " << testing::PrintToString(vertices)
-                           << "; "
+                    FAIL() << name(point(i), point(j), point(k)) << ": "
                            << test::ascii_difference(covered(point(i), point(j), point(k), {3, 3}),
                                                      exactly_covered_pixels(vertices, {3, 3}));
             }
@@ -336,12 +433,12 @@ TEST(TriangleFill, RandomTrianglesOfAllSizesAreExact) {
         const std::array vertices = {exactly_snapped(p), exactly_snapped(q), exactly_snapped(r)};
         ASSERT_TRUE(
             same_pixels(covered(p, q, r, {20, 16}), exactly_covered_pixels(vertices, {20, 16})))
-            << "seed 4, case " << i;
+            << name(p, q, r) << ", seed 4, case " << i;
     }
 }
 
 TEST(TriangleFill, RandomTriangulationsCoverEachPixelOnce) {
-    look_up("Eq. 2.7");
+    look_up("Eq. 2.7 for centres on a side, Eq. 2.6 for the columns");
     constexpr ivec2 size(64, 48);
     for (unsigned seed = 0; seed < 10'000; ++seed) {
         ASSERT_TRUE(visit_each_pixel_once(test::random_triangulation(size, seed), size))
@@ -427,14 +524,17 @@ TEST(TriangleFill, HardCase_OrientationOfNearlyCollinearPointsIsExact) {
                 r(48 << 20, 48 << 20);
             const std::int64_t value = edge_function(p, q, r);
             wrong += (value > 0) - (value < 0) != exact_side(p, q, r);
+            ASSERT_EQ(wrong, 0) << "the sign of edge_function(" << testing::PrintToString(p) << ", "
+                                << testing::PrintToString(q) << ", " << testing::PrintToString(r)
+                                << "), which is " << value;
         }
-    EXPECT_EQ(wrong, 0);
     // And as it stands: 0.5 plus a few ulp snaps to 0.5, which is collinear with 12 and 24.
     const float ulp = std::nextafter(0.5f, 1.0f) - 0.5f;
     for (int i = 0; i < 256; ++i)
         for (int j = 0; j < 256; ++j) {
             const vec2 p(0.5f + static_cast<float>(i) * ulp, 0.5f + static_cast<float>(j) * ulp);
-            ASSERT_EQ(snap_triangle(p, {12, 12}, {24, 24}).twice_area, 0);
+            ASSERT_EQ(snap_triangle(p, {12, 12}, {24, 24}).twice_area, 0)
+                << "0.5 plus " << i << " and plus " << j << " ulp, (12, 12), (24, 24)";
         }
 }
 
@@ -461,14 +561,15 @@ TEST(TriangleFill, HardCase_SliversThinnerThanASubpixelAreExact) {
         const vec2 r = glm::mix(p, q, along(random)) + vec2(across(random), across(random));
         const Pixels expected = exactly_covered_pixels(
             {exactly_snapped(p), exactly_snapped(q), exactly_snapped(r)}, size);
-        ASSERT_TRUE(same_pixels(covered(p, q, r, size), expected)) << "seed 7, case " << i;
+        ASSERT_TRUE(same_pixels(covered(p, q, r, size), expected))
+            << name(p, q, r) << ", seed 7, case " << i;
         covering += !expected.empty();
     }
     EXPECT_GT(covering, 100) << "too few of them cover anything: the test would see nothing";
 }
 
 TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameBarycentrics) {
-    look_up("Front and back, and Eq. 2.4 for the barycentrics");
+    look_up("Eq. 2.4 and Front and back");
     const std::array<vec2, 3> p = {{{3.3f, 1.7f}, {1.2f, 13.9f}, {14.6f, 9.1f}}};
     const Pixels expected = covered(p[0], p[1], p[2], {16, 16});
     EXPECT_GT(expected.size(), 40u);
@@ -478,7 +579,8 @@ TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameBar
     for (const auto& order : std::vector<std::array<std::size_t, 3>>{
              {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}) {
         const vec2 first = p[order[0]], second = p[order[1]], third = p[order[2]];
-        EXPECT_TRUE(same_pixels(covered(first, second, third, {16, 16}), expected));
+        ASSERT_TRUE(same_pixels(covered(first, second, third, {16, 16}), expected))
+            << "vertices in the order " << testing::PrintToString(order);
         Image<vec3> barycentrics_now({16, 16}), expected_now({16, 16});
         fill_triangle(snap_triangle(first, second, third), {16, 16}, [&](ivec2 pixel, vec3 w) {
             barycentrics_now[pixel] = w;
@@ -486,7 +588,7 @@ TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameBar
                 expected_now[pixel][n] =
                     barycentrics[pixel][static_cast<int>(order[static_cast<std::size_t>(n)])];
         });
-        EXPECT_TRUE(barycentrics_now == expected_now)
+        ASSERT_TRUE(same_image("the barycentrics", barycentrics_now, expected_now))
             << "vertices in the order " << testing::PrintToString(order);
     }
 }
@@ -502,9 +604,9 @@ TEST(TriangleFill, HardCase_NotANumberInfiniteAndHugeVerticesCoverNothing) {
                 std::array<vec2, 3> p = {{{1, 1}, {1, 7}, {7, 1}}};
                 p[static_cast<std::size_t>(vertex)][axis] = bad;
                 const ScreenTriangle t = snap_triangle(p[0], p[1], p[2]);
-                EXPECT_EQ(t.twice_area, 0) << bad;
-                EXPECT_FALSE(is_front_facing(t));
-                EXPECT_TRUE(covered(p[0], p[1], p[2], {8, 8}).empty());
+                ASSERT_EQ(t.twice_area, 0) << name(p[0], p[1], p[2]);
+                ASSERT_FALSE(is_front_facing(t)) << name(p[0], p[1], p[2]);
+                ASSERT_TRUE(covered(p[0], p[1], p[2], {8, 8}).empty()) << name(p[0], p[1], p[2]);
             }
 }
 
@@ -516,14 +618,16 @@ TEST(TriangleFill, HardCase_TriangleFromAMillionPixelsAwayCoversTheWholePicture)
         // A square cut by its diagonal, which runs through the picture's pixel centres.
         const std::size_t lower = covered({-far, -far}, {-far, far}, {far, far}, size).size();
         const std::size_t upper = covered({-far, -far}, {far, far}, {far, -far}, size).size();
-        EXPECT_EQ(lower + upper, all) << far;
+        EXPECT_EQ(lower + upper, all) << "pixels that the halves of a square cover, which reaches "
+                                      << far << " pixels to all sides";
         EXPECT_GT(lower, all / 4) << far;
     }
-    EXPECT_EQ(covered({-1e6f, -1e6f}, {0, 2e6f}, {1e6f, -1e6f}, size).size(), all);
+    EXPECT_EQ(covered({-1e6f, -1e6f}, {0, 2e6f}, {1e6f, -1e6f}, size).size(), all)
+        << "pixels of 64 x 48 that (-1e6, -1e6), (0, 2e6), (1e6, -1e6) covers";
 }
 
 TEST(TriangleFill, HardCase_EmptyPictureVisitsNothing) {
-    look_up("All steps in their order, step 2");
+    look_up("Eq. 2.5 and All steps in their order, step 2");
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {0, 0}).empty());
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {5, 0}).empty());
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {0, 5}).empty());
