@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "support/exact.hpp"
 #include "support/golden.hpp"
 #include "support/look_up.hpp"
+#include "support/same_image.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::exact_center, rasterbook::test::exact_twice_area,
@@ -75,6 +77,20 @@ long double depth_tolerance(const std::array<vec3, 3>& p) {
            FLT_EPSILON / 2 * static_cast<long double>(high);
 }
 
+std::string name(const std::array<vec3, 3>& p) {
+    return "the triangle (x, y, depth) " + testing::PrintToString(p);
+}
+
+/// For EXPECT_TRUE: within the derived error.
+testing::AssertionResult is_exact_depth(const std::array<vec3, 3>& p, ivec2 pixel, float depth) {
+    const long double exact = exact_depth(p, pixel), error = std::abs(depth - exact);
+    if (error <= depth_tolerance(p)) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << "the depth at pixel " << testing::PrintToString(pixel) << " is "
+           << test::text_of(depth) << ", expected " << exact << ", off by "
+           << error / depth_tolerance(p) << " times what Eq. 3.3 may be; " << name(p);
+}
+
 std::vector<Patch> random_patches(unsigned seed, int count, ivec2 size) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> x(-20, static_cast<float>(size.x) + 20),
@@ -91,28 +107,40 @@ constexpr ivec2 origin(0, 0);
 
 }  // namespace
 
-TEST(ZBuffer, Eq3_1_KeepsTheLeastOfAllDepths) {
+TEST(ZBuffer, Eq3_1_KeepsTheLeastOfAFewDepths) {
+    DepthBuffer depth({1, 1});
+    EXPECT_TRUE(depth.test_and_write(origin, 0.5f)) << "the first: 0.5 is nearer than 1";
+    EXPECT_EQ(depth.depths()[origin], 0.5f) << "kept after 0.5";
+    EXPECT_FALSE(depth.test_and_write(origin, 0.75f)) << "0.75 lies behind 0.5";
+    EXPECT_EQ(depth.depths()[origin], 0.5f) << "kept after 0.5 and 0.75";
+    EXPECT_TRUE(depth.test_and_write(origin, 0.25f)) << "0.25 is nearer than 0.5";
+    EXPECT_EQ(depth.depths()[origin], 0.25f) << "kept after 0.5, 0.75 and 0.25";
+}
+
+TEST(ZBuffer, Eq3_1_KeepsTheLeastOfManyDepths) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(0, 1);
     DepthBuffer depth({1, 1});
     float least = 1;
     for (int i = 0; i < 1000; ++i) {
         const float z = any(random);
-        EXPECT_EQ(depth.test_and_write(origin, z), z < least);
+        ASSERT_EQ(depth.test_and_write(origin, z), z < least) << z << " after " << least;
         least = std::min(least, z);
-        ASSERT_EQ(depth.depths()[origin], least);
+        ASSERT_EQ(depth.depths()[origin], least) << "kept after " << z;
     }
 }
 
 TEST(ZBuffer, Eq3_2_DepthOfTheWorkedExample) {
     // Shares 1/4, 3/8, 3/8 of depths 0.25, 0.5, 0.75 at pixel (2, 2).
     const auto depths = depths_of({{{1, 1, 0.25f}, {1, 5, 0.5f}, {5, 1, 0.75f}}}, {0, 0}, {8, 8});
-    EXPECT_EQ(depths[ivec2(2, 2)], 0.53125f);
+    EXPECT_EQ(depths[ivec2(2, 2)], 0.53125f)
+        << "the barycentrics 1/4, 3/8, 3/8 of the depths 0.25, 0.5, 0.75";
 }
 
 TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestVertexIsTheSameDepth) {
     EXPECT_EQ(TriangleDepth(vec3(0.25f, 0.5f, 0.75f)).at(vec3(0.25f, 0.375f, 0.375f)), 0.53125f);
-    EXPECT_EQ(TriangleDepth(vec3(0.75f, 0.25f, 0.5f)).at(vec3(0.375f, 0.25f, 0.375f)), 0.53125f);
+    EXPECT_EQ(TriangleDepth(vec3(0.75f, 0.25f, 0.5f)).at(vec3(0.375f, 0.25f, 0.375f)), 0.53125f)
+        << "here the second vertex is the nearest";
 }
 
 TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
@@ -124,10 +152,10 @@ TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
             for (int x = 0; x < 40; ++x)
                 if (depths[{x, y}] != uncovered) {
                     ++compared;
-                    ASSERT_LE(std::abs(depths[{x, y}] - exact_depth(p, {x, y})), depth_tolerance(p))
-                        << "seed 2, case " << id;
+                    ASSERT_TRUE(is_exact_depth(p, {x, y}, depths[{x, y}])) << "seed 2, case " << id;
                     ASSERT_GE(depths[ivec2(x, y)], std::min({p[0].z, p[1].z, p[2].z}))
-                        << "seed 2, case " << id;
+                        << "the depth at pixel (" << x << ", " << y << ") of " << name(p)
+                        << ", and the least of its vertices; seed 2, case " << id;
                 }
     }
     EXPECT_GT(compared, 100'000);
@@ -142,7 +170,9 @@ TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {
                 depths_of({{vec3(vec2(p[0]), z), vec3(vec2(p[1]), z), vec3(vec2(p[2]), z)}}, {0, 0},
                           {40, 30});
             for (const float depth : depths.pixels()) {
-                ASSERT_TRUE(depth == z || depth == uncovered) << depth;
+                ASSERT_TRUE(depth == z || depth == uncovered)
+                    << test::text_of(depth) << " where all three depths are " << test::text_of(z)
+                    << test::ulps_between(depth, z);
                 covered += depth == z;
             }
         }
@@ -153,23 +183,27 @@ TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
     look_up("Eq. 3.1: less, not less or equal");
     DepthBuffer depth({1, 1});
     EXPECT_TRUE(depth.test_and_write(origin, 0.5f));
-    EXPECT_FALSE(depth.test_and_write(origin, 0.5f));
-    EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(0.5f, 0.0f)));
+    EXPECT_FALSE(depth.test_and_write(origin, 0.5f)) << "0.5 after 0.5: the first stays";
+    EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(0.5f, 0.0f))) << "1 ulp nearer";
     const std::array<vec3, 3> p = {{{1, 1, 0.3f}, {2, 30, 0.9f}, {38, 5, 0.6f}}};
     const Image<int> ids =
         visible({{p, 1}, {{p[1], p[2], p[0]}, 2}, {{p[2], p[0], p[1]}, 3}}, {40, 30});
-    for (const int id : ids.pixels()) EXPECT_TRUE(id == 1 || id == -1);
+    for (const int id : ids.pixels())
+        ASSERT_TRUE(id == 1 || id == -1)
+            << "triangle " << id << ", drawn later, covers triangle 1 of the same depths, "
+            << name(p);
 }
 
 TEST(ZBuffer, HardCase_ClearValueZeroOneAndMinusZero) {
     look_up("Eq. 3.1: the buffer starts at 1");
     DepthBuffer depth({1, 1});
-    EXPECT_EQ(depth.depths()[origin], 1.0f);
+    EXPECT_EQ(depth.depths()[origin], 1.0f) << "in a new buffer";
     EXPECT_FALSE(depth.test_and_write(origin, 1.0f)) << "the far plane itself is not drawn";
     EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(1.0f, 0.0f)));
     EXPECT_TRUE(depth.test_and_write(origin, 0.0f));
     EXPECT_FALSE(depth.test_and_write(origin, -0.0f)) << "-0 equals 0, and the first stays";
-    EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()));
+    EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()))
+        << "NaN is not nearer than 0";
     EXPECT_EQ(depth.depths()[origin], 0.0f);
 }
 
@@ -184,12 +218,16 @@ TEST(ZBuffer, HardCase_ClearsAPartAndNothingElse) {
         DepthBuffer depth(size, unset);
         depth.clear(ivec2(0), size - 1);
         for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x) EXPECT_TRUE(depth.test_and_write({x, y}, 0.25f));
+            for (int x = 0; x < size.x; ++x)
+                ASSERT_TRUE(depth.test_and_write({x, y}, 0.25f))
+                    << "pixel (" << x << ", " << y << ") of a cleared buffer";
         depth.clear(first, last);
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 const bool is_in = x >= first.x && y >= first.y && x <= last.x && y <= last.y;
-                EXPECT_EQ((depth.depths()[{x, y}]), is_in ? 1.0f : 0.25f) << x << ", " << y;
+                ASSERT_EQ((depth.depths()[{x, y}]), is_in ? 1.0f : 0.25f)
+                    << "pixel (" << x << ", " << y << "), of all 0.25, after clearing from "
+                    << testing::PrintToString(first) << " to " << testing::PrintToString(last);
             }
     }
 }
@@ -197,8 +235,9 @@ TEST(ZBuffer, HardCase_ClearsAPartAndNothingElse) {
 TEST(ZBuffer, HardCase_NotANumberIsNeverNearer) {
     look_up("Eq. 3.1; every comparison with NaN is false");
     DepthBuffer depth({1, 1});
-    EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()));
-    EXPECT_EQ(depth.depths()[origin], 1.0f);
+    EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()))
+        << "NaN is not nearer than 1";
+    EXPECT_EQ(depth.depths()[origin], 1.0f) << "kept after NaN";
 }
 
 TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
@@ -209,7 +248,9 @@ TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
     std::mt19937 random(5);
     for (int i = 0; i < 200; ++i) {
         std::shuffle(patches.begin(), patches.end(), random);
-        ASSERT_EQ(visible(patches, {60, 40}), first) << "permutation " << i;
+        ASSERT_TRUE(
+            test::same_image("the visible one of 12 triangles", visible(patches, {60, 40}), first))
+            << "drawn in another order, " << i;
     }
 }
 
@@ -218,12 +259,10 @@ TEST(ZBuffer, HardCase_RotatedVerticesGiveTheSameBits) {
     std::set<float> different;
     for (const auto& [p, id] : random_patches(6, 3'000, {40, 30})) {
         const auto depths = depths_of(p, {0, 0}, {40, 30});
-        ASSERT_EQ(depths, depths_of({{p[1], p[2], p[0]}}, {0, 0}, {40, 30}))
-            << "seed 6, case " << id;
-        ASSERT_EQ(depths, depths_of({{p[2], p[0], p[1]}}, {0, 0}, {40, 30}))
-            << "seed 6, case " << id;
-        ASSERT_EQ(depths, depths_of({{p[2], p[1], p[0]}}, {0, 0}, {40, 30}))
-            << "seed 6, case " << id;
+        for (const auto& turned : {std::array{p[1], p[2], p[0]}, std::array{p[2], p[0], p[1]},
+                                   std::array{p[2], p[1], p[0]}})
+            ASSERT_TRUE(test::same_image("the depth", depths_of(turned, {0, 0}, {40, 30}), depths))
+                << name(turned) << " and in another order " << name(p) << "; seed 6, case " << id;
         different.insert(depths.pixels().begin(), depths.pixels().end());
     }
     EXPECT_GT(different.size(), 100'000u);
@@ -276,7 +315,8 @@ TEST(ZBuffer, HardCase_SteepSmallTrianglesFarFromTheOrigin) {
     }
     std::cout << "worst depth error at (3000, 3000), " << triangles << " triangles: " << worst
               << "; with slopes from the picture's origin: " << worst_from_origin << '\n';
-    EXPECT_LE(worst, 4.5L * FLT_EPSILON);       // depth_tolerance() of depths from 0 to 1
+    EXPECT_LE(worst, 4.5L * FLT_EPSILON)  // depth_tolerance() of depths from 0 to 1
+        << "the worst error of a depth, triangles of 16 pixels at (3000, 3000)";
     EXPECT_GE(worst_from_origin, 100 * worst);  // the case is hard
 }
 
@@ -300,7 +340,8 @@ TEST(ZBuffer, HardCase_InterpenetratingTrianglesMeetOnTheExactLine) {
                 first_in_front += behind > 0;
                 if (std::abs(behind) <= depth_tolerance(p) + depth_tolerance(q)) continue;
                 ASSERT_EQ((ids[{x, y}]), behind > 0 ? 0 : 1)
-                    << "seed 8, case " << i << " at " << x << ", " << y;
+                    << "what is seen at pixel (" << x << ", " << y << "): 0 for " << name(p)
+                    << ", 1 for " << name(q) << "; seed 8, case " << i;
             }
         crossings += first_in_front > 0 && first_in_front < size.x * size.y;
     }
