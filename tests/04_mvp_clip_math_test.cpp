@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "04_mvp/clip.hpp"
 #include "04_mvp/transform.hpp"
 #include "support/any_size.hpp"
+#include "support/plane_names.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
 
@@ -69,8 +71,8 @@ testing::AssertionResult is_part_of(const ClippedTriangle& part, const Vertices&
         real sum = 0;
         for (int i = 0; i < 3; ++i) {
             if (!(vertex.barycentrics[i] >= 0))
-                return testing::AssertionFailure()
-                       << "a barycentric coordinate of " << vertex.barycentrics[i];
+                return testing::AssertionFailure() << "a barycentric coordinate below 0: "
+                                                   << testing::PrintToString(vertex.barycentrics);
             sum += vertex.barycentrics[i];
         }
         if (const auto is_one = is_near(1, sum, of_shares + of_sums); !is_one) return is_one;
@@ -86,7 +88,9 @@ testing::AssertionResult is_part_of(const ClippedTriangle& part, const Vertices&
         }
         for (int plane = 0; plane < frustum_planes; ++plane)
             if (distance_inside(plane, lvec4(vertex.position_clip)).value < 0)
-                return testing::AssertionFailure() << "outside of plane " << plane;
+                return testing::AssertionFailure()
+                       << testing::PrintToString(vertex.position_clip) << " is outside of the "
+                       << plane_names[plane] << " plane";
     }
     return testing::AssertionSuccess();
 }
@@ -130,7 +134,8 @@ TEST(Mvp, Eq4_10_PlaneDistancesOfAllSizes) {
             const Sum exact = distance_inside(plane, lvec4(point));
             ASSERT_TRUE(is_near(plane_distance(plane, point), exact.value,
                                 eps / 2 * std::abs(exact.value)))  // one sum
-                << "seed 1, case " << i << ", plane " << plane;
+                << "from the " << plane_names[plane] << " plane, of "
+                << testing::PrintToString(point) << "; seed 1, case " << i;
         }
     }
 }
@@ -153,7 +158,10 @@ TEST(Mvp, Eq4_12_CrossingsOfAllSizes) {
             exact.add(-b_by / whole * number(a)), exact.add(a_by / whole * number(b));
             // The difference, the quotient, the product and the sum, half an eps each.
             ASSERT_TRUE(is_near(number(there), exact.value, 4 * eps / 2 * exact.of_sizes))
-                << "seed 2, case " << i << ", number " << k;
+                << (k < 4 ? "position_clip[" : "barycentrics[") << (k < 4 ? k : k - 4)
+                << "] between " << testing::PrintToString(a.position_clip) << ", inside by " << a_by
+                << ", and " << testing::PrintToString(b.position_clip) << ", by " << b_by
+                << (is_a_first ? "" : ", called the other way round") << "; seed 2, case " << i;
         }
     }
 }
@@ -170,7 +178,9 @@ TEST(Mvp, Eq4_13_WhatIsLeftOfTrianglesOfAllSizes) {
             }
             const ClippedTriangles parts = clip_triangle(vertices);
             for (const ClippedTriangle& part : parts)
-                ASSERT_TRUE(is_part_of(part, vertices)) << "seed " << seed << ", case " << i;
+                ASSERT_TRUE(is_part_of(part, vertices))
+                    << "of the triangle " << testing::PrintToString(vertices) << "; seed " << seed
+                    << ", case " << i;
             cut += parts.end() - parts.begin() > 1;
             for (int k = 0; k < 8; ++k) {
                 const lvec3 barycentrics = glm::abs(lvec3(any_share.vector()));
@@ -178,7 +188,12 @@ TEST(Mvp, Eq4_13_WhatIsLeftOfTrianglesOfAllSizes) {
                 const auto times = times_covered(parts, barycentrics);
                 if (!expected || !times) continue;
                 ASSERT_EQ(*times, *expected ? 1 : 0)
-                    << "seed " << seed << ", case " << i << ", point " << k;
+                    << "in so many of the " << parts.end() - parts.begin()
+                    << " parts is the point of the triangle " << testing::PrintToString(vertices)
+                    << " whose barycentrics are in proportion to "
+                    << testing::PrintToString(barycentrics) << "; it is "
+                    << (*expected ? "inside" : "outside") << " of the frustum; seed " << seed
+                    << ", case " << i << ", point " << k;
                 ++(*expected ? inside : outside);
             }
         }
@@ -188,7 +203,7 @@ TEST(Mvp, Eq4_13_WhatIsLeftOfTrianglesOfAllSizes) {
     EXPECT_GT(cut, cases / 10);
 }
 
-TEST(Mvp, Eq4_14_BoxesOfAllSizes) {
+TEST(Mvp, Eq4_14_RandomBoxesOfAllSizes) {
     AnySize any(5, decades);
     int culled = 0, kept = 0;
     for (int i = 0; i < cases; ++i) {
@@ -224,8 +239,14 @@ TEST(Mvp, Eq4_14_BoxesOfAllSizes) {
             is_beyond_one |= is_beyond, reaches_into_all &= reaches_in;
         }
         const bool is_outside = is_outside_frustum(box, clip_from_world);
-        ASSERT_TRUE(!is_beyond_one || is_outside) << "seed 5, case " << i;
-        ASSERT_TRUE(!reaches_into_all || !is_outside) << "seed 5, case " << i;
+        const std::string of_box = "the box from " + testing::PrintToString(box.min) + " to " +
+                                   testing::PrintToString(box.max) + " by " +
+                                   testing::PrintToString(clip_from_world) + ", case " +
+                                   std::to_string(i);
+        ASSERT_TRUE(!is_beyond_one || is_outside)
+            << "not culled, though it is outside of one plane: " << of_box;
+        ASSERT_TRUE(!reaches_into_all || !is_outside)
+            << "culled, though it reaches into all planes: " << of_box;
         culled += is_beyond_one, kept += reaches_into_all;
     }
     EXPECT_GT(culled, cases / 10);

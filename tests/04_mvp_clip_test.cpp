@@ -21,8 +21,10 @@
 #include "support/ascii_picture.hpp"
 #include "support/golden.hpp"
 #include "support/look_up.hpp"
+#include "support/plane_names.hpp"
 #include "support/printers.hpp"
 #include "support/projected.hpp"
+#include "support/same_image.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::look_up, rasterbook::test::Pixels, rasterbook::test::projected,
@@ -34,7 +36,27 @@ using Vertices = std::array<vec4, 3>;
 using lvec3 = glm::vec<3, long double>;
 using Bits = std::array<std::uint32_t, 4>;
 
+/// For EXPECT_TRUE: equal to the last bit.
+testing::AssertionResult same_bits(vec4 actual, vec4 expected) {
+    for (int i = 0; i < 4; ++i)
+        if (std::bit_cast<std::uint32_t>(actual[i]) != std::bit_cast<std::uint32_t>(expected[i]))
+            return testing::AssertionFailure()
+                   << testing::PrintToString(actual) << ", expected "
+                   << testing::PrintToString(expected) << "; " << "xyzw"[i] << " differs"
+                   << test::ulps_between(actual[i], expected[i]);
+    return testing::AssertionSuccess();
+}
+
 Bits bits_of(vec4 v) { return std::bit_cast<Bits>(std::array{v.x, v.y, v.z, v.w}); }
+
+std::string places(const std::set<Bits>& points) {
+    std::string text;
+    for (const Bits& bits : points) {
+        const auto p = std::bit_cast<std::array<float, 4>>(bits);
+        text += testing::PrintToString(vec4(p[0], p[1], p[2], p[3])) + ' ';
+    }
+    return text;
+}
 
 std::vector<ClippedTriangle> clipped(const Vertices& vertices) {
     const ClippedTriangles triangles = clip_triangle(vertices);
@@ -59,23 +81,25 @@ testing::AssertionResult is_part_of(const ClippedTriangle& part, const Vertices&
         const vec3 barycentrics = vertex.barycentrics;
         for (int i = 0; i < 3; ++i)
             if (!(barycentrics[i] >= -tolerance && barycentrics[i] <= 1 + tolerance))
-                return testing::AssertionFailure()
-                       << "barycentrics " << testing::PrintToString(barycentrics);
+                return testing::AssertionFailure() << "barycentrics outside of 0 to 1: "
+                                                   << testing::PrintToString(barycentrics);
         if (!(std::abs(barycentrics.x + barycentrics.y + barycentrics.z - 1) <= tolerance))
-            return testing::AssertionFailure()
-                   << "the sum of the barycentrics " << testing::PrintToString(barycentrics);
+            return testing::AssertionFailure() << "barycentrics that do not add up to 1: "
+                                               << testing::PrintToString(barycentrics);
         const dvec4 sum = dvec4(vertices[0]) * double{barycentrics.x} +
                           dvec4(vertices[1]) * double{barycentrics.y} +
                           dvec4(vertices[2]) * double{barycentrics.z};
         for (int i = 0; i < 4; ++i)
             if (!(std::abs(sum[i] - vertex.position_clip[i]) <= tolerance * greatest))
                 return testing::AssertionFailure()
-                       << "the weighted sum " << testing::PrintToString(sum) << " is not "
-                       << testing::PrintToString(vertex.position_clip);
+                       << "the vertex " << testing::PrintToString(vertex.position_clip)
+                       << " has the barycentrics " << testing::PrintToString(barycentrics)
+                       << ", which give " << testing::PrintToString(sum);
         for (int plane = 0; plane < frustum_planes; ++plane)
             if (!(plane_distance(plane, vertex.position_clip) >= -tolerance * greatest))
-                return testing::AssertionFailure() << testing::PrintToString(vertex.position_clip)
-                                                   << " is outside of plane " << plane;
+                return testing::AssertionFailure()
+                       << testing::PrintToString(vertex.position_clip) << " is outside of the "
+                       << test::plane_names[plane] << " plane";
     }
     return testing::AssertionSuccess();
 }
@@ -151,9 +175,10 @@ TEST(Mvp, Eq4_10_DistanceToEachPlane) {
     const vec4 point(1, 2, 4, 8);
     const float expected[] = {9, 7, 10, 6, 12, 4};  // left, right, bottom, top, near, far
     for (int plane = 0; plane < frustum_planes; ++plane)
-        EXPECT_EQ(plane_distance(plane, point), expected[plane]) << "plane " << plane;
-    EXPECT_EQ(plane_distance(1, {0, 0, 0, 1}), 1);
-    EXPECT_EQ(plane_distance(1, {3, 0, 0, 1}), -2);
+        EXPECT_EQ(plane_distance(plane, point), expected[plane])
+            << "(1, 2, 4, 8) from the " << test::plane_names[plane] << " plane";
+    EXPECT_EQ(plane_distance(1, {0, 0, 0, 1}), 1) << "the middle from the right plane";
+    EXPECT_EQ(plane_distance(1, {3, 0, 0, 1}), -2) << "(3, 0, 0, 1) lies outside of it";
 }
 
 TEST(Mvp, Eq4_10_PlanesBoundTheCube) {
@@ -162,16 +187,19 @@ TEST(Mvp, Eq4_10_PlanesBoundTheCube) {
         const float sign = plane % 2 == 0 ? -1.0f : 1.0f;
         point[plane / 2] = sign * 2;
         for (int other = 0; other < frustum_planes; ++other)
-            EXPECT_EQ(plane_distance(other, point), other == plane         ? 0
+            ASSERT_EQ(plane_distance(other, point), other == plane         ? 0
                                                     : other == (plane ^ 1) ? 4
-                                                                           : 2);
+                                                                           : 2)
+                << testing::PrintToString(point) << ", which is on the " << test::plane_names[plane]
+                << " plane, from the " << test::plane_names[other] << " one";
     }
 }
 
 TEST(Mvp, Eq4_11_CrossingOfTheWorkedExample) {
     const ClippedVertex from = {{0, 0, 0, 1}, {1, 0, 0}}, to = {{3, 0, 0, 1}, {0, 1, 0}};
     const ClippedVertex there = crossing(from, 1, to, -2);
-    EXPECT_EQ(there.position_clip, vec4(1, 0, 0, 1));
+    EXPECT_EQ(there.position_clip, vec4(1, 0, 0, 1))
+        << "from (0, 0, 0, 1), inside of the right plane by 1, to (3, 0, 0, 1), by -2";
     EXPECT_NEAR(there.barycentrics.x, 2.0f / 3, FLT_EPSILON);
     EXPECT_NEAR(there.barycentrics.y, 1.0f / 3, FLT_EPSILON);
     EXPECT_EQ(there.barycentrics.z, 0);
@@ -193,12 +221,17 @@ TEST(Mvp, Eq4_12_BothWaysCrossInTheSamePoint) {
         ++crossings;
         const ClippedVertex there = crossing(from, from_by, to, to_by),
                             back = crossing(to, to_by, from, from_by);
-        ASSERT_EQ(bits_of(there.position_clip), bits_of(back.position_clip))
-            << "seed 1, case " << i;
-        ASSERT_EQ(there.barycentrics, back.barycentrics) << "seed 1, case " << i;
+        ASSERT_TRUE(same_bits(back.position_clip, there.position_clip))
+            << "the crossing from b to a, and from a to b: Eq. 4.12 is symmetric. a "
+            << testing::PrintToString(from.position_clip) << ", inside by " << from_by << ", b "
+            << testing::PrintToString(to.position_clip) << ", by " << to_by << "; seed 1, case "
+            << i;
+        ASSERT_EQ(back.barycentrics, there.barycentrics)
+            << "at the crossing from b to a, and from a to b; seed 1, case " << i;
         // Half an eps for each of four roundings, of the greatest number there is, 3 or 6.
         ASSERT_NEAR(plane_distance(plane, there.position_clip), 0, 12 * FLT_EPSILON)
-            << "seed 1, case " << i;
+            << "the crossing " << testing::PrintToString(there.position_clip) << " from the "
+            << test::plane_names[plane] << " plane; seed 1, case " << i;
     }
     EXPECT_GT(crossings, 80'000);
 }
@@ -212,30 +245,33 @@ TEST(Mvp, Eq4_13_WhatIsLeftOfTheWorkedExample) {
         for (const ClippedVertex& vertex : part)
             left.insert({vertex.position_clip.x, vertex.position_clip.y});
     }
-    EXPECT_EQ(left, (std::set<std::pair<float, float>>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+    EXPECT_EQ(left, (std::set<std::pair<float, float>>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}))
+        << "x and y of what is left of (0, 0), (2, 0), (0, 2), with w = 1";
 }
 
 TEST(Mvp, Eq4_13_WhatIsAllInsideStaysBitForBit) {
     const auto parts = clipped(all_inside);
-    ASSERT_EQ(parts.size(), 1u);
+    ASSERT_EQ(parts.size(), 1u) << "triangles left of one that is all inside";
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(bits_of(parts[0][i].position_clip), bits_of(all_inside[i]));
-        EXPECT_EQ(parts[0][i].barycentrics, vec3(i == 0, i == 1, i == 2));
+        EXPECT_TRUE(same_bits(parts[0][i].position_clip, all_inside[i])) << "vertex " << "abc"[i];
+        EXPECT_EQ(parts[0][i].barycentrics, vec3(i == 0, i == 1, i == 2)) << "vertex " << "abc"[i];
     }
 }
 
 TEST(Mvp, Eq4_13_NothingIsLeftOutsideOfOnePlane) {
-    EXPECT_FALSE(clipped(all_inside).empty());
+    EXPECT_FALSE(clipped(all_inside).empty()) << "nothing is left of a triangle all inside";
     for (int plane = 0; plane < frustum_planes; ++plane) {
         Vertices vertices = all_inside;
         for (vec4& vertex : vertices)
             vertex[plane / 2] = (plane % 2 == 0 ? -1.001f : 1.001f) * vertex.w;
-        EXPECT_TRUE(clipped(vertices).empty()) << "plane " << plane;
+        ASSERT_TRUE(clipped(vertices).empty())
+            << "something is left outside of the " << test::plane_names[plane]
+            << " plane: " << testing::PrintToString(vertices);
     }
 }
 
 TEST(Mvp, BarycentricsOfWhatIsLeftSayWhereItComesFrom) {
-    look_up("Eq. 4.12 for positions and barycentrics alike");
+    look_up("Eq. 4.13, and 4.12 for positions and barycentrics alike");
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(-3, 3);
     int cut = 0;
@@ -246,10 +282,11 @@ TEST(Mvp, BarycentricsOfWhatIsLeftSayWhereItComesFrom) {
         const Vertices vertices = {vertex(), vertex(), vertex()};
         const auto parts = clipped(vertices);
         for (const ClippedTriangle& part : parts)
-            ASSERT_TRUE(is_part_of(part, vertices)) << "seed 2, case " << i;
+            ASSERT_TRUE(is_part_of(part, vertices))
+                << "of the triangle " << testing::PrintToString(vertices) << "; seed 2, case " << i;
         cut += parts.size() > 2;
     }
-    EXPECT_GT(cut, 10'000);
+    EXPECT_GT(cut, 10'000) << "triangles of which more than two parts are left, of 100,000";
 }
 
 TEST(Mvp, WhatIsLeftKeepsTheWinding) {
@@ -271,7 +308,9 @@ TEST(Mvp, WhatIsLeftKeepsTheWinding) {
             const std::int64_t twice_area = on_screen(part, size).twice_area;
             constexpr std::int64_t pixel = 65536;  // slivers may be turned by the snapping
             if (std::abs(twice_area) < 4 * pixel) continue;
-            ASSERT_EQ(twice_area > 0, turn > 0) << "seed 3, case " << i;
+            ASSERT_EQ(twice_area > 0, turn > 0)
+                << "a part is seen counter-clockwise, and the triangle "
+                << testing::PrintToString(vertices) << "; seed 3, case " << i;
             ++parts;
         }
     }
@@ -298,7 +337,11 @@ TEST(Mvp, HardCase_SharedEdgeIsCutInTheSamePoints) {
         const auto points = on_edge({first, second, third});
         const auto other = on_edge({second, first, fourth});
         if (points.empty() || other.empty()) continue;  // one of them is all outside
-        ASSERT_EQ(points, other) << "seed 4, case " << i;
+        ASSERT_TRUE(points == other)
+            << "two triangles share the side from " << testing::PrintToString(first) << " to "
+            << testing::PrintToString(second)
+            << ", and are cut there in other points: " << places(points) << "and " << places(other)
+            << "; seed 4, case " << i;
         cut += points != std::set<Bits>{bits_of(first), bits_of(second)};
     }
     EXPECT_GT(cut, 10'000);
@@ -317,8 +360,10 @@ TEST(Mvp, HardCase_TrianglesAroundTheCameraCoverWhatItsRaysHit) {
             return clip_from_view *
                    vec4(reach * any(random), reach * any(random), reach * any(random), 1);
         };
-        ASSERT_TRUE(covers_what_rays_hit({vertex(), vertex(), vertex()}, size, covering))
-            << "seed 5, case " << i;
+        const Vertices vertices = {vertex(), vertex(), vertex()};
+        ASSERT_TRUE(covers_what_rays_hit(vertices, size, covering))
+            << "of the triangle " << testing::PrintToString(vertices)
+            << " in clip space; seed 5, case " << i;
     }
     EXPECT_GT(covering, 3'000);
 }
@@ -416,11 +461,13 @@ TEST(Mvp, Eq4_14_BoxesOutsideOfAPlaneAreCulled) {
     for (const vec3 center : {vec3(-7, 0, -5), vec3(7, 0, -5), vec3(0, -7, -5), vec3(0, 7, -5),
                               vec3(0, 0, -0.3f), vec3(0, 0, -11), vec3(0, 0, 5), vec3(0, 0, 50)})
         EXPECT_TRUE(is_outside_frustum(box(center), clip_from_view))
-            << testing::PrintToString(center);
+            << "a box of side 1 around " << testing::PrintToString(center)
+            << " is all outside of one plane";
     for (const vec3 center : {vec3(-5.4f, 0, -5), vec3(5.4f, 0, -5), vec3(0, -5.4f, -5),
                               vec3(0, 5.4f, -5), vec3(0, 0, -0.6f), vec3(0, 0, -10.4f)})
         EXPECT_FALSE(is_outside_frustum(box(center), clip_from_view))
-            << testing::PrintToString(center) << " reaches across a plane";
+            << "a box of side 1 around " << testing::PrintToString(center)
+            << " reaches across a plane";
 }
 
 TEST(Mvp, Eq4_14_NoBoxIsCulledOfWhichAPointIsSeen) {
@@ -448,7 +495,10 @@ TEST(Mvp, Eq4_14_NoBoxIsCulledOfWhichAPointIsSeen) {
             const dvec4 clip = dmat4(clip_from_world) * dvec4(inside, 1);
             is_seen = glm::all(glm::lessThan(glm::abs(dvec3(clip)), dvec3(clip.w)));
         }
-        ASSERT_FALSE(is_culled && is_seen) << "seed 7, case " << i;
+        ASSERT_FALSE(is_culled && is_seen)
+            << "the box from " << testing::PrintToString(bounds.min) << " to "
+            << testing::PrintToString(bounds.max) << " is culled, and a point of it is seen by "
+            << testing::PrintToString(clip_from_world) << "; seed 7, case " << i;
         culled += is_culled, seen += is_seen;
     }
     EXPECT_GT(culled, 2'000);
@@ -472,10 +522,11 @@ TEST(Mvp, Eq4_9_ProjectingDividesByWAndSnaps) {
                                       {{-0.5f, -0.5f, 0.5f, 1}, {0, 1, 0}},
                                       {{2, 2, -4, 4}, {0, 0, 1}}}};
     const ProjectedTriangle front = project(mesh, triangle, clipped, {8, 4});
-    EXPECT_EQ(&front.mesh, &mesh);
-    EXPECT_EQ(&front.triangle, &triangle);
+    EXPECT_TRUE(&front.mesh == &mesh);
+    EXPECT_TRUE(&front.triangle == &triangle);
     EXPECT_EQ(front.on_screen.vertices,
-              (std::array{256 * ivec2(2, 1), 256 * ivec2(2, 3), 256 * ivec2(6, 1)}));
+              (std::array{256 * ivec2(2, 1), 256 * ivec2(2, 3), 256 * ivec2(6, 1)}))
+        << "in 1/256 pixel; (-1, 1), (-1, -1) and (1, 1) halved, in a picture of 8 x 4 pixels";
     EXPECT_FALSE(front.is_back_facing);
     EXPECT_EQ(front.depth.at({1, 0, 0}), 0.5f);
     EXPECT_EQ(front.depth.at({0, 1, 0}), 0.75f);

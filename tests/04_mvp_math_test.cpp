@@ -49,7 +49,7 @@ Bounds any_box(AnySize& any) {
 
 }  // namespace
 
-TEST(Mvp, Eq4_4_PointsOfAllSizesThroughMatricesOfAllSizes) {
+TEST(Mvp, Eq4_4_VerticesOfAllSizesThroughMatricesOfAllSizes) {
     AnySize any(1, decades);
     for (int i = 0; i < cases / 4; ++i) {
         const mat4 m = any_matrix(any);
@@ -61,12 +61,14 @@ TEST(Mvp, Eq4_4_PointsOfAllSizesThroughMatricesOfAllSizes) {
                 const Sum exact = row_times_point(m, row, points[k]);
                 ASSERT_TRUE(
                     is_near(transformed[k][row], exact.value, of_four_terms * exact.of_sizes))
-                    << "seed 1, case " << i << ", row " << row;
+                    << "row " << row + 1 << " of the matrix times "
+                    << testing::PrintToString(points[k]) << "; " << testing::PrintToString(m)
+                    << "; seed 1, case " << i;
             }
     }
 }
 
-TEST(Mvp, Eq4_4_CamerasOfAllSizesViewThenProject) {
+TEST(Mvp, Eq4_8_ViewsOfAllSizesThenPerspective) {
     AnySize any(2, decades);
     for (int i = 0; i < cases; ++i) {
         const float near_ = any.positive(), far_ = near_ * (1.01f + any.positive());
@@ -80,7 +82,7 @@ TEST(Mvp, Eq4_4_CamerasOfAllSizesViewThenProject) {
         const real of_x = f * size.y / size.x, of_z = -(far_ + n) / to_far,
                    of_1 = -2 * n * far_ / to_far;
         // An ulp of the tangent and a division; for x, two of the aspect more; for z, what
-        // Eq4_8_EqualsGlm derives. 1 - near/far is above 0.009, so that d/(1 - d) is d.
+        // Eq4_8_RandomViewsEqualGlm derives. 1 - near/far is above 0.009, so that d/(1 - d) is d.
         const real of_f = 1.5L * eps, of_fx = 2.5L * eps,
                    of_ab = 1.75L * eps + 0.25L * eps * far_ / to_far * (1 + 1e-5L);
         for (int column = 0; column < 4; ++column) {
@@ -160,7 +162,7 @@ TEST(Mvp, Eq4_6_OrbitsOfAllSizes) {
         ++turned;
         const lvec3 right(std::cos(yaw), 0, -std::sin(yaw));
         const std::array<lvec3, 3> axes = {right, around(pitch + 90 * degree), around(pitch)};
-        // As in Eq4_5_EqualsGlm with a sine near 1; twice, for what is of second order.
+        // As in Eq4_5_RandomCamerasEqualGlm with a sine near 1; twice, for what is of second order.
         const real of_axes = 1.03L * (2 * (of_back + of_up) + 6 * eps);
         for (int row = 0; row < 3; ++row) {
             const lvec3 exact = axes[static_cast<std::size_t>(row)];

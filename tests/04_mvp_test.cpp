@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -43,9 +45,12 @@ testing::AssertionResult near(const glm::mat<n, n, T>& actual, const glm::mat<n,
         for (int column = 0; column < n; ++column)
             if (!(std::abs(actual[column][row] - exact[column][row]) <= tolerance(row, column)))
                 return testing::AssertionFailure()
-                       << "row " << row << ", column " << column << ": " << actual[column][row]
-                       << " instead of " << exact[column][row] << ", tolerance "
-                       << tolerance(row, column);
+                       << "row " << row + 1 << ", column " << column + 1 << " of the matrix is "
+                       << test::text_of(actual[column][row]) << ", expected "
+                       << test::text_of(exact[column][row]) << ", off by "
+                       << std::abs(actual[column][row] - exact[column][row]) /
+                              tolerance(row, column)
+                       << " times what it may be; all of it: " << testing::PrintToString(actual);
     return testing::AssertionSuccess();
 }
 
@@ -55,7 +60,7 @@ testing::AssertionResult is_rigid(const mat4& m) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             if (!std::isfinite(m[column][row]))
-                return testing::AssertionFailure() << "not finite: column " << column;
+                return testing::AssertionFailure() << "not finite: " << testing::PrintToString(m);
     const lmat3 r{mat3(m)};
     const lmat3 product = r * glm::transpose(r);
     for (int column = 0; column < 3; ++column)
@@ -63,10 +68,15 @@ testing::AssertionResult is_rigid(const mat4& m) {
             if (const long double error = product[column][row] - (column == row);
                 !(std::abs(error) <= tolerance))
                 return testing::AssertionFailure()
-                       << "rows " << row << " and " << column << " are off by " << error;
+                       << "rows " << row + 1 << " and " << column + 1
+                       << (row == column ? ": no unit vector, by " : ": no right angle, by ")
+                       << error << "; " << testing::PrintToString(m);
     if (!(std::abs(glm::determinant(r) - 1) <= 2 * tolerance))  // half of the three rows' errors
-        return testing::AssertionFailure() << "determinant " << glm::determinant(r);
-    if (glm::transpose(m)[3] != vec4(0, 0, 0, 1)) return testing::AssertionFailure() << "last row";
+        return testing::AssertionFailure() << "determinant " << glm::determinant(r)
+                                           << " instead of 1: " << testing::PrintToString(m);
+    if (glm::transpose(m)[3] != vec4(0, 0, 0, 1))
+        return testing::AssertionFailure()
+               << "the last row is not (0, 0, 0, 1): " << testing::PrintToString(m);
     return testing::AssertionSuccess();
 }
 
@@ -79,11 +89,22 @@ testing::AssertionResult sees_in_the_middle(const mat4& view, vec3 eye, vec3 cen
         8 * double{eps} * (glm::length(dvec3(eye)) + glm::length(dvec3(center)));
     if (glm::length(seen - dvec3(0, 0, -distance)) <= 2 * tolerance)
         return testing::AssertionSuccess();
-    return testing::AssertionFailure() << "the center is seen at " << testing::PrintToString(seen);
+    return testing::AssertionFailure() << "the center is seen at " << testing::PrintToString(seen)
+                                       << ", expected (0, 0, " << -distance << ")";
 }
 
-void expect_point(vec3 actual, vec3 expected, float tolerance) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], tolerance);
+/// For EXPECT_TRUE: each coordinate is within the tolerance.
+testing::AssertionResult is_point(vec3 actual, vec3 expected, float tolerance) {
+    for (int i = 0; i < 3; ++i)
+        if (!(std::abs(actual[i] - expected[i]) <= tolerance))
+            return testing::AssertionFailure() << testing::PrintToString(actual) << ", expected "
+                                               << testing::PrintToString(expected);
+    return testing::AssertionSuccess();
+}
+
+std::string of_view(vec3 eye, vec3 center, vec3 up) {
+    return "eye " + testing::PrintToString(eye) + ", center " + testing::PrintToString(center) +
+           ", up " + testing::PrintToString(up);
 }
 
 vec3 moved(const mat4& m, vec3 point) { return vec3(m * vec4(point, 1)); }
@@ -101,39 +122,50 @@ testing::AssertionResult is_turn(const mat4& actual, float angle_radians, dvec3 
 
 TEST(Mvp, Eq4_1_QuarterTurnAroundZTakesXToY) {
     const mat4 turn = rotation_z(quarter_turn);
-    expect_point(moved(turn, {1, 0, 0}), {0, 1, 0}, turn_tolerance);
-    expect_point(moved(turn, {0, 1, 0}), {-1, 0, 0}, turn_tolerance);
+    EXPECT_TRUE(is_point(moved(turn, {1, 0, 0}), {0, 1, 0}, turn_tolerance)) << "of (1, 0, 0)";
+    EXPECT_TRUE(is_point(moved(turn, {0, 1, 0}), {-1, 0, 0}, turn_tolerance)) << "of (0, 1, 0)";
     EXPECT_EQ(moved(turn, {0, 0, 7}), vec3(0, 0, 7));
 }
 
-TEST(Mvp, Eq4_1_EqualsGlmForAllAngles) {
+TEST(Mvp, Eq4_1_RandomAnglesEqualGlm) {
     AnySize any(1, 8);
     for (int i = 0; i < cases; ++i) {
         const float angle = any.number();
         ASSERT_TRUE(is_turn(rotation_z(angle), angle, {0, 0, 1}))
-            << "seed 1, case " << i << ", angle " << angle;
+            << "around z by " << angle << "; seed 1, case " << i;
     }
 }
 
 TEST(Mvp, Eq4_2_QuarterTurnsAroundXAndY) {
     const mat4 around_x = rotation_x(quarter_turn), around_y = rotation_y(quarter_turn);
-    expect_point(moved(around_x, {0, 1, 0}), {0, 0, 1}, turn_tolerance);
-    expect_point(moved(around_x, {0, 0, 1}), {0, -1, 0}, turn_tolerance);
+    EXPECT_TRUE(is_point(moved(around_x, {0, 1, 0}), {0, 0, 1}, turn_tolerance))
+        << "(0, 1, 0) a quarter turn around x";
+    EXPECT_TRUE(is_point(moved(around_x, {0, 0, 1}), {0, -1, 0}, turn_tolerance))
+        << "(0, 0, 1) a quarter turn around x";
     EXPECT_EQ(moved(around_x, {7, 0, 0}), vec3(7, 0, 0));
-    expect_point(moved(around_y, {0, 0, 1}), {1, 0, 0}, turn_tolerance);
-    expect_point(moved(around_y, {1, 0, 0}), {0, 0, -1}, turn_tolerance);
+    EXPECT_TRUE(is_point(moved(around_y, {0, 0, 1}), {1, 0, 0}, turn_tolerance))
+        << "(0, 0, 1) a quarter turn around y";
+    EXPECT_TRUE(is_point(moved(around_y, {1, 0, 0}), {0, 0, -1}, turn_tolerance))
+        << "(1, 0, 0) a quarter turn around y";
     EXPECT_EQ(moved(around_y, {0, 7, 0}), vec3(0, 7, 0));
 }
 
-TEST(Mvp, Eq4_2_EqualsGlmForAllAngles) {
+TEST(Mvp, Eq4_2_RandomAnglesEqualGlm) {
     AnySize any(2, 8);
     for (int i = 0; i < cases; ++i) {
         const float angle = any.number();
         ASSERT_TRUE(is_turn(rotation_x(angle), angle, {1, 0, 0}))
-            << "seed 2, case " << i << ", angle " << angle;
+            << "around x by " << angle << "; seed 2, case " << i;
         ASSERT_TRUE(is_turn(rotation_y(angle), angle, {0, 1, 0}))
-            << "seed 2, case " << i << ", angle " << angle;
+            << "around y by " << angle << "; seed 2, case " << i;
     }
+}
+
+TEST(Mvp, Eq4_3_APointIsMovedAndStretched) {
+    EXPECT_EQ(moved(translation(vec3(1, 2, 3)), {5, 6, 7}), vec3(6, 8, 10));
+    EXPECT_EQ(moved(scaling(vec3(1, 2, 3)), {5, 6, 7}), vec3(5, 12, 21));
+    EXPECT_EQ(translation(vec3(1, 2, 3)) * vec4(5, 5, 5, 0), vec4(5, 5, 5, 0))
+        << "a direction is not moved";
 }
 
 TEST(Mvp, Eq4_3_EqualsGlmBitForBit) {
@@ -143,14 +175,12 @@ TEST(Mvp, Eq4_3_EqualsGlmBitForBit) {
         ASSERT_EQ(translation(v), glm::translate(mat4(1), v)) << "seed 3, case " << i;
         ASSERT_EQ(scaling(v), glm::scale(mat4(1), v)) << "seed 3, case " << i;
     }
-    EXPECT_EQ(translation(vec3(1, 2, 3)) * vec4(5, 5, 5, 0), vec4(5, 5, 5, 0))
-        << "a direction is not moved";
 }
 
 TEST(Mvp, Eq4_4_TheRightOneActsFirst) {
     const mat4 move = translation(vec3(1, 2, 3)), stretch = scaling(vec3(2));
-    EXPECT_EQ(moved(move * stretch, vec3(1)), vec3(3, 4, 5));
-    EXPECT_EQ(moved(stretch * move, vec3(1)), vec3(4, 6, 8));
+    EXPECT_EQ(moved(move * stretch, vec3(1)), vec3(3, 4, 5)) << "stretched, then moved";
+    EXPECT_EQ(moved(stretch * move, vec3(1)), vec3(4, 6, 8)) << "moved, then stretched";
 }
 
 TEST(Mvp, Eq4_4_TransformedPointsAreTheMatrixTimesThem) {
@@ -162,15 +192,20 @@ TEST(Mvp, Eq4_4_TransformedPointsAreTheMatrixTimesThem) {
 
 TEST(Mvp, Eq4_5_LooksAtTheCenterAlongMinusZ) {
     const vec3 up(0, 1, 0);
-    EXPECT_EQ(moved(look_at(vec3(0, 0, 5), vec3(0), up), vec3(0)), vec3(0, 0, -5));
+    const mat4 from_the_front = look_at(vec3(0, 0, 5), vec3(0), up);
+    EXPECT_EQ(moved(from_the_front, vec3(0, 0, 5)), vec3(0)) << "the eye is the origin";
+    EXPECT_EQ(moved(from_the_front, vec3(0)), vec3(0, 0, -5))
+        << "the center lies on -z, 5 away: from (0, 0, 5) it is seen there";
+    EXPECT_EQ(moved(from_the_front, vec3(1, 2, 0)), vec3(1, 2, -5))
+        << "from there x is to the right, y up";
     const mat4 from_the_right = look_at(vec3(5, 0, 0), vec3(0), up);
-    EXPECT_EQ(moved(from_the_right, vec3(0)), vec3(0, 0, -5));
+    EXPECT_EQ(moved(from_the_right, vec3(0)), vec3(0, 0, -5)) << "the center from (5, 0, 0)";
     EXPECT_EQ(from_the_right * vec4(0, 0, -1, 0), vec4(1, 0, 0, 0))
         << "what lies to the north is on the right of who looks west";
     EXPECT_EQ(from_the_right * vec4(0, 1, 0, 0), vec4(0, 1, 0, 0));
 }
 
-TEST(Mvp, Eq4_5_EqualsGlm) {
+TEST(Mvp, Eq4_5_RandomCamerasEqualGlm) {
     AnySize any(4, 8);
     int replaced = 0;
     for (int i = 0; i < cases; ++i) {
@@ -203,8 +238,9 @@ TEST(Mvp, Eq4_5_EqualsGlm) {
                         return column == 3 ? (of_axes + 1.5 * double{eps}) * glm::length(dvec3(eye))
                                            : of_axes;
                     }))
-            << "seed 4, case " << i;
-        ASSERT_TRUE(is_rigid(look_at(eye, center, up))) << "seed 4, case " << i;
+            << of_view(eye, center, up) << ", seed 4, case " << i;
+        ASSERT_TRUE(is_rigid(look_at(eye, center, up)))
+            << of_view(eye, center, up) << ", seed 4, case " << i;
     }
     EXPECT_GT(replaced, cases / 100);
 }
@@ -213,13 +249,17 @@ TEST(Mvp, Eq4_6_DirectionsOfTheWorkedExample) {
     const auto direction = [](float yaw_degrees, float pitch_degrees) {
         return direction_from_angles(glm::radians(yaw_degrees), glm::radians(pitch_degrees));
     };
-    EXPECT_EQ(direction(0, 0), vec3(0, 0, 1));
-    expect_point(direction(90, 0), {1, 0, 0}, turn_tolerance);
-    expect_point(direction(180, 0), {0, 0, -1}, turn_tolerance);
-    expect_point(direction(0, 30), {0, 0.5f, std::sqrt(0.75f)}, turn_tolerance);
+    EXPECT_EQ(direction(0, 0), vec3(0, 0, 1)) << "yaw 0, pitch 0";
+    EXPECT_TRUE(is_point(direction(90, 0), {1, 0, 0}, turn_tolerance)) << "yaw 90 degrees, pitch 0";
+    EXPECT_TRUE(is_point(direction(180, 0), {0, 0, -1}, turn_tolerance))
+        << "yaw 180 degrees, pitch 0";
+    EXPECT_TRUE(is_point(direction(0, 30), {0, 0.5f, std::sqrt(0.75f)}, turn_tolerance))
+        << "yaw 0, pitch 30 degrees";
     for (const float yaw : {-300.0f, 0.0f, 17.0f, 90.0f}) {
-        expect_point(direction(yaw, 90), {0, 1, 0}, turn_tolerance);
-        expect_point(direction(yaw, -90), {0, -1, 0}, turn_tolerance);
+        ASSERT_TRUE(is_point(direction(yaw, 90), {0, 1, 0}, turn_tolerance))
+            << "yaw " << yaw << " degrees, pitch 90";
+        ASSERT_TRUE(is_point(direction(yaw, -90), {0, -1, 0}, turn_tolerance))
+            << "yaw " << yaw << " degrees, pitch -90";
     }
 }
 
@@ -235,35 +275,39 @@ TEST(Mvp, Eq4_6_EqualsTwoTurnsOfTheZAxis) {
         for (int axis = 0; axis < 3; ++axis)
             ASSERT_NEAR(direction[axis], turned[axis],
                         2.5 * double{eps} * std::abs(turned[axis]) + 4 * DBL_EPSILON)
-                << "seed 5, case " << i;
+                << "xyz"[axis] << " for yaw " << yaw << " and pitch " << pitch
+                << " in radians; seed 5, case " << i;
     }
 }
 
 TEST(Mvp, Eq4_7_SimilarTrianglesOfTheWorkedExample) {
     const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
     const vec4 clip = clip_from_view * vec4(1, 1, -1, 1);
-    expect_point(vec3(clip), {0.5f, 1, -1}, 4 * eps);  // tan(pi/4) in float and a division
-    EXPECT_EQ(clip.w, 1);
-    EXPECT_NEAR(perspective(glm::radians(60.0f), 1.0f, 1.0f, 3.0f)[1][1], std::sqrt(3.0f), 4 * eps);
+    // tan(pi/4) in float and a division
+    EXPECT_NEAR(clip.x, 0.5f, 4 * eps) << "x of (1, 1, -1) by 90 degrees, with the aspect 2";
+    EXPECT_NEAR(clip.y, 1, 4 * eps) << "y of (1, 1, -1) by 90 degrees, with the aspect 2";
+    EXPECT_EQ(clip.w, 1) << "w of (1, 1, -1) is its distance, -z";
+    EXPECT_NEAR(clip.z, -1, 4 * eps) << "z of (1, 1, -1), which is on the near plane (Eq. 4.8)";
+    EXPECT_NEAR(perspective(glm::radians(60.0f), 1.0f, 1.0f, 3.0f)[1][1], std::sqrt(3.0f), 4 * eps)
+        << "f for 60 degrees is 1 / tan(30 degrees)";
 }
 
 TEST(Mvp, Eq4_8_NearFarAndBetweenOfTheWorkedExample) {
     const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
-    EXPECT_NEAR(clip_from_view[2][2], -2, 4 * eps);
-    EXPECT_NEAR(clip_from_view[3][2], -3, 4 * eps);
+    EXPECT_NEAR(clip_from_view[2][2], -2, 4 * eps) << "A for near 1 and far 3";
+    EXPECT_NEAR(clip_from_view[3][2], -3, 4 * eps) << "B for near 1 and far 3";
     const auto z_ndc = [&](float distance) {
         const vec4 clip = clip_from_view * vec4(0, 0, -distance, 1);
-        EXPECT_EQ(clip.w, distance);
+        EXPECT_EQ(clip.w, distance) << "w of what is so far away";
         return clip.z / clip.w;
     };
     constexpr float tolerance = 8 * eps;  // A and B are within 2 eps of 2 and 3
-    EXPECT_NEAR(z_ndc(1), -1, tolerance);
-    EXPECT_NEAR(z_ndc(1.5f), 0, tolerance);
-    EXPECT_NEAR(z_ndc(3), 1, tolerance);
-    EXPECT_NEAR(screen_from_clip(clip_from_view * vec4(0, 0, -1.5f, 1), {4, 2}).z, 0.5f, tolerance);
+    EXPECT_NEAR(z_ndc(1), -1, tolerance) << "z/w on the near plane";
+    EXPECT_NEAR(z_ndc(1.5f), 0, tolerance) << "z/w at a distance of 1.5";
+    EXPECT_NEAR(z_ndc(3), 1, tolerance) << "z/w on the far plane";
 }
 
-TEST(Mvp, Eq4_8_EqualsGlm) {
+TEST(Mvp, Eq4_8_RandomViewsEqualGlm) {
     AnySize any(6, 8);
     constexpr float below_pi = 3.1415925f;  // the next float is above
     for (int i = 0; i < cases; ++i) {
@@ -288,11 +332,12 @@ TEST(Mvp, Eq4_8_EqualsGlm) {
                                                                        : row == 2 ? of_depth
                                                                                   : 0);
                             }))
-            << "seed 6, case " << i;
+            << "field of view " << fov << ", aspect " << aspect << ", near " << near_ << ", far "
+            << far_ << "; seed 6, case " << i;
     }
 }
 
-TEST(Mvp, Eq4_8_LeftHandedFormIsOursWithZMirrored) {
+TEST(Mvp, Eq4_8_TheLeftHandedFormIsOursWithZMirrored) {
     const double fov = 1, aspect = 1.5, near_ = 0.5, far_ = 7;
     const dmat4 left_handed = glm::perspectiveLH_NO(fov, aspect, near_, far_);
     EXPECT_EQ((left_handed * dvec4(0, 0, 3, 1)).w, 3) << "there w is z, not -z";
@@ -300,15 +345,17 @@ TEST(Mvp, Eq4_8_LeftHandedFormIsOursWithZMirrored) {
                         left_handed, [](int, int) { return 4 * DBL_EPSILON; }));
 }
 
-TEST(Mvp, Eq4_4_CameraFirstViewsThenProjects) {
+TEST(Mvp, Eq4_8_TheCameraFirstViewsThenProjects) {
     const Camera camera = {{0, 0, 5}, translation(vec3(0, 0, -5)), quarter_turn, 1, 9};
     const vec4 clip = camera.clip_from_world({300, 200}) * vec4(2, 1, 3, 1);
-    expect_point(vec3(clip), {4.0f / 3, 1, -10.0f / 8 * -2 - 18.0f / 8},
-                 8 * eps);  // five roundings
-    EXPECT_EQ(clip.w, 2);
+    EXPECT_EQ(clip.w, 2)
+        << "what lies at z = 3 is 2 in front of the camera at z = 5: the view acts "
+           "first (Eq. 4.4), perspective on what it makes";
+    EXPECT_TRUE(is_point(vec3(clip), {4.0f / 3, 1, -10.0f / 8 * -2 - 18.0f / 8},
+                         8 * eps));  // five roundings
 }
 
-TEST(Mvp, Eq4_7_OneParameterFormDiffersByAScale) {
+TEST(Mvp, Eq4_7_TheOneParameterFormDiffersByAScale) {
     // w = 1 - z/c, as many short texts have it: an eye at (0, 0, c) that projects onto z = 0.
     const double c = 3, fov = 1, f = 1 / std::tan(fov / 2);
     dmat4 one_parameter(1);
@@ -326,18 +373,25 @@ TEST(Mvp, Eq4_7_OneParameterFormDiffersByAScale) {
     }
 }
 
-TEST(Mvp, Eq4_9_ViewportOfTheWorkedExample) {
+TEST(Mvp, Eq4_9_CornersAndMiddleOfTheViewport) {
     const mat4 screen_from_ndc = viewport<float>({4, 2});
-    EXPECT_EQ(moved(screen_from_ndc, {-1, 1, -1}), vec3(0, 0, 0));
-    EXPECT_EQ(moved(screen_from_ndc, {0, 0, 0}), vec3(2, 1, 0.5f));
-    EXPECT_EQ(moved(screen_from_ndc, {1, -1, 1}), vec3(4, 2, 1));
+    EXPECT_EQ(moved(screen_from_ndc, {-1, 1, -1}), vec3(0, 0, 0))
+        << "the upper left corner, near, of 4 x 2 pixels";
+    EXPECT_EQ(moved(screen_from_ndc, {0, 0, 0}), vec3(2, 1, 0.5f)) << "the middle of 4 x 2 pixels";
+    EXPECT_EQ(moved(screen_from_ndc, {1, -1, 1}), vec3(4, 2, 1))
+        << "the lower right corner, far, of 4 x 2 pixels";
     EXPECT_EQ(moved(viewport<float>({5, 3}), {0, 0, 0}), vec3(2.5f, 1.5f, 0.5f));
 }
 
 TEST(Mvp, Eq4_9_ScreenIsTheViewportAfterTheDivision) {
-    EXPECT_EQ(screen_from_clip({-3, 3, -3, 3}, {4, 2}), vec3(0, 0, 0));
-    EXPECT_EQ(screen_from_clip({0, 0, 0, 3}, {4, 2}), vec3(2, 1, 0.5f));
-    EXPECT_EQ(screen_from_clip({3, -3, 3, 3}, {4, 2}), vec3(4, 2, 1));
+    EXPECT_EQ(screen_from_clip({-3, 3, -3, 3}, {4, 2}), vec3(0, 0, 0))
+        << "(-1, 1, -1) times a w of 3: the upper left corner, near";
+    EXPECT_EQ(screen_from_clip({0, 0, 0, 3}, {4, 2}), vec3(2, 1, 0.5f)) << "the middle";
+    EXPECT_EQ(screen_from_clip({3, -3, 3, 3}, {4, 2}), vec3(4, 2, 1))
+        << "(1, -1, 1) times a w of 3: the lower right corner, far";
+    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
+    EXPECT_NEAR(screen_from_clip(clip_from_view * vec4(0, 0, -1.5f, 1), {4, 2}).z, 0.5f, 8 * eps)
+        << "the depth at a distance of 1.5, between 1 and 3";
     std::mt19937 random(8);
     std::uniform_real_distribution<float> any(-1, 1);
     constexpr ivec2 size(1279, 719);
@@ -350,6 +404,8 @@ TEST(Mvp, Eq4_9_ScreenIsTheViewportAfterTheDivision) {
             const double span = axis == 2 ? 1 : size[axis];
             const double largest = 1 + std::abs(double{clip[axis]} / clip.w);
             ASSERT_NEAR(screen[axis], exact[axis], span * largest * double{eps})
+                << "xyz"[axis] << " of " << testing::PrintToString(clip)
+                << " in 1279 x 719 pixels; "
                 << "seed 8, case " << i;
         }
     }
@@ -365,6 +421,13 @@ TEST(Mvp, Eq4_9_FormWithSizeMinusOneMeansPixelsByTheirIndex) {
     }
 }
 
+TEST(Mvp, Eq4_15_ASlopeStretchedAlongX) {
+    EXPECT_EQ(normal_matrix(mat3(scaling(vec3(2, 1, 1)))) * vec3(1, 1, 0), vec3(1, 2, 0))
+        << "what is stretched along x is less steep against x";
+    EXPECT_EQ(normal_matrix(mat3(scaling(vec3(2, 3, 5)))), mat3(scaling(vec3(15, 10, 6))))
+        << "the cofactors of what stretches by 2, 3 and 5";
+}
+
 TEST(Mvp, Eq4_15_EqualsInverseTransposeTimesDeterminant) {
     AnySize any(9, 3);
     for (int i = 0; i < cases; ++i) {
@@ -377,7 +440,9 @@ TEST(Mvp, Eq4_15_EqualsInverseTransposeTimesDeterminant) {
             for (int row = 0; row < 3; ++row)
                 ASSERT_LE(std::abs(normals[column][row] - exact[column][row]),
                           1.5L * FLT_EPSILON * std::abs(exact[column][row]) + 1e-9L)
-                    << "seed 9, case " << i;
+                    << "row " << row + 1 << ", column " << column + 1 << " is "
+                    << test::text_of(normals[column][row]) << ", expected " << exact[column][row]
+                    << ", for " << testing::PrintToString(m) << "; seed 9, case " << i;
     }
 }
 
@@ -400,12 +465,12 @@ TEST(Mvp, Eq4_15_NormalsStandOnTransformedTangentsAlsoWhereMIsSingular) {
             long double size = 0;
             for (int k = 0; k < 3; ++k) size += std::abs(normal_matrix(m)[k][axis] * across[k]);
             ASSERT_LE(std::abs(normal[axis] - expected[axis]), 1.5L * FLT_EPSILON * size + 1e-12L)
-                << "seed 10, case " << i;
+                << "xyz"[axis] << " of the moved normal is " << normal[axis] << ", expected "
+                << expected[axis] << ", for " << testing::PrintToString(m) << "; seed 10, case "
+                << i;
         }
     }
     EXPECT_GT(mirroring, cases / 4);
-    EXPECT_EQ(normal_matrix(mat3(scaling(vec3(2, 1, 1)))) * vec3(1, 1, 0), vec3(1, 2, 0))
-        << "what is stretched along x is less steep against x";
 }
 
 TEST(Mvp, HardCase_LookAtWithUpThatIsNoUp) {
@@ -414,19 +479,23 @@ TEST(Mvp, HardCase_LookAtWithUpThatIsNoUp) {
     for (int i = 0; i < 20'000; ++i) {
         const vec3 eye = any.vector(), center = any.vector(), back = eye - center;
         const mat4 without = look_at(eye, center, vec3(0));
-        ASSERT_TRUE(is_rigid(without)) << "seed 11, case " << i;
-        ASSERT_TRUE(sees_in_the_middle(without, eye, center)) << "seed 11, case " << i;
+        ASSERT_TRUE(is_rigid(without)) << of_view(eye, center, vec3(0)) << ", seed 11, case " << i;
+        ASSERT_TRUE(sees_in_the_middle(without, eye, center))
+            << of_view(eye, center, vec3(0)) << ", seed 11, case " << i;
         for (const vec3 up : {back, -back, any.number() * back, vec3(not_a_number),
                               vec3(0, not_a_number, 0), vec3(infinity, 0, 0), vec3(-0.0f)})
             ASSERT_EQ(look_at(eye, center, up), without)
-                << "seed 11, case " << i << ", up " << testing::PrintToString(up);
+                << of_view(eye, center, up) << ", which is parallel or no direction: as with "
+                << "up (0, 0, 0); seed 11, case " << i;
     }
     for (const vec3 axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 1, 0)})
         for (const float sign : {1.0f, -1.0f})
             for (const float size : {1e-30f, 1.0f, 1e30f}) {
-                EXPECT_TRUE(is_rigid(look_at(sign * axis, vec3(0), size * axis)));
-                EXPECT_EQ(look_at(sign * axis, vec3(0), size * axis),
-                          look_at(sign * axis, vec3(0), vec3(0)));
+                ASSERT_TRUE(is_rigid(look_at(sign * axis, vec3(0), size * axis)))
+                    << of_view(sign * axis, vec3(0), size * axis);
+                ASSERT_EQ(look_at(sign * axis, vec3(0), size * axis),
+                          look_at(sign * axis, vec3(0), vec3(0)))
+                    << of_view(sign * axis, vec3(0), size * axis) << ": as with up (0, 0, 0)";
             }
     const mat4 level = look_at(vec3(0, 0, 1), vec3(0), vec3(0));
     EXPECT_EQ(level, glm::translate(mat4(1), vec3(0, 0, -1)))
@@ -436,9 +505,11 @@ TEST(Mvp, HardCase_LookAtWithUpThatIsNoUp) {
 TEST(Mvp, HardCase_LookAtFromTheCenterItself) {
     look_up("Eq. 4.5");
     EXPECT_EQ(look_at(vec3(1, 2, 3), vec3(1, 2, 3), vec3(0, 1, 0)),
-              glm::translate(mat4(1), vec3(-1, -2, -3)));
+              glm::translate(mat4(1), vec3(-1, -2, -3)))
+        << "then it looks along -z";
     for (const vec3 up : {vec3(0), vec3(0, 0, 1), vec3(not_a_number), vec3(1e-6f, 0, 1)})
-        EXPECT_TRUE(is_rigid(look_at(vec3(1, 2, 3), vec3(1, 2, 3), up)));
+        ASSERT_TRUE(is_rigid(look_at(vec3(1, 2, 3), vec3(1, 2, 3), up)))
+            << of_view(vec3(1, 2, 3), vec3(1, 2, 3), up);
 }
 
 TEST(Mvp, HardCase_LookAtWithNearlyParallelUp) {
@@ -450,14 +521,16 @@ TEST(Mvp, HardCase_LookAtWithNearlyParallelUp) {
         const float angle = std::pow(10.0f, -6 + 3 * static_cast<float>(i) / 20'000);
         const vec3 up = (i % 2 ? 1.0f : -1.0f) * back + angle * aside;
         const mat4 view = look_at(back, vec3(0), up);
-        ASSERT_TRUE(is_rigid(view)) << "seed 12, case " << i;
+        ASSERT_TRUE(is_rigid(view)) << of_view(back, vec3(0), up) << ", seed 12, case " << i;
         const lvec3 exact_right = glm::normalize(glm::cross(lvec3(up), lvec3(back)));
         const long double sine = glm::length(glm::cross(lvec3(up), lvec3(back)));
         if (sine < 1e-5L) continue;  // below 64 eps another up is taken
-        // Up and back become unit vectors within 1 ulp, then as in Eq4_5_EqualsGlm.
+        // Up and back become unit vectors within 1 ulp, then as in Eq4_5_RandomCamerasEqualGlm.
         for (int axis = 0; axis < 3; ++axis)
             ASSERT_LE(std::abs(view[axis][0] - exact_right[axis]), 6 * FLT_EPSILON / sine)
-                << "seed 12, case " << i << ", sine " << sine;
+                << "xyz"[axis] << " of right is " << test::text_of(view[axis][0]) << ", expected "
+                << exact_right[axis] << "; " << of_view(back, vec3(0), up)
+                << ", the sine between them " << sine << "; seed 12, case " << i;
     }
 }
 
@@ -467,52 +540,62 @@ TEST(Mvp, HardCase_LookAtOverTinyAndHugeDistances) {
     for (int i = 0; i < 10'000; ++i) {
         const vec3 eye = any.vector(), up = any.vector();
         const mat4 expected = look_at(eye, vec3(0), up);
-        ASSERT_TRUE(is_rigid(expected)) << "seed 13, case " << i;
-        ASSERT_TRUE(sees_in_the_middle(expected, eye, vec3(0))) << "seed 13, case " << i;
+        ASSERT_TRUE(is_rigid(expected)) << of_view(eye, vec3(0), up) << ", seed 13, case " << i;
+        ASSERT_TRUE(sees_in_the_middle(expected, eye, vec3(0)))
+            << of_view(eye, vec3(0), up) << ", seed 13, case " << i;
         for (const float size : {0x1p-100f, 0x1p100f}) {  // powers of two: nothing rounds anew
             mat4 actual = look_at(size * eye, vec3(0), up);
-            ASSERT_TRUE(is_rigid(actual)) << "seed 13, case " << i << ", size " << size;
+            ASSERT_TRUE(is_rigid(actual))
+                << of_view(size * eye, vec3(0), up) << ", seed 13, case " << i;
             actual[3] = vec4(vec3(actual[3]) / size, 1);
-            ASSERT_EQ(actual, expected) << "seed 13, case " << i << ", size " << size;
-            ASSERT_EQ(look_at(eye, vec3(0), size * up), expected) << "seed 13, case " << i;
+            ASSERT_EQ(actual, expected) << of_view(size * eye, vec3(0), up) << ", then divided by "
+                                        << size << "; seed 13, case " << i;
+            ASSERT_EQ(look_at(eye, vec3(0), size * up), expected)
+                << of_view(eye, vec3(0), size * up) << ", seed 13, case " << i;
         }
     }
     for (const float size : {1e-30f, 1e30f})
-        EXPECT_TRUE(is_rigid(look_at(vec3(size, size, 0), vec3(0), vec3(0, 1, 0))));
+        EXPECT_TRUE(is_rigid(look_at(vec3(size, size, 0), vec3(0), vec3(0, 1, 0))))
+            << of_view(vec3(size, size, 0), vec3(0), vec3(0, 1, 0));
 }
 
 TEST(Mvp, HardCase_PerspectiveAtItsLimits) {
-    look_up("Eq. 4.7 and 4.8, with near/far in place of both");
+    look_up("Eq. 4.7 and 4.8, with one quotient in place of near and far");
     for (const float fov_degrees : {1e-3f, 1.0f, 90.0f, 179.9f})
         for (const float aspect : {1e-4f, 1.0f, 16384.0f})
             for (const float near_ : {1e-6f, 1.0f})
                 for (const float far_ : {1.001f, 1e6f, 1e30f, infinity}) {
                     const mat4 m = perspective(glm::radians(fov_degrees), aspect, near_, far_);
+                    std::ostringstream text;
+                    text << "field of view " << fov_degrees << " degrees, aspect " << aspect
+                         << ", near " << near_ << ", far " << far_ << ": "
+                         << testing::PrintToString(m);
+                    const std::string of_case = text.str();
                     for (int column = 0; column < 4; ++column)
                         for (int row = 0; row < 4; ++row)
-                            ASSERT_TRUE(std::isfinite(m[column][row])) << fov_degrees;
-                    EXPECT_GT(m[0][0], 0);
-                    EXPECT_GT(m[1][1], 0);
-                    // As in Eq4_8_EqualsGlm, of two terms up to 2 / (1 - near/far).
+                            ASSERT_TRUE(std::isfinite(m[column][row])) << of_case;
+                    ASSERT_GT(m[0][0], 0) << of_case;
+                    ASSERT_GT(m[1][1], 0) << of_case;
+                    // As in Eq4_8_RandomViewsEqualGlm, of two terms up to 2 / (1 - near/far).
                     const float tolerance = 8 * eps / ((1 - near_ / far_) * (1 - near_ / far_));
                     const vec4 on_near = m * vec4(0, 0, -near_, 1);
-                    EXPECT_NEAR(on_near.z / on_near.w, -1, tolerance);
+                    ASSERT_NEAR(on_near.z / on_near.w, -1, tolerance) << of_case;
                     if (far_ == infinity) continue;
                     const vec4 on_far = m * vec4(0, 0, -far_, 1);
-                    EXPECT_NEAR(on_far.z / on_far.w, 1, tolerance);
+                    ASSERT_NEAR(on_far.z / on_far.w, 1, tolerance) << of_case;
                 }
 }
 
 TEST(Mvp, HardCase_InfinitelyFarPlane) {
-    look_up("Eq. 4.8 with near/far = 0");
+    look_up("Eq. 4.8 for an infinite far");
     const mat4 m = perspective(1.0f, 1.0f, 0.5f, infinity);
     EXPECT_EQ(m[2][2], -1);
     EXPECT_EQ(m[3][2], -1);
     float before = -1;
     for (float distance = 1; distance < 1e6f; distance *= 2) {
         const vec4 clip = m * vec4(0, 0, -distance, 1);
-        EXPECT_GT(clip.z / clip.w, before);
-        EXPECT_LT(clip.z / clip.w, 1);
+        ASSERT_GT(clip.z / clip.w, before) << "z/w at a distance of " << distance;
+        ASSERT_LT(clip.z / clip.w, 1) << "z/w at a distance of " << distance;
         before = clip.z / clip.w;
     }
 }
@@ -532,21 +615,27 @@ TEST(Mvp, HardCase_WholeSceneLiesBetweenNearAndFar) {
         orbit.pitch_degrees = i % 3 ? pitch(random) : i % 2 ? 90.0f : -90.0f;
         orbit.distance = 1 + 0.3f * std::pow(10.0f, decades(random));
         const Camera camera = orbit_camera(orbit, bounds);
-        ASSERT_TRUE(0 < camera.near && camera.near < camera.far) << "seed 14, case " << i;
-        ASSERT_TRUE(is_rigid(camera.view_from_world)) << "seed 14, case " << i;
+        std::ostringstream text;
+        text << "a scene from " << testing::PrintToString(bounds.min) << " to "
+             << testing::PrintToString(bounds.max) << ", yaw " << orbit.yaw_degrees << ", pitch "
+             << orbit.pitch_degrees << ", distance " << orbit.distance << "; seed 14, case " << i;
+        const std::string of_case = text.str();
+        ASSERT_TRUE(0 < camera.near && camera.near < camera.far)
+            << "near " << camera.near << ", far " << camera.far << "; " << of_case;
+        ASSERT_TRUE(is_rigid(camera.view_from_world)) << of_case;
         for (int corner = 0; corner < 8; ++corner) {
             const dvec4 world(corner & 1 ? bounds.max.x : bounds.min.x,
                               corner & 2 ? bounds.max.y : bounds.min.y,
                               corner & 4 ? bounds.max.z : bounds.min.z, 1);
             const double distance = -(dmat4(camera.view_from_world) * world).z;
-            ASSERT_GE(distance, camera.near) << "seed 14, case " << i;
-            ASSERT_LE(distance, camera.far) << "seed 14, case " << i;
+            ASSERT_GE(distance, camera.near) << "of a corner; " << of_case;
+            ASSERT_LE(distance, camera.far) << "of a corner; " << of_case;
         }
         const vec4 middle = camera.clip_from_world({16, 9}) * vec4(bounds.center(), 1);
         // The eye is as far from the origin as 100 radii more than its distance: some eps of that.
         const float tolerance = 1e-4f * middle.w / std::tan(camera.fov_y_radians / 2);
-        ASSERT_NEAR(middle.x, 0, tolerance) << "seed 14, case " << i;
-        ASSERT_NEAR(middle.y, 0, tolerance) << "seed 14, case " << i;
+        ASSERT_NEAR(middle.x, 0, tolerance) << of_case;
+        ASSERT_NEAR(middle.y, 0, tolerance) << of_case;
     }
 }
 
@@ -574,10 +663,12 @@ TEST(Mvp, HardCase_OrbitAroundTinyAndHugeScenes) {
     const Camera expected = camera_around(1);
     for (const float size : {0x1p-100f, 0x1p-66f, 0x1p66f, 0x1p120f}) {
         const Camera camera = camera_around(size);
-        EXPECT_EQ(camera.position_world, size * expected.position_world) << size;
-        EXPECT_EQ(camera.near, size * expected.near) << size;
-        EXPECT_EQ(camera.far, size * expected.far) << size;
-        EXPECT_TRUE(mat3(camera.view_from_world) == mat3(expected.view_from_world)) << size;
+        ASSERT_EQ(camera.position_world, size * expected.position_world)
+            << "a scene " << size << " times as large";
+        ASSERT_EQ(camera.near, size * expected.near) << "a scene " << size << " times as large";
+        ASSERT_EQ(camera.far, size * expected.far) << "a scene " << size << " times as large";
+        ASSERT_EQ(mat3(camera.view_from_world), mat3(expected.view_from_world))
+            << "a scene " << size << " times as large";
     }
 }
 
@@ -589,8 +680,10 @@ TEST(Mvp, HardCase_OrbitFromInsideTheScene) {
         Orbit orbit;
         orbit.distance = distance;
         const Camera camera = orbit_camera(orbit, bounds);
-        EXPECT_GE(camera.near, 0.0009f * camera.far) << "or the depths have no digits left";
-        EXPECT_GE(camera.far, (1 + distance) * std::sqrt(3.0f));
+        ASSERT_GE(camera.near, 0.0009f * camera.far)
+            << "or the depths have no digits left; " << distance << " radii from the center";
+        ASSERT_GE(camera.far, (1 + distance) * std::sqrt(3.0f))
+            << distance << " radii from the center";
     }
 }
 
@@ -607,7 +700,9 @@ TEST(Mvp, HardCase_LookingStraightDownUpIsWhereTheWayAroundLeads) {
             const mat4 after = orbit_camera(straight, bounds).view_from_world;
             for (int column = 0; column < 4; ++column)
                 for (int row = 0; row < 4; ++row)
-                    EXPECT_NEAR(before[column][row], after[column][row], tolerance)
-                        << "yaw " << yaw_degrees << ", pitch " << straight.pitch_degrees;
+                    ASSERT_NEAR(after[column][row], before[column][row], tolerance)
+                        << "row " << row + 1 << ", column " << column + 1 << " at pitch "
+                        << straight.pitch_degrees << " and at " << nearly.pitch_degrees << ", yaw "
+                        << yaw_degrees;
         }
 }
