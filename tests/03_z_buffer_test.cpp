@@ -109,6 +109,7 @@ constexpr ivec2 origin(0, 0);
 
 TEST(ZBuffer, Eq3_1_KeepsTheLeastOfAFewDepths) {
     DepthBuffer depth({1, 1});
+    EXPECT_EQ(depth.depths()[origin], 1.0f) << "in a new buffer";
     EXPECT_TRUE(depth.test_and_write(origin, 0.5f)) << "the first: 0.5 is nearer than 1";
     EXPECT_EQ(depth.depths()[origin], 0.5f) << "kept after 0.5";
     EXPECT_FALSE(depth.test_and_write(origin, 0.75f)) << "0.75 lies behind 0.5";
@@ -144,7 +145,7 @@ TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestVertexIsTheSameDepth) {
 }
 
 TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
-    look_up("Eq. 3.3, and how large its error is");
+    look_up("Eq. 3.3: how large its error is");
     int compared = 0;
     for (const auto& [p, id] : random_patches(2, 2'000, {40, 30})) {
         const auto depths = depths_of(p, {0, 0}, {40, 30});
@@ -185,6 +186,10 @@ TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
     EXPECT_TRUE(depth.test_and_write(origin, 0.5f));
     EXPECT_FALSE(depth.test_and_write(origin, 0.5f)) << "0.5 after 0.5: the first stays";
     EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(0.5f, 0.0f))) << "1 ulp nearer";
+}
+
+TEST(ZBuffer, HardCase_OfOneTriangleInThreeOrdersTheFirstStays) {
+    look_up("Eq. 3.3, and mind the bracket");
     const std::array<vec3, 3> p = {{{1, 1, 0.3f}, {2, 30, 0.9f}, {38, 5, 0.6f}}};
     const Image<int> ids =
         visible({{p, 1}, {{p[1], p[2], p[0]}, 2}, {{p[2], p[0], p[1]}, 3}}, {40, 30});
