@@ -468,6 +468,9 @@ TEST(Mvp, Eq4_14_BoxesOutsideOfAPlaneAreCulled) {
         EXPECT_FALSE(is_outside_frustum(box(center), clip_from_view))
             << "a box of side 1 around " << testing::PrintToString(center)
             << " reaches across a plane";
+    EXPECT_FALSE(is_outside_frustum({{-90, -1, -4}, {90, 1, -3}}, clip_from_view))
+        << "from (-90, -1, -4) to (90, 1, -3): some corners are outside of the left plane, the "
+           "others of the right one, and the middle is seen";
 }
 
 TEST(Mvp, Eq4_14_NoBoxIsCulledOfWhichAPointIsSeen) {

@@ -287,7 +287,6 @@ TEST(Mvp, Eq4_7_SimilarTrianglesOfTheWorkedExample) {
     EXPECT_NEAR(clip.x, 0.5f, 4 * eps) << "x of (1, 1, -1) by 90 degrees, with the aspect 2";
     EXPECT_NEAR(clip.y, 1, 4 * eps) << "y of (1, 1, -1) by 90 degrees, with the aspect 2";
     EXPECT_EQ(clip.w, 1) << "w of (1, 1, -1) is its distance, -z";
-    EXPECT_NEAR(clip.z, -1, 4 * eps) << "z of (1, 1, -1), which is on the near plane (Eq. 4.8)";
     EXPECT_NEAR(perspective(glm::radians(60.0f), 1.0f, 1.0f, 3.0f)[1][1], std::sqrt(3.0f), 4 * eps)
         << "f for 60 degrees is 1 / tan(30 degrees)";
 }
@@ -296,6 +295,8 @@ TEST(Mvp, Eq4_8_NearFarAndBetweenOfTheWorkedExample) {
     const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
     EXPECT_NEAR(clip_from_view[2][2], -2, 4 * eps) << "A for near 1 and far 3";
     EXPECT_NEAR(clip_from_view[3][2], -3, 4 * eps) << "B for near 1 and far 3";
+    EXPECT_NEAR((clip_from_view * vec4(1, 1, -1, 1)).z, -1, 4 * eps)
+        << "z of (1, 1, -1), which is on the near plane";
     const auto z_ndc = [&](float distance) {
         const vec4 clip = clip_from_view * vec4(0, 0, -distance, 1);
         EXPECT_EQ(clip.w, distance) << "w of what is so far away";
