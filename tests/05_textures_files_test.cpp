@@ -78,9 +78,13 @@ u8vec3 hue(u8vec4 color) {
 
 /// For EXPECT_TRUE: the whole picture has one hue.
 testing::AssertionResult is_all(const Image<u8vec4>& picture, u8vec3 expected) {
-    for (const u8vec4 color : picture.pixels())
-        if (hue(color) != expected)
-            return testing::AssertionFailure() << "there is a " << testing::PrintToString(color);
+    for (ivec2 p(0); p.y < picture.size().y; ++p.y)
+        for (p.x = 0; p.x < picture.size().x; ++p.x)
+            if (hue(picture[p]) != expected)
+                return testing::AssertionFailure()
+                       << "pixel " << testing::PrintToString(p) << " has the codes "
+                       << testing::PrintToString(picture[p]) << " instead of the hue "
+                       << testing::PrintToString(expected) << " (255: above 60)";
     return testing::AssertionSuccess();
 }
 
@@ -192,22 +196,32 @@ TEST(Textures, MaterialThatDoesNotExistIsAWarningAndHasNoTexture) {
     EXPECT_TRUE(is_all(read_image(model.out), white));
 }
 
-TEST(Textures, Eq5_5_TextureStandsUprightOnTheSquare) {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// What the lesson's first step can draw; and what the last one draws.
+const Arguments of_step_1 = {"--filter", "nearest", "--mapping", "affine", "--srgb", "ignored"};
+const Arguments of_all_steps = {"--filter", "nearest"};
+
+void expect_four_texels_upright(const Arguments& arguments) {
     const Model model(plain + "map_Kd four.png\n");
     write_image_file(model.folder / "four.png", {2, 2}, {red, green, blue, white});
-    const Image<u8vec4> drawn = model.drawn({"--filter", "nearest"});
-    EXPECT_EQ(hue(drawn[{4, 4}]), red) << "the first row is the upper one";
-    EXPECT_EQ(hue(drawn[{43, 4}]), green);
-    EXPECT_EQ(hue(drawn[{4, 43}]), blue);
-    EXPECT_EQ(hue(drawn[{43, 43}]), white);
+    const Image<u8vec4> drawn = model.drawn(arguments);
+    EXPECT_EQ(hue(drawn[{4, 4}]), red) << "upper left: the picture's first row is the upper one";
+    EXPECT_EQ(hue(drawn[{43, 4}]), green) << "upper right";
+    EXPECT_EQ(hue(drawn[{4, 43}]), blue) << "lower left";
+    EXPECT_EQ(hue(drawn[{43, 43}]), white) << "lower right";
 }
 
-TEST(Textures, Eq5_4_ClampOnGoesBeforeTheKnob) {
-    const auto upper_right = [](const std::string& option, const std::string& knob) {
+void expect_clamp_on_before_the_knob(const Arguments& arguments) {
+    const auto upper_right = [&](const std::string& option, const std::string& knob) {
         // Twice the picture's size: beyond the middle lies what the wrap says.
         const Model model(plain + "map_Kd " + option + " -s 2 2 1 four.png\n");
         write_image_file(model.folder / "four.png", {2, 2}, {red, green, blue, white});
-        const Image<u8vec4> drawn = model.drawn({"--filter", "nearest", "--wrap", knob});
+        Arguments all = arguments;
+        all.insert(all.end(), {"--wrap", knob});
+        const Image<u8vec4> drawn = model.drawn(all);
         return std::array{hue(drawn[{28, 20}]), hue(drawn[{43, 4}])};
     };
     const std::array repeated = {blue, green}, mirrored = {green, blue}, clamped = {green, green};
@@ -217,6 +231,27 @@ TEST(Textures, Eq5_4_ClampOnGoesBeforeTheKnob) {
     EXPECT_EQ(upper_right("-clamp off", "repeat"), repeated);
     for (const char* knob : {"repeat", "mirror", "clamp"})
         EXPECT_EQ(upper_right("-clamp on", knob), clamped) << knob;
+}
+
+void expect_picture_moved_by_half(const Arguments& arguments) {
+    const Model model(plain + "map_Kd -o 0.5 0 0 two.png\n");
+    write_image_file(model.folder / "two.png", {2, 1}, {red, green});
+    const Image<u8vec4> drawn = model.drawn(arguments);
+    EXPECT_EQ(hue(drawn[{4, 24}]), green) << "at the left: red and green, moved by half";
+    EXPECT_EQ(hue(drawn[{43, 24}]), red) << "at the right";
+}
+
+}  // namespace
+
+TEST(Textures, Eq5_5_TextureStandsUprightOnTheSquare) { expect_four_texels_upright(of_step_1); }
+
+TEST(Textures, Eq5_5_ClampOnGoesBeforeTheKnob) { expect_clamp_on_before_the_knob(of_step_1); }
+
+TEST(Textures, InPerspectiveAndDecodedTheSquareShowsTheSame) {
+    look_up("Eq. 5.11, and Eq. 5.2");
+    expect_four_texels_upright(of_all_steps);
+    expect_clamp_on_before_the_knob(of_all_steps);
+    expect_picture_moved_by_half(of_all_steps);
 }
 
 TEST(Textures, OneImageMayBeClampedByOneMaterialAndRepeatedByAnother) {
@@ -250,11 +285,7 @@ TEST(Textures, Eq5_1_OffsetAndScaleOfTheMap) {
     const std::array<vec2, 3> scaled = {vec2(1.5f, 1), vec2(0.5f, -1), vec2(4.5f, 0)};
     EXPECT_EQ(uvs_of(mesh, triangle, map), scaled);
 
-    const Model model(plain + "map_Kd -o 0.5 0 0 two.png\n");
-    write_image_file(model.folder / "two.png", {2, 1}, {red, green});
-    const Image<u8vec4> drawn = model.drawn({"--filter", "nearest"});
-    EXPECT_EQ(hue(drawn[{4, 24}]), green);
-    EXPECT_EQ(hue(drawn[{43, 24}]), red);
+    expect_picture_moved_by_half(of_step_1);
 }
 
 TEST(Textures, TrianglesWithoutUvHaveTheColourAtZero) {

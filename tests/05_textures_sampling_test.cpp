@@ -15,6 +15,7 @@
 #include "05_textures/texture.hpp"
 #include "support/any_size.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
 
@@ -31,6 +32,21 @@ constexpr std::array all_wraps = {Wrap::repeat, Wrap::mirror, Wrap::clamp};
 constexpr std::array all_filters = {Filter::nearest, Filter::bilinear, Filter::trilinear};
 constexpr const char* name_of(Wrap wrap) {
     return wrap == Wrap::repeat ? "repeat" : wrap == Wrap::mirror ? "mirror" : "clamp";
+}
+constexpr const char* name_of(Filter filter) {
+    return filter == Filter::nearest    ? "nearest"
+           : filter == Filter::bilinear ? "bilinear"
+                                        : "trilinear";
+}
+
+std::string described(const FragmentUv& uv) {
+    return "uv " + shown(uv.here) + ", which changes by " + shown(uv.ddx) +
+           " to the right and by " + shown(uv.ddy) + " down";
+}
+
+/// Both with all digits.
+std::string in_full(vec4 actual, vec4 expected) {
+    return "in full: " + shown(actual) + " instead of " + shown(expected) + "; ";
 }
 
 /// Each texel's colour is its column and row.
@@ -157,13 +173,14 @@ class Mix {
 testing::AssertionResult is_color(vec4 color) {
     for (int channel = 0; channel < 4; ++channel)
         if (!(color[channel] >= -4 * feps && color[channel] <= 1 + 4 * feps))  // also for NaN
-            return testing::AssertionFailure() << testing::PrintToString(color);
+            return testing::AssertionFailure()
+                   << testing::PrintToString(color) << " is not a colour from 0 to 1";
     return testing::AssertionSuccess();
 }
 
 }  // namespace
 
-TEST(Textures, Eq5_4_WrapsOfTheWorkedExample) {
+TEST(Textures, Eq5_4_AllWrapsOfTheWorkedExample) {
     struct Case {
         float coordinate, repeated, mirrored, clamped;
     };
@@ -172,9 +189,9 @@ TEST(Textures, Eq5_4_WrapsOfTheWorkedExample) {
           Case{2.25f, 0.25f, 0.25f, 1}, Case{-0.25f, 0.75f, 0.25f, 0},
           Case{-1.25f, 0.75f, 0.75f, 0}, Case{0, 0, 0, 0}, Case{1, 0, 1, 1}, Case{2, 0, 0, 1},
           Case{-1, 0, 1, 0}}) {
-        EXPECT_EQ(wrapped(coordinate, Wrap::repeat), repeated) << coordinate;
-        EXPECT_EQ(wrapped(coordinate, Wrap::mirror), mirrored) << coordinate;
-        EXPECT_EQ(wrapped(coordinate, Wrap::clamp), clamped) << coordinate;
+        EXPECT_EQ(wrapped(coordinate, Wrap::repeat), repeated) << "coordinate " << coordinate;
+        EXPECT_EQ(wrapped(coordinate, Wrap::mirror), mirrored) << "coordinate " << coordinate;
+        EXPECT_EQ(wrapped(coordinate, Wrap::clamp), clamped) << "coordinate " << coordinate;
     }
 }
 
@@ -189,12 +206,17 @@ TEST(Textures, Eq5_4_HardCase_SpecialCoordinatesSeeTheTexelsOfTheOracle) {
                     for (const float other : {0.25f, special}) {
                         const ivec2 expected(exact_texel(special, size.x, wrap, false),
                                              exact_texel(other, size.y, wrap, true));
-                        EXPECT_EQ(texel_at(level, {special, other}, wrap), expected)
-                            << special << ", " << other << ", " << name_of(wrap);
+                        const auto where = [&](vec2 uv) {
+                            return "the texel that uv " + shown(uv) + " sees, " + name_of(wrap) +
+                                   ", in " + testing::PrintToString(size) +
+                                   " texels; (-1, -1): texture_position() is not in the picture";
+                        };
+                        ASSERT_EQ(texel_at(level, {special, other}, wrap), expected)
+                            << where({special, other});
                         const ivec2 turned(exact_texel(other, size.x, wrap, false),
                                            exact_texel(special, size.y, wrap, true));
-                        EXPECT_EQ(texel_at(level, {other, special}, wrap), turned)
-                            << other << ", " << special << ", " << name_of(wrap);
+                        ASSERT_EQ(texel_at(level, {other, special}, wrap), turned)
+                            << where({other, special});
                     }
         }
 }
@@ -203,14 +225,15 @@ TEST(Textures, HardCase_NotANumberSeesTheTexelAtZero) {
     look_up("Eq. 5.4, and what its comparisons do with NaN");
     for (const Wrap wrap : all_wraps) {
         const TextureLevel level = with_border(columns_and_rows({3, 5}), wrap);
-        EXPECT_EQ(wrapped(not_a_number, wrap), 0.0f);
-        EXPECT_EQ(texel_at(level, vec2(not_a_number), wrap), ivec2(0, 4)) << "lower left";
-        EXPECT_EQ(wrapped(infinity, wrap), wrap == Wrap::clamp ? 1.0f : 0.0f);
-        EXPECT_EQ(wrapped(-infinity, wrap), 0.0f);
+        EXPECT_EQ(wrapped(not_a_number, wrap), 0.0f) << name_of(wrap);
+        EXPECT_EQ(texel_at(level, vec2(not_a_number), wrap), ivec2(0, 4))
+            << name_of(wrap) << ": the lower left texel of 3 x 5";
+        EXPECT_EQ(wrapped(infinity, wrap), wrap == Wrap::clamp ? 1.0f : 0.0f) << name_of(wrap);
+        EXPECT_EQ(wrapped(-infinity, wrap), 0.0f) << name_of(wrap);
     }
 }
 
-TEST(Textures, Eq5_4_EqualsTheExactOracleForAllSizes) {
+TEST(Textures, Eq5_5_EqualsTheExactOracleForAllSizes) {
     constexpr int cases = 100'000;
     AnySize any(1, 9), any_little(1, 3);
     int left_out = 0;
@@ -224,9 +247,9 @@ TEST(Textures, Eq5_4_EqualsTheExactOracleForAllSizes) {
                     coordinate = (std::round(coordinate) + 1e-4f * any_little.number()) /
                                  static_cast<float>(side);
                 const auto where = [&](const char* what) {
-                    return std::string("seed 1, ") + name_of(wrap) + ", side " +
-                           std::to_string(side) + ", case " + std::to_string(i) + ", " + what +
-                           " = " + testing::PrintToString(coordinate);
+                    return std::string("the texel, ") + name_of(wrap) + ", of " +
+                           std::to_string(side) + " in a row, that is seen at " + what + " = " +
+                           shown(coordinate) + "; seed 1, case " + std::to_string(i);
                 };
                 if (is_near_a_border(coordinate, side, wrap, false))
                     ++left_out;
@@ -257,21 +280,28 @@ TEST(Textures, Eq5_4_WithSidesThatArePowersOfTwoNoCaseIsLeftOut) {
                 const float u =
                     i % 2 ? any.positive() : std::round(any.positive()) / static_cast<float>(side);
                 ASSERT_EQ(texel_at(columns, {u, 0.5f}, wrap).x, exact_texel(u, side, wrap, false))
-                    << "seed 2, " << name_of(wrap) << ", side " << side << ", u = " << u;
+                    << "the texel, " << name_of(wrap) << ", of " << side
+                    << " in a row, that is seen at u = " << shown(u) << "; seed 2";
             }
         }
 }
 
-TEST(Textures, Eq5_5_VPointsUpAndRowsDown) {
+TEST(Textures, Eq5_5_AnExampleInWhichVPointsUpAndRowsDown) {
     const TextureLevel level = with_border(columns_and_rows({4, 2}), Wrap::repeat);
     EXPECT_EQ(texture_position({0.25f, 0.75f}, Wrap::repeat), vec2(0.25f, 0.25f));
-    EXPECT_EQ(texel_at(level, {0.25f, 0.75f}, Wrap::repeat), ivec2(1, 0)) << "the upper row";
-    EXPECT_EQ(texel_at(level, {0.9f, 0.1f}, Wrap::repeat), ivec2(3, 1)) << "the lower one";
-    EXPECT_EQ(texel_at(level, {0.1f, 0.9f}, Wrap::repeat), ivec2(0, 0));
+    EXPECT_EQ(texture_position({0.25f, 0.25f}, Wrap::repeat), vec2(0.25f, 0.75f));
     EXPECT_EQ(texture_position({0, 0}, Wrap::clamp), vec2(0, 1)) << "the lower left corner";
     EXPECT_EQ(texture_position({1, 1}, Wrap::clamp), vec2(1, 0)) << "the upper right corner";
-    EXPECT_EQ(texel_at(level, {1, 1}, Wrap::clamp), ivec2(3, 0));
-    EXPECT_EQ(texel_at(level, {0, 0}, Wrap::clamp), ivec2(0, 1));
+    EXPECT_EQ(texture_position({1, 0}, Wrap::clamp), vec2(1, 1)) << "the lower right corner";
+    const auto texel = [&](vec2 uv, Wrap wrap) { return texel_at(level, uv, wrap); };
+    const char* what = "column and row of 4 x 2 texels";
+    EXPECT_EQ(texel({0.25f, 0.75f}, Wrap::repeat), ivec2(1, 0)) << what << ", the upper row";
+    EXPECT_EQ(texel({0.25f, 0.25f}, Wrap::repeat), ivec2(1, 1)) << what << ", the lower one";
+    EXPECT_EQ(texel({0.9f, 0.1f}, Wrap::repeat), ivec2(3, 1)) << what << ", the lower one";
+    EXPECT_EQ(texel({0.1f, 0.9f}, Wrap::repeat), ivec2(0, 0)) << what;
+    EXPECT_EQ(texel({1, 1}, Wrap::clamp), ivec2(3, 0)) << what;
+    EXPECT_EQ(texel({0, 0}, Wrap::clamp), ivec2(0, 1)) << what;
+    EXPECT_EQ(texel({1, 0}, Wrap::clamp), ivec2(3, 1)) << what << ": the last texel";
 }
 
 TEST(Textures, Eq5_5_CentresOfTexels) {
@@ -280,7 +310,9 @@ TEST(Textures, Eq5_5_CentresOfTexels) {
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 const vec2 uv = (vec2(x, size.y - 1 - y) + 0.5f) / vec2(size);
-                ASSERT_EQ(texel_at(level, uv, Wrap::repeat), ivec2(x, y));
+                ASSERT_EQ(texel_at(level, uv, Wrap::repeat), ivec2(x, y))
+                    << "the texel of " << testing::PrintToString(size) << " whose centre is at uv "
+                    << shown(uv);
             }
     }
 }
@@ -290,6 +322,13 @@ TEST(Textures, Eq5_6_MeansOfTheWorkedExample) {
     picture[{0, 0}] = vec4(0), picture[{1, 0}] = vec4(4);
     picture[{0, 1}] = vec4(8), picture[{1, 1}] = vec4(20);
     const TextureLevel level = with_border(picture, Wrap::clamp);
+    ASSERT_EQ(level.texels.size(), ivec2(4, 4)) << "2 x 2 texels and a border of one";
+    EXPECT_EQ((level.texels[{1, 2}]), vec4(8)) << "with_border(): texel (0, 1)";
+    EXPECT_EQ((level.texels[{3, 2}]), vec4(20)) << "with_border(), clamp: right of texel (1, 1)";
+    EXPECT_EQ((with_border(picture, Wrap::mirror).texels[{0, 0}]), vec4(0))
+        << "with_border(), mirror: above and left of texel (0, 0) it is once more";
+    EXPECT_EQ((with_border(picture, Wrap::repeat).texels[{0, 0}]), vec4(20))
+        << "with_border(), repeat: above and left of texel (0, 0) is the last one";
     EXPECT_EQ(sample_bilinear(level, {0.5f, 0.5f}), vec4(8)) << "the mean of all four";
     EXPECT_EQ(sample_bilinear(level, {0.25f, 0.25f}), vec4(0)) << "a centre";
     EXPECT_EQ(sample_bilinear(level, {0.375f, 0.25f}), vec4(1)) << "a quarter of the way";
@@ -323,8 +362,9 @@ TEST(Textures, Eq5_6_HardCase_EqualsTheOracleAlsoAcrossTheSeams) {
                 const vec4 actual = sample_bilinear(level, texture_position(uv, wrap));
                 for (int channel = 0; channel < 4; ++channel)
                     ASSERT_TRUE(is_near(actual[channel], exact[channel], tolerance))
-                        << "seed 3, " << name_of(wrap) << ", case " << i << ", uv "
-                        << testing::PrintToString(uv);
+                        << "channel " << channel << " of " << testing::PrintToString(size)
+                        << " texels, " << name_of(wrap) << ", at uv " << shown(uv)
+                        << "; seed 3, case " << i;
             }
         }
     }
@@ -350,7 +390,9 @@ TEST(Textures, Eq5_6_HardCase_CentresOfTexelsKeepTheirColours) {
                             sample(texture, filter, {uv, {texel.x, 0}, {0, texel.y}});
                         for (int channel = 0; channel < 4; ++channel)
                             ASSERT_NEAR(color[channel], (picture[{x, y}][channel]), rounding)
-                                << x << ", " << y << " of " << testing::PrintToString(size);
+                                << "channel " << channel << " at the centre of texel (" << x << ", "
+                                << y << ") of " << testing::PrintToString(size) << ", "
+                                << name_of(wrap) << ", filter " << name_of(filter);
                     }
                 }
         }
@@ -366,29 +408,37 @@ TEST(Textures, HardCase_ConstantTextureStaysConstantBitForBit) {
             const vec4 color(mix.share(), mix.share(), 1.0f / 3, 1);
             const Texture texture = make_texture(Image<vec4>(size, color), wrap);
             for (const TextureLevel& level : texture.levels)
-                for (const vec4 texel : level.texels.pixels()) ASSERT_EQ(texel, color);
+                for (const vec4 texel : level.texels.pixels())
+                    ASSERT_EQ(texel, color) << in_full(texel, color) << "a texel of the level of "
+                                            << testing::PrintToString(level.size)
+                                            << " of a picture of " << testing::PrintToString(size);
             for (int i = 0; i < 3'000; ++i) {
                 const FragmentUv uv{mix.pair(), mix.share() * mix.pair(),
                                     vec2(mix.share(), mix.share())};
-                for (const Filter filter : all_filters)
-                    ASSERT_EQ(sample(texture, filter, uv), color)
-                        << "seed 5, " << testing::PrintToString(size) << ", case " << i;
+                for (const Filter filter : all_filters) {
+                    const vec4 sampled = sample(texture, filter, uv);
+                    ASSERT_EQ(sampled, color)
+                        << in_full(sampled, color) << "filter " << name_of(filter) << ", "
+                        << name_of(wrap) << ", of " << testing::PrintToString(size) << " texels at "
+                        << described(uv) << "; seed 5, case " << i;
+                }
             }
         }
 }
 
-TEST(Textures, Eq5_8_LevelsOfTheWorkedExample) {
+TEST(Textures, Eq5_8_ExamplesOfLevels) {
     const auto level = [](vec2 across_texels, vec2 down_texels) {
         constexpr ivec2 size(256, 64);
         return level_of_detail(across_texels / vec2(size), down_texels / vec2(size), size);
     };
-    EXPECT_EQ(level({1, 0}, {0, 1}), 0);
-    EXPECT_EQ(level({0.25f, 0}, {0, 0.25f}), 0) << "a texel over many pixels";
-    EXPECT_EQ(level({2, 0}, {0, 1}), 1);
-    EXPECT_EQ(level({0, 1}, {4, 0}), 2);
-    EXPECT_EQ(level({0, 8}, {0, 0}), 3);
-    EXPECT_NEAR(level({3, 4}, {1, 0}), 2.321928f, 2 * feps);  // log2(5)
-    EXPECT_EQ(level({0, 0}, {0, 0}), 0);
+    const char* what = "of a footprint whose two sides are given in texels";
+    EXPECT_EQ(level({1, 0}, {0, 1}), 0) << what;
+    EXPECT_EQ(level({0.25f, 0}, {0, 0.25f}), 0) << what << "; a texel over many pixels";
+    EXPECT_EQ(level({2, 0}, {0, 1}), 1) << what;
+    EXPECT_EQ(level({0, 1}, {4, 0}), 2) << what << "; the second is the longer one";
+    EXPECT_EQ(level({0, 8}, {0, 0}), 3) << what;
+    EXPECT_NEAR(level({3, 4}, {1, 0}), 2.321928f, 2 * feps) << what << "; log2(5)";
+    EXPECT_EQ(level({0, 0}, {0, 0}), 0) << what;
 }
 
 TEST(Textures, Eq5_8_FootprintsOfAllSizes) {
@@ -404,7 +454,8 @@ TEST(Textures, Eq5_8_FootprintsOfAllSizes) {
         // logarithm by as much over ln 2 = 0.69, halved; the logarithm itself by less than eps of
         // itself.
         ASSERT_TRUE(is_near(level_of_detail(across, down, size), exact, 1.5L * eps + eps * exact))
-            << "seed 6, case " << i;
+            << "level_of_detail() of " << shown(across) << " to the right and " << shown(down)
+            << " down, of " << testing::PrintToString(size) << " texels; seed 6, case " << i;
     }
 }
 
@@ -447,16 +498,16 @@ TEST(Textures, HardCase_FootprintsThatAreNotNumbers) {
                   sample(texture, Filter::bilinear, {vec2(0.2f), none, none}));
 }
 
-TEST(Textures, Eq5_9_MeansOfTheWorkedExample) {
+TEST(Textures, Eq5_9_AllMeansOfTheWorkedExample) {
     Image<vec4> two_by_two({2, 2});
     for (int i = 0; i < 4; ++i) two_by_two[{i % 2, i / 2}] = vec4(static_cast<float>(i * i));
     EXPECT_EQ(downsampled(two_by_two).size(), ivec2(1));
-    EXPECT_EQ((downsampled(two_by_two)[{0, 0}]), vec4(3.5f));
+    EXPECT_EQ((downsampled(two_by_two)[{0, 0}]), vec4(3.5f)) << "(0 + 1 + 4 + 9) / 4";
     // Of five texels each of two covers two and a half.
     Image<vec4> five({5, 1});
     for (int x = 0; x < 5; ++x) five[{x, 0}] = vec4(static_cast<float>(10 * x));
     const Image<vec4> two = downsampled(five);
-    ASSERT_EQ(two.size(), ivec2(2, 1));
+    ASSERT_EQ(two.size(), ivec2(2, 1)) << "half of 5 x 1";
     EXPECT_EQ((two[{0, 0}]), vec4(8)) << "(2 * 0 + 2 * 10 + 20) / 5";
     EXPECT_EQ((two[{1, 0}]), vec4(32)) << "(20 + 2 * 30 + 2 * 40) / 5";
 }
@@ -466,7 +517,7 @@ TEST(Textures, Eq5_9_LevelsHaveHalvedSizes) {
         std::vector<ivec2> all;
         for (const TextureLevel& level : make_texture(Image<vec4>(size), Wrap::repeat).levels) {
             all.push_back(level.size);
-            EXPECT_EQ(level.texels.size(), level.size + 2);
+            EXPECT_EQ(level.texels.size(), level.size + 2) << "each level has a border of one";
         }
         return all;
     };
@@ -498,7 +549,9 @@ TEST(Textures, Eq5_9_HardCase_OddSizesAreMeansOfWhatTexelsCover) {
                 for (int channel = 0; channel < 4;
                      ++channel)  // one rounding; double's do not count
                     ASSERT_NEAR((half[{x, y}][channel]), sum[channel], 0.5001 * feps * sum[channel])
-                        << testing::PrintToString(from) << ": " << x << ", " << y;
+                        << "channel " << channel << " of texel (" << x << ", " << y << ") of "
+                        << testing::PrintToString(to) << ", half of "
+                        << testing::PrintToString(from);
             }
     }
 }
@@ -515,25 +568,30 @@ TEST(Textures, Eq5_9_EveryLevelHasTheMeanOfTheTexture) {
         const dvec4 exact = mean(texture.levels[0]);
         for (std::size_t i = 0; i < texture.levels.size(); ++i)
             for (int channel = 0; channel < 4; ++channel)  // a rounding a level
-                EXPECT_NEAR(mean(texture.levels[i])[channel], exact[channel],
+                ASSERT_NEAR(mean(texture.levels[i])[channel], exact[channel],
                             0.5001 * feps * static_cast<double>(i))
-                    << "level " << i;
-        EXPECT_EQ(texture.levels.back().size, ivec2(1));
+                    << "the mean of channel " << channel << " in level " << i << " of a picture of "
+                    << testing::PrintToString(size) << " texels, and in level 0";
+        EXPECT_EQ(texture.levels.back().size, ivec2(1)) << "the last level of all";
     }
 }
 
-TEST(Textures, Eq5_10_MeansOfTheWorkedExample) {
+TEST(Textures, Eq5_10_AllMeansOfTheWorkedExample) {
     Image<vec4> picture({2, 1});
     picture[{0, 0}] = vec4(0), picture[{1, 0}] = vec4(8);
     const Texture texture = make_texture(picture, Wrap::clamp);
     const vec2 left(0.25f, 0.5f);
-    EXPECT_EQ(sample_trilinear(texture, left, 0), vec4(0));
+    ASSERT_EQ(texture.levels.size(), 2u) << "of 2 x 1 texels and of one";
+    EXPECT_EQ(sample_trilinear(texture, left, 0), vec4(0)) << "the finer level alone";
     EXPECT_EQ(sample_trilinear(texture, left, 0.25f), vec4(1)) << "a quarter of the way to 4";
-    EXPECT_EQ(sample_trilinear(texture, left, 1), vec4(4));
-    EXPECT_EQ(sample(texture, Filter::trilinear, {left, {0.5f, 0}, {0, 0}}), vec4(0));
-    EXPECT_EQ(sample(texture, Filter::trilinear, {left, {1, 0}, {0, 0}}), vec4(4));
-    EXPECT_EQ(sample(texture, Filter::bilinear, {left, {1, 0}, {0, 0}}), vec4(0));
-    EXPECT_EQ(sample(texture, Filter::nearest, {left, {1, 0}, {0, 0}}), vec4(0));
+    EXPECT_EQ(sample_trilinear(texture, left, 1), vec4(4)) << "the coarser level alone";
+    const auto color = [&](Filter filter, float step) {
+        return sample(texture, filter, {left, {step, 0}, {0, 0}});
+    };
+    EXPECT_EQ(color(Filter::trilinear, 0.5f), vec4(0)) << "u changes by 1/2, a texel: level 0";
+    EXPECT_EQ(color(Filter::trilinear, 1), vec4(4)) << "u changes by 1, two texels: level 1";
+    EXPECT_EQ(color(Filter::bilinear, 1), vec4(0)) << "always level 0";
+    EXPECT_EQ(color(Filter::nearest, 1), vec4(0)) << "always level 0";
 }
 
 TEST(Textures, Eq5_10_GoesEvenlyFromLevelToLevel) {
@@ -552,7 +610,8 @@ TEST(Textures, Eq5_10_GoesEvenlyFromLevelToLevel) {
              ++channel)  // difference, product, sum of numbers up to 1
             ASSERT_TRUE(is_near(sample_trilinear(texture, place, level)[channel],
                                 (1 - share) * a[channel] + share * b[channel], 1.5L * eps))
-                << "seed 10, case " << i << ", level " << level;
+                << "channel " << channel << " at " << shown(place) << " in level " << shown(level)
+                << " of " << texture.levels.size() << "; seed 10, case " << i;
     }
 }
 
@@ -560,22 +619,24 @@ TEST(Textures, Eq5_1_UvOfAFragmentAndItsDerivatives) {
     const std::array uvs = {vec2(0, 0), vec2(1, 0), vec2(1, 2)};
     const FragmentUv uv =
         fragment_uv(uvs, {{0.5f, 0.25f, 0.25f}, {-0.5f, 0.25f, 0.25f}, {0, -1, 1}});
-    EXPECT_EQ(uv.here, vec2(0.5f, 0.5f));
-    EXPECT_EQ(uv.ddx, vec2(0.5f, 0.5f));
-    EXPECT_EQ(uv.ddy, vec2(0, 2));
+    EXPECT_EQ(uv.here, vec2(0.5f, 0.5f)) << "(0, 0) / 2 + (1, 0) / 4 + (1, 2) / 4";
+    EXPECT_EQ(uv.ddx, vec2(0.5f, 0.5f)) << "(0, 0) (-1/2) + (1, 0) / 4 + (1, 2) / 4";
+    EXPECT_EQ(uv.ddy, vec2(0, 2)) << "(0, 0) 0 + (1, 0) (-1) + (1, 2)";
 }
 
-TEST(Textures, Eq5_11_CodesOfTheWorkedExample) {
+TEST(Textures, Eq5_11_CodesAndOpacityOfTheTable) {
     Image<u8vec4> codes({4, 1});
     codes[{0, 0}] = {0, 255, 10, 51};
     codes[{1, 0}] = {188, 128, 11, 255};
     const Image<vec4> linear = linear_from_srgb8(codes);
-    EXPECT_EQ((linear[{0, 0}].r), 0.0f);
-    EXPECT_EQ((linear[{0, 0}].g), 1.0f);
-    EXPECT_NEAR((linear[{0, 0}].b), 10 / 255.0 / 12.92, 1e-9);
-    EXPECT_EQ((linear[{0, 0}].a), 0.2f) << "opacity is not encoded";
-    EXPECT_NEAR((linear[{1, 0}].r), 0.5, 0.003) << "half of the light";
-    EXPECT_NEAR((linear[{1, 0}].g), 0.2159, 0.0001) << "less than a quarter";
+    ASSERT_EQ(linear.size(), codes.size());
+    const vec4 first = linear[{0, 0}], second = linear[{1, 0}];
+    EXPECT_EQ(first.r, 0.0f) << "of code 0";
+    EXPECT_EQ(first.g, 1.0f) << "of code 255";
+    EXPECT_NEAR(first.b, 10 / 255.0 / 12.92, 1e-9) << "of code 10: on the straight line";
+    EXPECT_NEAR(second.r, 0.5, 0.003) << "of code 188: half of the light";
+    EXPECT_NEAR(second.g, 0.2159, 0.0001) << "of code 128: less than a quarter";
+    EXPECT_EQ(first.a, 0.2f) << "of code 51: opacity is not encoded";
 }
 
 TEST(Textures, Eq5_11_EveryCodeIsWithinRoundingAndComesBack) {
@@ -593,15 +654,18 @@ TEST(Textures, Eq5_11_EveryCodeIsWithinRoundingAndComesBack) {
     constexpr real tolerance = 2.4L * (2 + 3.0L / 4) * eps + eps;
     for (int code = 0; code < 256; ++code) {
         const vec4 light = linear[{code, 0}];
-        EXPECT_TRUE(is_near(light.r, exact(code), tolerance * exact(code))) << code;
-        EXPECT_TRUE(is_near(light.g, exact(255 - code), tolerance * exact(255 - code))) << code;
-        EXPECT_TRUE(is_near(light.b, exact(code / 2), tolerance * exact(code / 2))) << code;
-        EXPECT_EQ(light.a, static_cast<float>(255 - code) / 255);
-        EXPECT_EQ(srgb8_from_linear(light.r), code);
+        const auto is_light_of = [&](float actual, int of) {
+            return is_near(actual, exact(of), tolerance * exact(of));
+        };
+        ASSERT_TRUE(is_light_of(light.r, code)) << "red of code " << code;
+        ASSERT_TRUE(is_light_of(light.g, 255 - code)) << "green of code " << 255 - code;
+        ASSERT_TRUE(is_light_of(light.b, code / 2)) << "blue of code " << code / 2;
+        ASSERT_EQ(light.a, static_cast<float>(255 - code) / 255) << "opacity " << 255 - code;
+        ASSERT_EQ(srgb8_from_linear(light.r), code) << "there and back again";
     }
 }
 
-TEST(Textures, Eq5_11_ChessboardFromAfarIsHalfOfTheLight) {
+TEST(Textures, Eq5_11_FromAfarAChessboardIsHalfOfTheLight) {
     Image<u8vec4> board({8, 8}, {255, 255, 255, 255});
     for (int i = 0; i < 64; ++i)
         if ((i / 8 + i) % 2) board[{i % 8, i / 8}] = {0, 0, 0, 255};
@@ -623,16 +687,20 @@ TEST(Textures, HardCase_SpecialNumbersSeeAColour) {
         const FragmentUv uv{mix.pair(), mix.pair(), mix.pair()};
         for (const float coordinate : {uv.here.x, uv.here.y}) {
             const float inside = wrapped(coordinate, texture.wrap);
-            ASSERT_TRUE(inside >= 0 && inside <= 1) << "seed 11, case " << i << ": " << coordinate;
+            ASSERT_TRUE(inside >= 0 && inside <= 1)
+                << "wrapped(" << shown(coordinate) << "), " << name_of(texture.wrap) << ", is "
+                << inside << "; seed 11, case " << i;
         }
         const vec2 place = texture_position(uv.here, texture.wrap);
         ASSERT_TRUE(place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1)
-            << "seed 11, case " << i;
+            << "texture_position() of uv " << shown(uv.here) << " is " << shown(place)
+            << "; seed 11, case " << i;
         ASSERT_GE(level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size), 0)
-            << "seed 11, case " << i;
-        ASSERT_TRUE(is_color(sample(texture, all_filters[mix.below(3)], uv)))
-            << "seed 11, case " << i << ", uv " << testing::PrintToString(uv.here) << ", steps "
-            << testing::PrintToString(uv.ddx) << ", " << testing::PrintToString(uv.ddy);
+            << "level_of_detail(); " << described(uv) << "; seed 11, case " << i;
+        const Filter filter = all_filters[mix.below(3)];
+        ASSERT_TRUE(is_color(sample(texture, filter, uv)))
+            << "filter " << name_of(filter) << ", " << name_of(texture.wrap) << ", "
+            << described(uv) << "; seed 11, case " << i;
     }
 }
 
@@ -664,10 +732,12 @@ TEST(Textures, HardCase_SpecialNumbersAtTheVerticesSeeAColour) {
                 perspective_correct(setup, screen_barycentrics);
             for (int k = 0; k < 3; ++k) {
                 ASSERT_TRUE(barycentrics.here[k] >= 0 && barycentrics.here[k] <= 1 + 2 * feps)
-                    << "seed 12, case " << i << ": " << testing::PrintToString(barycentrics.here);
+                    << "here = " << shown(barycentrics.here)
+                    << " at s = " << shown(screen_barycentrics) << "; seed 12, case " << i;
                 ASSERT_TRUE(std::isfinite(barycentrics.ddx[k]) &&
                             std::isfinite(barycentrics.ddy[k]))
-                    << "seed 12, case " << i;
+                    << "ddx = " << shown(barycentrics.ddx) << ", ddy = " << shown(barycentrics.ddy)
+                    << " at s = " << shown(screen_barycentrics) << "; seed 12, case " << i;
             }
             ASSERT_TRUE(is_color(
                 sample(texture, all_filters[mix.below(3)], fragment_uv(uvs, barycentrics))))

@@ -17,6 +17,7 @@
 #include "support/any_size.hpp"
 #include "support/exact.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/printers.hpp"
 #include "support/projected.hpp"
 #include "support/reference.hpp"
@@ -116,21 +117,34 @@ constexpr Tolerance of_whole = {8, 17};
 /// and 6.5.
 constexpr Tolerance of_piece = {11, 23};
 
+/// Whether derivatives are compared, too, of Eq. 5.7.
+enum class Compared { coordinates, derivatives_too };
+
 /// For EXPECT_TRUE: barycentrics that are those of the oracle, and whose sum is 1.
 testing::AssertionResult are_near(const FragmentBarycentrics& barycentrics,
-                                  const ExactBarycentrics& exact, Tolerance tolerance) {
+                                  const ExactBarycentrics& exact, Tolerance tolerance,
+                                  Compared compared) {
+    const auto failure = [] { return testing::AssertionFailure(); };
+    const auto in_full = [](const char* name, vec3 actual, lvec3 expected) {
+        return std::string("; ") + name + " = " + shown(actual) + " instead of " +
+               shown(vec3(expected));
+    };
     for (int i = 0; i < 3; ++i) {
         const auto here = is_near(barycentrics.here[i], exact.here[i],
                                   tolerance.coordinate * eps * exact.here[i]);
         if (!here)
-            return testing::AssertionFailure() << "coordinate " << i << ": " << here.message();
+            return failure() << "here[" << i << "] is " << here.message()
+                             << in_full("here", barycentrics.here, exact.here);
+        if (compared == Compared::coordinates) continue;
         const vec3 steps[] = {barycentrics.ddx, barycentrics.ddy};
         for (std::size_t axis = 0; axis < 2; ++axis) {
             const auto step = is_near(steps[axis][i], exact.step[axis][i],
                                       tolerance.step * eps * exact.of_sizes[axis][i]);
             if (!step)
-                return testing::AssertionFailure()
-                       << "dd" << "xy"[axis] << " of coordinate " << i << ": " << step.message();
+                return failure() << "dd" << "xy"[axis] << "[" << i << "] is " << step.message()
+                                 << in_full(axis == 0 ? "ddx" : "ddy", steps[axis],
+                                            exact.step[axis])
+                                 << in_full("here", barycentrics.here, exact.here);
         }
     }
     return is_near(real{barycentrics.here.x} + barycentrics.here.y + barycentrics.here.z, 1,
@@ -170,35 +184,71 @@ class AnyTriangle {
     std::mt19937 random_;
 };
 
+/// The piece's w, and what it has of the whole triangle, if it was cut.
+std::string described(const ClippedTriangle& piece) {
+    std::string text = "w = ", cut;
+    for (const ClippedVertex& vertex : piece) {
+        text += (&vertex == &piece[0] ? "" : ", ") + shown(vertex.position_clip.w);
+        cut += (&vertex == &piece[0] ? "" : ", ") + shown(vertex.barycentrics);
+    }
+    const bool is_whole = piece[0].barycentrics == vec3(1, 0, 0) &&
+                          piece[1].barycentrics == vec3(0, 1, 0) &&
+                          piece[2].barycentrics == vec3(0, 0, 1);
+    return text + (is_whole ? " (not cut)" : "; a piece whose vertices have " + cut);
+}
+
 /// Compares every pixel of a triangle with the oracle.
 ///
 /// @return  How many pixels there were; -1 after a failure.
-int compare(const ScreenTriangle& on_screen, const ClippedTriangle& piece, Tolerance tolerance) {
+int compare(const ScreenTriangle& on_screen, const ClippedTriangle& piece, Tolerance tolerance,
+            Compared compared = Compared::derivatives_too) {
     const PerspectiveSetup setup = perspective_setup(on_screen, piece);
     int pixels = 0;
     fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
         if (pixels < 0) return;
         ++pixels;
-        const auto result = are_near(perspective_correct(setup, screen_barycentrics),
-                                     exact_barycentrics(on_screen, piece, pixel), tolerance);
-        EXPECT_TRUE(result) << "pixel " << testing::PrintToString(pixel);
+        const auto result =
+            are_near(perspective_correct(setup, screen_barycentrics),
+                     exact_barycentrics(on_screen, piece, pixel), tolerance, compared);
+        EXPECT_TRUE(result) << "perspective_correct() in pixel " << testing::PrintToString(pixel)
+                            << ", where the barycentric coordinates on the screen are "
+                            << shown(screen_barycentrics) << "; " << described(piece);
         if (!result) pixels = -1;
     });
     return pixels;
 }
 
+/// The same for pieces with any w.
+void compare_pieces(Compared what) {
+    AnyTriangle any(6);
+    int pixels = 0;
+    for (int i = 0; i < 400; ++i) {
+        const float reach = i % 2 ? 1e6f : 10;
+        ClippedTriangle piece;
+        for (ClippedVertex& vertex : piece)
+            vertex = {{0, 0, 0, any.of_sizes(1 / reach, reach)}, any.shares()};
+        const int compared = compare(any.on_screen(), piece, of_piece, what);
+        ASSERT_GE(compared, 0) << "seed 6, case " << i;
+        pixels += compared;
+    }
+    EXPECT_GT(pixels, 100'000);
+}
+
 }  // namespace
 
-TEST(Textures, Eq5_1_SumOfTheWorkedExample) {
+TEST(Textures, Eq5_1_ExampleOfASum) {
     const vec3 barycentrics(0.5f, 0.25f, 0.25f);
-    EXPECT_EQ(interpolate(std::array{10.0f, 20.0f, 40.0f}, barycentrics), 20.0f);
+    EXPECT_EQ(interpolate(std::array{10.0f, 20.0f, 40.0f}, barycentrics), 20.0f)
+        << "with the barycentric coordinates 1/2, 1/4 and 1/4";
     EXPECT_EQ(interpolate(std::array{vec2(0, 0), vec2(1, 0), vec2(1, 1)}, barycentrics),
-              vec2(0.5f, 0.25f));
+              vec2(0.5f, 0.25f))
+        << "with the barycentric coordinates 1/2, 1/4 and 1/4";
     const std::array vertices = {vec3(1, 2, 3), vec3(4, 5, 6), vec3(7, 8, 10)};
     for (int i = 0; i < 3; ++i) {
         vec3 only(0);
         only[i] = 1;
-        EXPECT_EQ(interpolate(vertices, only), vertices[static_cast<std::size_t>(i)]);
+        EXPECT_EQ(interpolate(vertices, only), vertices[static_cast<std::size_t>(i)])
+            << "with the barycentric coordinates " << shown(only);
     }
 }
 
@@ -211,7 +261,8 @@ TEST(Textures, Eq5_1_SumsOfAllSizes) {
         ASSERT_TRUE(
             is_near(interpolate(std::array{vertices.x, vertices.y, vertices.z}, barycentrics),
                     exact.value, 1.5L * eps * exact.of_sizes))  // a product and two sums
-            << "seed 1, case " << i;
+            << "seed 1, case " << i << ": interpolate() of " << shown(vertices.x) << ", "
+            << shown(vertices.y) << " and " << shown(vertices.z) << " with " << shown(barycentrics);
     }
 }
 
@@ -220,14 +271,12 @@ TEST(Textures, Eq5_2_HalfwayOnTheScreenIsNotHalfwayOnTheSurface) {
     const PerspectiveSetup side = perspective_setup(eighths, whole({1, 1, 3}));
     const vec3 middle = perspective_correct(side, vec3(0.5f, 0, 0.5f)).here;
     constexpr float tolerance = static_cast<float>(of_whole.coordinate * eps);
-    EXPECT_NEAR(middle.x, 0.75f, tolerance);
-    EXPECT_EQ(middle.y, 0.0f);
-    EXPECT_NEAR(middle.z, 0.25f, tolerance);
+    EXPECT_TRUE(are_near(middle, {0.75, 0, 0.25}, tolerance)) << "s = (1/2, 0, 1/2), w = 1, 1, 3";
+    EXPECT_EQ(middle.y, 0.0f) << "s = (1/2, 0, 1/2), w = 1, 1, 3";
     const PerspectiveSetup setup = perspective_setup(eighths, whole({1, 3, 3}));
     const vec3 inside = perspective_correct(setup, vec3(0.25f, 0.5f, 0.25f)).here;
-    EXPECT_NEAR(inside.x, 1.0f / 2, tolerance);
-    EXPECT_NEAR(inside.y, 1.0f / 3, tolerance);
-    EXPECT_NEAR(inside.z, 1.0f / 6, tolerance);
+    EXPECT_TRUE(are_near(inside, {1.0 / 2, 1.0 / 3, 1.0 / 6}, tolerance))
+        << "s = (1/4, 1/2, 1/4), w = 1, 3, 3";
 }
 
 TEST(Textures, Eq5_2_VerticesKeepTheirOwn) {
@@ -239,10 +288,9 @@ TEST(Textures, Eq5_2_VerticesKeepTheirOwn) {
         for (int vertex = 0; vertex < 3; ++vertex) {
             vec3 only(0);
             only[vertex] = 1;
-            for (int k = 0; k < 3; ++k)
-                ASSERT_NEAR(perspective_correct(setup, only).here[k], only[k],
-                            static_cast<float>(eps))
-                    << "seed 2, case " << i;
+            ASSERT_TRUE(are_near(perspective_correct(setup, only).here, dvec3(only),
+                                 static_cast<double>(eps)))
+                << "seed 2, case " << i << ": s = " << shown(only) << ", w = " << shown(w);
         }
     }
 }
@@ -275,7 +323,8 @@ TEST(Textures, HardCase_EqualWLeavesTheBarycentricsOnTheScreen) {
             for (int k = 0; k < 3; ++k)
                 ASSERT_NEAR(here[k], screen_barycentrics[k],
                             static_cast<float>(4 * eps) * screen_barycentrics[k])
-                    << "seed 4, case " << i << ", w " << w;
+                    << "here[" << k << "]; seed 4, case " << i
+                    << ": s = " << shown(screen_barycentrics) << ", all w = " << shown(w);
         });
     }
 }
@@ -298,16 +347,19 @@ TEST(Textures, HardCase_SubnormalWBesideAHugeOne) {
         ASSERT_TRUE(is_front_facing(on_screen));
         const PerspectiveSetup setup = perspective_setup(on_screen, whole(w));
         const auto check = [&](ivec2 pixel, vec3 screen_barycentrics) {
+            const std::string what = "case " + std::to_string(i) +
+                                     ": s = " + shown(screen_barycentrics) + ", w = " + shown(w);
             const FragmentBarycentrics barycentrics =
                 perspective_correct(setup, screen_barycentrics);
             ASSERT_TRUE(is_near(
                 real{barycentrics.here.x} + barycentrics.here.y + barycentrics.here.z, 1, 2 * eps))
-                << "case " << i;
+                << "the sum of here; " << what;
             for (int k = 0; k < 3; ++k) {
-                ASSERT_GE(barycentrics.here[k], 0) << "case " << i;
+                ASSERT_GE(barycentrics.here[k], 0) << "here[" << k << "]; " << what;
                 ASSERT_TRUE(std::isfinite(barycentrics.ddx[k]) &&
                             std::isfinite(barycentrics.ddy[k]))
-                    << "case " << i;
+                    << "ddx = " << shown(barycentrics.ddx) << ", ddy = " << shown(barycentrics.ddy)
+                    << "; " << what;
             }
             const real near_coordinate = screen_barycentrics[i % 3];
             if (near_coordinate == 0) {
@@ -319,7 +371,7 @@ TEST(Textures, HardCase_SubnormalWBesideAHugeOne) {
                 ASSERT_TRUE(
                     is_near(barycentrics.here[k], exact.here[k],
                             of_whole.coordinate * eps * exact.here[k] + 0x1p-80L / near_coordinate))
-                    << "case " << i;
+                    << "here[" << k << "]; " << what;
         };
         fill_triangle(on_screen, size, check);
         ASSERT_FALSE(HasFatalFailure());
@@ -367,25 +419,11 @@ TEST(Textures, Eq5_3_PieceOfTheWorkedExample) {
     const PerspectiveSetup setup = perspective_setup(eighths, piece);
     const vec3 here = perspective_correct(setup, vec3(0.5f, 0.25f, 0.25f)).here;
     constexpr float tolerance = static_cast<float>(of_piece.coordinate * eps);
-    EXPECT_NEAR(here.x, 5.0f / 6, tolerance);
-    EXPECT_NEAR(here.y, 1.0f / 12, tolerance);
-    EXPECT_NEAR(here.z, 1.0f / 12, tolerance);
+    EXPECT_TRUE(are_near(here, {5.0 / 6, 1.0 / 12, 1.0 / 12}, tolerance))
+        << "s = (1/2, 1/4, 1/4), " << described(piece);
 }
 
-TEST(Textures, Eq5_3_PiecesWithWOfAllSizes) {
-    AnyTriangle any(6);
-    int pixels = 0;
-    for (int i = 0; i < 400; ++i) {
-        const float reach = i % 2 ? 1e6f : 10;
-        ClippedTriangle piece;
-        for (ClippedVertex& vertex : piece)
-            vertex = {{0, 0, 0, any.of_sizes(1 / reach, reach)}, any.shares()};
-        const int compared = compare(any.on_screen(), piece, of_piece);
-        ASSERT_GE(compared, 0) << "seed 6, case " << i;
-        pixels += compared;
-    }
-    EXPECT_GT(pixels, 100'000);
-}
+TEST(Textures, Eq5_3_PiecesWithWOfAllSizes) { compare_pieces(Compared::coordinates); }
 
 namespace {
 
@@ -448,8 +486,9 @@ TEST(Textures, Eq5_3_HardCase_PiecesHaveTheBarycentricsOfTheWholeTriangle) {
                 for (int k = 0; k < 3; ++k) {
                     const real rounding = of_piece.coordinate * eps * std::abs(real{here[k]});
                     ASSERT_TRUE(here[k] >= least[k] - rounding && here[k] <= most[k] + rounding)
-                        << "seed 7, case " << i << ": " << here[k] << " is not in " << least[k]
-                        << " to " << most[k];
+                        << "seed 7, case " << i << ", pixel " << testing::PrintToString(pixel)
+                        << ": here[" << k << "] is " << here[k] << " instead of from " << least[k]
+                        << " to " << most[k] << "; " << described(piece);
                     sharp += most[k] - least[k] < 0.001L;
                 }
                 ++visited;
@@ -466,18 +505,21 @@ TEST(Textures, Eq5_3_HardCase_PiecesHaveTheBarycentricsOfTheWholeTriangle) {
     EXPECT_GT(sharp, 3 * pixels / 2) << "the tolerance of most barycentrics is below 1/1000";
 }
 
-TEST(Textures, Eq5_7_DerivativesOfTheWorkedExample) {
+TEST(Textures, Eq5_7_DerivativesInTheWorkedExample) {
     const PerspectiveSetup setup = perspective_setup(eighths, whole({1, 1, 3}));
     const FragmentBarycentrics middle = perspective_correct(setup, vec3(0.5f, 0, 0.5f));
     // Shares of 1/2, 0 and 1/6 that change by -1/8, 0 and 1/24 to the right: their sum, 2/3, by
     // -1/12. Downwards by -1/8, 1/8 and 0: their sum not at all.
     constexpr float tolerance = static_cast<float>(of_whole.step * eps * 0.5L);
-    EXPECT_NEAR(middle.ddx.x, -3.0f / 32, tolerance);
-    EXPECT_NEAR(middle.ddx.y, 0.0f, tolerance);
-    EXPECT_NEAR(middle.ddx.z, 3.0f / 32, tolerance);
-    EXPECT_NEAR(middle.ddy.x, -3.0f / 16, tolerance);
-    EXPECT_NEAR(middle.ddy.y, 3.0f / 16, tolerance);
-    EXPECT_NEAR(middle.ddy.z, 0.0f, tolerance);
+    EXPECT_TRUE(are_near(middle.ddx, {-3.0 / 32, 0, 3.0 / 32}, tolerance))
+        << "ddx at s = (1/2, 0, 1/2), w = 1, 1, 3; a pixel to the right, s changes by (-1/8, 0, "
+           "1/8)";
+    EXPECT_TRUE(are_near(middle.ddy, {-3.0 / 16, 3.0 / 16, 0}, tolerance))
+        << "ddy at s = (1/2, 0, 1/2), w = 1, 1, 3; a pixel down, s changes by (-1/8, 1/8, 0)";
+}
+
+TEST(Textures, Eq5_7_DerivativesOfPiecesWithWOfAllSizes) {
+    compare_pieces(Compared::derivatives_too);
 }
 
 TEST(Textures, Eq5_7_DerivativesLeadToTheNextPixelWhereThereIsNoPerspective) {
@@ -496,7 +538,9 @@ TEST(Textures, Eq5_7_DerivativesLeadToTheNextPixelWhereThereIsNoPerspective) {
                 ASSERT_NEAR(barycentrics.here[k] - last.here[k], last.ddx[k],
                             static_cast<float>((2 * of_whole.coordinate + of_whole.step) * eps) *
                                 std::max(1.0f, 2 * std::abs(last.ddx[k])))
-                    << "seed 8, case " << i;
+                    << "seed 8, case " << i << ", pixel " << testing::PrintToString(pixel)
+                    << ": by how much here[" << k << "] grew from the pixel to the left, and ddx["
+                    << k << "] there";
             last = barycentrics, last_pixel = pixel;
         });
     }

@@ -15,6 +15,8 @@
 #include "06_phong/phong.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "support/any_size.hpp"
+#include "support/light_in_words.hpp"
+#include "support/near.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
@@ -44,7 +46,9 @@ testing::AssertionResult are_near(vec3 actual, lvec3 exact, lvec3 tolerance) {
         if (const auto result =
                 is_near(actual[i], exact[i], tolerance[i] * of_higher_order + least);
             !result)
-            return testing::AssertionFailure() << result.message() << ", component " << i;
+            return testing::AssertionFailure()
+                   << shown(actual) << " instead of " << shown(vec3(exact)) << "; component " << i
+                   << ": " << result.message();
     return testing::AssertionSuccess();
 }
 
@@ -115,7 +119,7 @@ TEST(Phong, Eq6_8_DirectionsOfVectorsOfAllSizes) {
             const vec3 v = any.vector();
             const lvec3 exact = unit(lvec3(v));
             ASSERT_TRUE(are_near(unit_or(v, vec3(0)), exact, of_unit(lvec3(v)) * u * sizes(exact)))
-                << "seed 1, case " << i << ", 10^+-" << size;
+                << "unit_or(" << shown(v) << "), which is given; seed 1, case " << i;
         }
     }
 }
@@ -128,7 +132,7 @@ TEST(Phong, Eq6_6_AttenuationOverDistancesOfAllSizes) {
         // 3 u of the square's part, a sum and a quotient.
         ASSERT_TRUE(is_near(distance_attenuation(to_light), exact,
                             u * exact * (2 + 3 * square * exact) * of_higher_order))
-            << "seed 2, case " << i;
+            << "distance_attenuation(" << shown(to_light) << "); seed 2, case " << i;
     }
 }
 
@@ -145,11 +149,12 @@ TEST(Phong, Eq6_7_SpotAttenuationBetweenNumbersOfAllSizes) {
             exact_spot_attenuation(exact_t, 3 * u * std::min(std::abs(exact_t), real{2}));
         ASSERT_TRUE(
             is_near(spot_attenuation(cosine, full, none), exact, tolerance * of_higher_order))
-            << "seed 3, case " << i;
+            << "spot_attenuation(" << shown(cosine) << ", " << shown(full) << ", " << shown(none)
+            << "); seed 3, case " << i;
     }
 }
 
-TEST(Phong, Eq6_6_LightOfPointLightsAndSpotlightsOfAllSizes) {
+TEST(Phong, Eq6_7_LightOfPointLightsAndSpotlightsOfAllSizes) {
     AnySize any(4, decades);
     std::array<int, 3> seen{};
     for (int i = 0; i < 3 * cases; ++i) {
@@ -161,13 +166,16 @@ TEST(Phong, Eq6_6_LightOfPointLightsAndSpotlightsOfAllSizes) {
                                               0.1L * lvec3(light.direction_world)));
         const Incoming<float> actual = incoming_light(light, position);
         const ExactIncoming exact = exact_incoming(light, position);
-        ASSERT_TRUE(are_near(actual.toward, exact.toward, exact.of_toward)) << "seed 4, case " << i;
+        ASSERT_TRUE(are_near(actual.toward, exact.toward, exact.of_toward))
+            << "toward, at " << shown(position) << ", a " << described(light) << "; seed 4, case "
+            << i;
         const lvec3 color = light.color;
         const real of_product = light.kind == LightKind::directional ? 0 : u * exact.share;
         // The share may be below the normal numbers, before a colour of up to 10^8 multiplies it.
         ASSERT_TRUE(are_near(actual.color, exact.share * color,
                              (exact.of_share + of_product + least) * color))
-            << "seed 4, case " << i;
+            << "color, at " << shown(position) << ", a " << described(light) << "; seed 4, case "
+            << i;
         seen[static_cast<std::size_t>(light.kind)] += actual.color.x > 0;
     }
     for (const int count : seen) EXPECT_GT(count, cases / 10);
@@ -183,7 +191,7 @@ TEST(Phong, Eq6_2_MirrorDirectionsOfVectorsOfAllSizes) {
         // 3 u of the dot product's terms, one more for the product, one for the difference.
         const lvec3 of_product = 2 * glm::dot(sizes(n), sizes(l)) * sizes(n);
         ASSERT_TRUE(are_near(reflected(n, l), exact, u * (5.0L * of_product + sizes(l))))
-            << "seed 5, case " << i;
+            << "reflected(" << shown(n) << ", " << shown(l) << "); seed 5, case " << i;
     }
 }
 
@@ -238,15 +246,24 @@ TEST(Phong, Eq6_3_HighlightsOfDirectionsOfAllSizes) {
         // Directions are rounded, so the exact cosine may exceed 1, which the stage does not.
         ASSERT_TRUE(is_near(highlight_cosine(highlight, {vec3(0), n, v}, l),
                             std::min(exact, real{1}), tolerance * of_higher_order))
-            << "seed 6, case " << i;
+            << "the cosine of " << name_of(highlight) << ", N = " << shown(n)
+            << ", L = " << shown(l) << ", V = " << shown(v) << "; seed 6, case " << i;
     }
 }
 
-TEST(Phong, Eq6_5_ReflectedLightOfLightsOfAllSizes) {
-    AnySize any(7, decades);
+namespace {
+
+/// Compares the light of three lights with the sum in long double.
+///
+/// @param kinds  Directional lights alone, or all kinds.
+enum class Kinds { directional, all };
+void compare_reflected_light(unsigned seed, Kinds kinds) {
+    AnySize any(seed, decades);
     int lit = 0;
     for (int i = 0; i < cases; ++i) {
-        const std::array lights = {any_light(any), any_light(any), any_light(any)};
+        std::array lights = {any_light(any), any_light(any), any_light(any)};
+        if (kinds == Kinds::directional)
+            for (Light& light : lights) light.kind = LightKind::directional;
         const SurfacePoint<float> point{any.vector(), any_direction(any), any_direction(any)};
         const auto highlight = static_cast<Highlight>(i % 2);
         const ReflectedLight actual =
@@ -277,11 +294,24 @@ TEST(Phong, Eq6_5_ReflectedLightOfLightsOfAllSizes) {
         }
         if (!is_sure) continue;  // along the surface, and so lit or not
         ++lit;
-        ASSERT_TRUE(are_near(actual.diffuse, diffuse, of_diffuse)) << "seed 7, case " << i;
-        ASSERT_TRUE(are_near(actual.specular, specular, of_specular)) << "seed 7, case " << i;
+        const auto what = [&] {
+            return " light, " + described(point) + ", of: " + described(lights[0]) + "; " +
+                   described(lights[1]) + "; " + described(lights[2]) + "; " + name_of(highlight) +
+                   ", squared; seed " + std::to_string(seed) + ", case " + std::to_string(i);
+        };
+        ASSERT_TRUE(are_near(actual.diffuse, diffuse, of_diffuse)) << "diffuse" << what();
+        ASSERT_TRUE(are_near(actual.specular, specular, of_specular)) << "specular" << what();
     }
     EXPECT_GT(lit, cases / 2);
 }
+
+}  // namespace
+
+TEST(Phong, Eq6_5_ReflectedLightOfDirectionalLightsOfAllSizes) {
+    compare_reflected_light(12, Kinds::directional);
+}
+
+TEST(Phong, Eq6_7_ReflectedLightOfLightsOfAllSizes) { compare_reflected_light(7, Kinds::all); }
 
 TEST(Phong, Eq6_5_SumsOfColorsOfAllSizes) {
     AnySize any(8, decades);
@@ -296,19 +326,29 @@ TEST(Phong, Eq6_5_SumsOfColorsOfAllSizes) {
         const SurfaceColor before = color;
         color.tint(tint);
         for (int c = 0; c < 3; ++c) {
-            ASSERT_EQ(before.ambient[c], std::min(material.ambient[c], material.diffuse[c]));
-            ASSERT_EQ(before.diffuse[c], material.diffuse[c]);
+            const std::string what =
+                "component " + std::to_string(c) + "; Ka = " + shown(material.ambient) +
+                ", Kd = " + shown(material.diffuse) + ", Ks = " + shown(material.specular) +
+                ", Ke = " + shown(material.emission) + "; seed 8, case " + std::to_string(i);
+            ASSERT_EQ(before.ambient[c], std::min(material.ambient[c], material.diffuse[c]))
+                << "surface_color().ambient, " << what;
+            ASSERT_EQ(before.diffuse[c], material.diffuse[c])
+                << "surface_color().diffuse, " << what;
             const real kd = before.diffuse[c], ke = before.emission[c], t = tint[c];
             ASSERT_TRUE(is_near(color.ambient[c], before.ambient[c] * t,
-                                u * std::abs(before.ambient[c] * t)));
-            ASSERT_TRUE(is_near(color.diffuse[c], kd * t, u * std::abs(kd * t)));
-            ASSERT_TRUE(is_near(plain[c], kd + ke, u * std::abs(kd + ke)));
+                                u * std::abs(before.ambient[c] * t)))
+                << "ambient after tint(" << shown(tint) << "), " << what;
+            ASSERT_TRUE(is_near(color.diffuse[c], kd * t, u * std::abs(kd * t)))
+                << "diffuse after tint(" << shown(tint) << "), " << what;
+            ASSERT_TRUE(is_near(plain[c], kd + ke, u * std::abs(kd + ke))) << "unlit(), " << what;
             Sum sum;
             sum.add(ke), sum.add(real{before.ambient[c]} * ambient_light[c]);
             sum.add(kd * light.diffuse[c]), sum.add(real{before.specular[c]} * light.specular[c]);
             // A product and three sums.
             ASSERT_TRUE(is_near(sent[c], sum.value, 4 * u * sum.of_sizes * of_higher_order))
-                << "seed 8, case " << i;
+                << "phong() in ambient light " << shown(ambient_light) << ", diffuse light "
+                << shown(light.diffuse) << " and specular light " << shown(light.specular) << ", "
+                << what;
         }
     }
 }
@@ -360,11 +400,13 @@ TEST(Phong, Eq6_9_NormalsAndAnglesOfFacesOfAllSizes) {
         const ExactFace exact = exact_face(mesh, mesh.triangles[0]);
         ASSERT_TRUE(are_near(face_normal(mesh, mesh.triangles[0]), exact.normal,
                              exact.of_normal + u * sizes(exact.normal)))
-            << "seed 9, case " << i;
+            << "face_normal() of " << shown(positions[0]) << ", " << shown(positions[1]) << ", "
+            << shown(positions[2]) << "; seed 9, case " << i;
         for (std::size_t k = 0; k < 3; ++k)
             ASSERT_TRUE(is_near(vertex_angle_radians(mesh, mesh.triangles[0], k), exact.angles[k],
                                 of_angle(exact.angles[k])))
-                << "seed 9, case " << i << ", vertex " << k;
+                << "the angle at vertex " << k << " of " << shown(positions[0]) << ", "
+                << shown(positions[1]) << ", " << shown(positions[2]) << "; seed 9, case " << i;
     }
 }
 
@@ -405,13 +447,15 @@ TEST(Phong, Eq6_9_MeansOfNormalsAroundPositionsOfAllSizes) {
         if (!is_sure) continue;  // an edge that is just sharp
         ++sure;
         const vec3 actual = smooth.at(0, of_face);
-        ASSERT_TRUE(are_near(actual, sum, of_sum)) << "seed 10, case " << i;
+        ASSERT_TRUE(are_near(actual, sum, of_sum))
+            << "SmoothNormals::at(0, " << shown(of_face) << "), where " << count
+            << " faces meet; seed 10, case " << i;
 
         complete_normals(mesh);
         const vec3 completed = mesh.normals[mesh.triangles[0].vertices[0].normal];
         const lvec3 scaled = unit(lvec3(actual));  // within half an ulp and what double rounds
         ASSERT_TRUE(are_near(completed, scaled, 1.01L * u * sizes(scaled)))
-            << "seed 10, case " << i;
+            << "of length 1, by complete_normals(); seed 10, case " << i;
     }
     EXPECT_GT(sure, cases / 2);
 }
@@ -429,7 +473,8 @@ TEST(Phong, Eq6_9_NormalsOfFilesOfAllSizes) {
             const lvec3 exact = unit(lvec3(in_file[k]));
             ASSERT_TRUE(are_near(mesh.normals[mesh.triangles[0].vertices[k].normal], exact,
                                  1.01L * u * sizes(exact)))
-                << "seed 11, case " << i;
+                << "complete_normals(): vertex " << k << ", whose normal in the file is "
+                << shown(in_file[k]) << "; seed 11, case " << i;
         }
     }
 }

@@ -12,6 +12,7 @@
 #include "06_phong/normals.hpp"
 #include "common/model/obj.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 
@@ -76,6 +77,14 @@ Mesh ball(std::uint32_t segments) {
 
 }  // namespace
 
+TEST(Phong, Eq6_9_AFaceIsCounterClockwiseSeenFromItsFront) {
+    const Mesh floor = mesh_of({vec3(0), {0, 0, 1}, {1, 0, 0}}, {{0, 1, 2}, {0, 2, 1}});
+    EXPECT_EQ(face_normal(floor, floor.triangles[0]), up)
+        << "of the vertices (0, 0, 0), (0, 0, 1), (1, 0, 0)";
+    EXPECT_EQ(face_normal(floor, floor.triangles[1]), -up)
+        << "of the vertices (0, 0, 0), (1, 0, 0), (0, 0, 1)";
+}
+
 TEST(Phong, Eq6_9_AngleCountsAndNotTheNumberOfTriangles) {
     // The worked example: a square that is cut through the vertex at 0, and beyond an edge along z
     // one that is not, 45 degrees down.
@@ -86,20 +95,28 @@ TEST(Phong, Eq6_9_AngleCountsAndNotTheNumberOfTriangles) {
     const vec3 flat(0, 1, 0), slope(s, s, 0);
     // The angles, their normals and the sum round a dozen times, each by less than 1e-5 degrees.
     constexpr double tolerance = 1e-4;
-    EXPECT_LT(degrees_between(face_normal(mesh, mesh.triangles[0]), flat), tolerance);
-    EXPECT_LT(degrees_between(face_normal(mesh, mesh.triangles[2]), slope), tolerance);
+    EXPECT_LT(degrees_between(face_normal(mesh, mesh.triangles[0]), flat), tolerance)
+        << "degrees from face_normal() to (0, 1, 0)";
+    EXPECT_LT(degrees_between(face_normal(mesh, mesh.triangles[2]), slope), tolerance)
+        << "degrees from face_normal() to (0.707, 0.707, 0)";
     for (const vec3 of_face : {flat, slope}) {
-        EXPECT_NEAR(degrees_between(smooth.at(0, of_face), flat), 22.5, tolerance);
-        EXPECT_NEAR(degrees_between(smooth.at(0, of_face), slope), 22.5, tolerance);
+        const vec3 normal = smooth.at(0, of_face);
+        EXPECT_NEAR(degrees_between(normal, flat), 22.5, tolerance)
+            << "degrees from SmoothNormals::at(0, " << shown(of_face) << ") = " << shown(normal)
+            << " to the face that is cut in two; 14.6, if each triangle counts once";
+        EXPECT_NEAR(degrees_between(normal, slope), 22.5, tolerance)
+            << "degrees from SmoothNormals::at(0, " << shown(of_face) << ") = " << shown(normal)
+            << " to the other face";
     }
 }
 
-TEST(Phong, Eq6_9_AnglesOfATriangle) {
+TEST(Phong, Eq6_9_AllAnglesOfATriangle) {
     const Mesh mesh = mesh_of({vec3(0), {1, 0, 0}, {1, std::sqrt(3.0f), 0}}, {{0, 1, 2}});
     constexpr float degree = std::numbers::pi_v<float> / 180;
     for (const auto& [vertex, degrees] : {std::pair{0, 60.0f}, {1, 90.0f}, {2, 30.0f}})
         EXPECT_NEAR(vertex_angle_radians(mesh, mesh.triangles[0], static_cast<std::size_t>(vertex)),
-                    degrees * degree, 2 * FLT_EPSILON);
+                    degrees * degree, 2 * FLT_EPSILON)
+            << "radians; " << degrees << " degrees at vertex " << vertex;
 }
 
 TEST(Phong, Eq6_9_FacesBeyondASharpEdgeDoNotCount) {
@@ -113,8 +130,11 @@ TEST(Phong, Eq6_9_FacesBeyondASharpEdgeDoNotCount) {
         complete_normals(mesh);
         const vec3 at_edge = mesh.normals[mesh.triangles[0].vertices[0].normal];
         const vec3 apart = mesh.normals[mesh.triangles[0].vertices[1].normal];
-        EXPECT_NEAR(degrees_between(at_edge, up), bend < 50 ? 0.5 * bend : 0, 1e-4) << bend;
-        EXPECT_EQ(apart, up) << bend;
+        ASSERT_EQ(apart, up)
+            << "complete_normals() at a vertex where only this face is: its own, of length 1";
+        ASSERT_NEAR(degrees_between(at_edge, up), bend < 50 ? 0.5 * bend : 0, 1e-4)
+            << "degrees by which the normal at an edge of " << bend << " degrees leans, "
+            << shown(at_edge) << " for the face whose own is (0, 1, 0)";
     }
 }
 
@@ -132,9 +152,11 @@ TEST(Phong, Eq6_9_AnyCutOfPolygonsGivesTheSameNormals) {
             for (const Triangle& triangle : one.triangles) {
                 const vec3 of_face = face_normal(one, triangle);
                 // Six angles of at most pi, each rounded twice or so; the sum's length is above 1.
-                EXPECT_LT(glm::length(first.at(position, of_face) - smooth.at(position, of_face)),
+                ASSERT_LT(glm::length(first.at(position, of_face) - smooth.at(position, of_face)),
                           20 * FLT_EPSILON)
-                    << "cut " << way << ", position " << position;
+                    << "a roof cut in two ways: " << shown(first.at(position, of_face)) << " and "
+                    << shown(smooth.at(position, of_face)) << " in position " << position
+                    << ", cut " << way;
             }
     }
     // And they are the roof's: the upper corners' normals lean out evenly.
@@ -143,7 +165,7 @@ TEST(Phong, Eq6_9_AnyCutOfPolygonsGivesTheSameNormals) {
     EXPECT_GT(vertex.x, 0.1f);
 }
 
-TEST(Phong, Eq6_9_ABallIsRound) {
+TEST(Phong, Eq6_9_RoundBall) {
     Mesh mesh = ball(24);
     complete_normals(mesh);
     double worst = 0, worst_of_face = 0;
@@ -154,7 +176,7 @@ TEST(Phong, Eq6_9_ABallIsRound) {
             worst_of_face =
                 std::max(worst_of_face, degrees_between(face_normal(mesh, triangle), exact));
         }
-    EXPECT_LT(worst, 1);
+    EXPECT_LT(worst, 1) << "degrees between a vertex's normal and its radius";
     EXPECT_GT(worst_of_face, 5);  // a segment is 7.5 degrees: there was something to do
 }
 
@@ -173,8 +195,11 @@ TEST(Phong, HardCase_ACrateWithoutNormalsStaysSharp) {
         std::size_t i = 0;
         for (const Triangle& triangle : mesh.triangles)
             for (const Vertex& vertex : triangle.vertices) {
-                EXPECT_EQ(mesh.normals[vertex.normal], face_normal(mesh, triangle));
-                EXPECT_LT(degrees_between(mesh.normals[vertex.normal], in_file[i++]), 1e-3);
+                ASSERT_EQ(mesh.normals[vertex.normal], face_normal(mesh, triangle));
+                ASSERT_LT(degrees_between(mesh.normals[vertex.normal], in_file[i]), 1e-3)
+                    << "degrees between " << shown(mesh.normals[vertex.normal])
+                    << " and the file's normal, " << shown(in_file[i]);
+                ++i;
             }
     }
 }
@@ -188,7 +213,8 @@ TEST(Phong, HardCase_SomeVerticesWithoutNormals) {
     mesh.triangles[0].vertices[1].normal = 1;
     complete_normals(mesh);
     ASSERT_EQ(mesh.normals.size(), 3u);
-    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[0].normal], vec3(0.6f, 0.8f, 0));
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[0].normal], vec3(0.6f, 0.8f, 0))
+        << "of (3, 4, 0) in the file";
     EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[1].normal], up);  // of length 0: the face's
     EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[2].normal], up);
 }
@@ -206,7 +232,7 @@ TEST(Phong, HardCase_TrianglesOfNoAreaChangeNoNormals) {
     for (std::uint32_t position = 0; position < 5; ++position)
         EXPECT_EQ(SmoothNormals(slope).at(position, of_face),
                   SmoothNormals(with_line).at(position, of_face))
-            << position;
+            << "position " << position << ", without triangles of no area and with two of them";
     Mesh lone = mesh_of({vec3(1), vec3(2), vec3(3)}, {{0, 1, 2}});
     complete_normals(lone);
     for (const vec3 normal : lone.normals) EXPECT_EQ(normal, up);
@@ -232,6 +258,7 @@ TEST(Phong, HardCase_NormalsOfTinyAndHugeFaces) {
         EXPECT_NEAR(vertex_angle_radians(mesh, mesh.triangles[0], 0), std::numbers::pi / 4,
                     FLT_EPSILON);
         complete_normals(mesh);
-        for (const vec3 normal : mesh.normals) EXPECT_EQ(normal, vec3(0, 0, 1)) << size;
+        for (const vec3 normal : mesh.normals)
+            ASSERT_EQ(normal, vec3(0, 0, 1)) << "of a square with sides of " << size;
     }
 }

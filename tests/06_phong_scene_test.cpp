@@ -21,7 +21,9 @@
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
 #include "support/lessons.hpp"
+#include "support/light_in_words.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/picture_difference.hpp"
 #include "support/pictures.hpp"
 #include "support/printers.hpp"
@@ -120,21 +122,28 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
     const std::string map_of_highlights =
         "Ks 1 1 1\nmap_Ks " + std::string(RASTERBOOK_ASSETS "/textures/brick_specular.png") + "\n";
     struct Row {
+        std::string what;
         Scene scene;
         bool has_light, has_highlights, has_textures;
     };
-    for (const auto& [scene, has_light, has_highlights, has_textures] :
-         {Row{loaded("scene.obj"), true, true, true}, Row{loaded("crate.obj"), true, false, true},
-          Row{loaded("teapot.obj"), true, true, false},
-          Row{square_of("illum 0\nKs 1 1 1\n"), false, false, false},
-          Row{square_of("illum 1\nKs 1 1 1\n"), true, false, false},
-          Row{square_of("illum 2\nKs 1 1 1\n"), true, true, false},
-          Row{square_of("illum 2\nKs 0 0 0\n"), true, false, false},
-          Row{square_of("illum 0\n" + map_of_highlights), false, false, false},
-          Row{square_of("illum 1\n" + map_of_highlights), true, false, false},
-          Row{square_of("illum 2\n" + map_of_highlights), true, true, true},
-          Row{square_of(map_of_highlights + "Ks 0 0 0\n"), true, false, false},
-          Row{square_of("illum 2\nKs 0 0 1e-30\n"), true, true, false}}) {
+    const auto of_file = [](const char* file, bool light, bool highlights, bool textures) {
+        return Row{file, loaded(file), light, highlights, textures};
+    };
+    const auto of_square = [](const std::string& mtl, bool light, bool highlights, bool textures) {
+        return Row{"a square of: " + mtl, square_of(mtl), light, highlights, textures};
+    };
+    for (const auto& [what, scene, has_light, has_highlights, has_textures] :
+         {of_file("scene.obj", true, true, true), of_file("crate.obj", true, false, true),
+          of_file("teapot.obj", true, true, false),
+          of_square("illum 0\nKs 1 1 1\n", false, false, false),
+          of_square("illum 1\nKs 1 1 1\n", true, false, false),
+          of_square("illum 2\nKs 1 1 1\n", true, true, false),
+          of_square("illum 2\nKs 0 0 0\n", true, false, false),
+          of_square("illum 0\n" + map_of_highlights, false, false, false),
+          of_square("illum 1\n" + map_of_highlights, true, false, false),
+          of_square("illum 2\n" + map_of_highlights, true, true, true),
+          of_square(map_of_highlights + "Ks 0 0 0\n", true, false, false),
+          of_square("illum 2\nKs 0 0 1e-30\n", true, true, false)}) {
         lesson_06::Options options = small_picture();
         options.size /= 2;
         const PhongAssets as_called_for = lesson_06::make_assets(scene, options);
@@ -144,17 +153,21 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
             options.shading.shading = shading;
             const Drawn usual = drawn_of(as_called_for, options);
             const auto shaded = usual.count(Counter::fragments_shaded);
-            EXPECT_GT(shaded, 1000u);
-            EXPECT_EQ(usual.count(Counter::fragments_lit), has_light ? shaded : 0);
-            EXPECT_EQ(usual.count(Counter::highlights) > 0, has_highlights);
-            EXPECT_LE(usual.count(Counter::highlights), shaded);
-            EXPECT_EQ(usual.count(Counter::texture_samples) > 0, has_textures);
-            EXPECT_LE(usual.count(Counter::texture_samples), shaded);
+            const std::string where = std::string(name_of(shading)) + " of " + what;
+            ASSERT_GT(shaded, 1000u) << where;
+            ASSERT_EQ(usual.count(Counter::fragments_lit), has_light ? shaded : 0) << where;
+            ASSERT_EQ(usual.count(Counter::highlights) > 0, has_highlights) << where;
+            ASSERT_LE(usual.count(Counter::highlights), shaded) << where;
+            ASSERT_EQ(usual.count(Counter::texture_samples) > 0, has_textures) << where;
+            ASSERT_LE(usual.count(Counter::texture_samples), shaded) << where;
 
             const Drawn all = drawn_of(with_all, options);
-            EXPECT_EQ(all.count(Counter::fragments_lit), has_light ? shaded : 0);
-            EXPECT_EQ(all.count(Counter::highlights), has_light ? shaded : 0);
-            EXPECT_EQ(all.count(Counter::texture_samples), has_light ? 2 * shaded : shaded);
+            ASSERT_EQ(all.count(Counter::fragments_lit), has_light ? shaded : 0)
+                << "--all-effects, " << where;
+            ASSERT_EQ(all.count(Counter::highlights), has_light ? shaded : 0)
+                << "--all-effects, " << where;
+            ASSERT_EQ(all.count(Counter::texture_samples), has_light ? 2 * shaded : shaded)
+                << "--all-effects, " << where;
         }
     }
 }
@@ -178,9 +191,9 @@ TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
                 options.shading.shading = shading;
                 options.shading.highlight = highlight;
                 const Image<vec3> picture = lesson_06::render(options, as_called_for, ignored);
-                EXPECT_TRUE(
+                ASSERT_TRUE(
                     are_the_same_bits(picture, lesson_06::render(options, with_all, ignored)))
-                    << name << ", shading " << static_cast<int>(shading);
+                    << name << ", " << name_of(shading) << ", " << name_of(highlight);
                 EXPECT_FALSE(is_backdrop(picture)) << name;
             }
     }
@@ -198,15 +211,18 @@ TEST(Phong, HardCase_IllumDecides) {
     const vec3 middle = unlit[{80, 45}];
     EXPECT_EQ(middle, vec3(0.3f, 0.5f, 0.7f) + vec3(0.01f, 0.02f, 0.03f));
     const Image<vec3> empty = backdrop(unlit.size());
-    for (std::size_t i = 0; i < unlit.pixels().size(); ++i)
-        EXPECT_TRUE(unlit.pixels()[i] == middle || unlit.pixels()[i] == empty.pixels()[i]);
+    for (ivec2 p(0); p.y < unlit.size().y; ++p.y)
+        for (p.x = 0; p.x < unlit.size().x; ++p.x)
+            ASSERT_TRUE(unlit[p] == middle || unlit[p] == empty[p])
+                << "illum 0: pixel " << testing::PrintToString(p) << " is " << shown(unlit[p])
+                << " instead of Ke + Kd, " << shown(middle) << ", or the backdrop";
     // 1: no highlight, whatever Ks. 2, and no word, and all above: with one.
-    EXPECT_EQ(picture(plain + "Ks 1 1 1\nillum 1\n"), lit);
-    EXPECT_EQ(picture(plain + "Ks 0 0 0\nillum 2\n"), lit);
+    EXPECT_TRUE(are_the_same(picture(plain + "Ks 1 1 1\nillum 1\n"), lit)) << "illum 1";
+    EXPECT_TRUE(are_the_same(picture(plain + "Ks 0 0 0\nillum 2\n"), lit)) << "Ks 0, illum 2";
     const Image<vec3> shining = picture(plain + "Ks 1 1 1\nillum 2\n");
     EXPECT_GT(brightest(shining), brightest(lit) + 0.1f);
     for (const char* illum : {"", "illum 3\n", "illum 10\n"})
-        EXPECT_EQ(picture(plain + "Ks 1 1 1\n" + illum), shining) << illum;
+        EXPECT_TRUE(are_the_same(picture(plain + "Ks 1 1 1\n" + illum), shining)) << illum;
 }
 
 TEST(Phong, HardCase_AmbientOfOneAsExportersWriteIt) {
@@ -216,9 +232,11 @@ TEST(Phong, HardCase_AmbientOfOneAsExportersWriteIt) {
         for (Material& material : scene.materials) material.ambient = material.diffuse;
         const Image<vec3> as_diffuse = picture_of(scene, small_picture());
         for (Material& material : scene.materials) material.ambient = vec3(1);
-        EXPECT_EQ(picture_of(scene, small_picture()), as_diffuse) << model;
+        EXPECT_TRUE(are_the_same(picture_of(scene, small_picture()), as_diffuse))
+            << model << " with Ka = 1, and with Ka = Kd";
         for (Material& material : scene.materials) material.ambient = vec3(0);
-        EXPECT_NE(picture_of(scene, small_picture()), as_diffuse) << model;
+        EXPECT_FALSE(are_the_same(picture_of(scene, small_picture()), as_diffuse))
+            << model << " with Ka = 0, and with Ka = Kd";
     }
 }
 
@@ -234,17 +252,26 @@ TEST(Phong, HardCase_SpecularMapsArePlainNumbers) {
             scene.materials.back().specular *= vec3(188, 94, 47) / 255.0f;
         return picture_of(scene, before_the_square());
     };
-    EXPECT_EQ(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 1 1 1\n"));
-    EXPECT_EQ(picture("Ks 0.5 0.5 0.5\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n"));
-    EXPECT_EQ(picture("Ks 0 0 0\nmap_Ks gray.png\n"), picture("Ks 0 0 0\n"));
-    EXPECT_NE(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n"));
+    EXPECT_TRUE(are_the_same(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 1 1 1\n")))
+        << "a gray map_Ks, and its numbers over 255 in Ks";
+    EXPECT_TRUE(
+        are_the_same(picture("Ks 0.5 0.5 0.5\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n")))
+        << "a gray map_Ks, and its numbers over 255 in Ks";
+    EXPECT_TRUE(are_the_same(picture("Ks 0 0 0\nmap_Ks gray.png\n"), picture("Ks 0 0 0\n")))
+        << "a gray map_Ks, and its numbers over 255 in Ks";
+    EXPECT_FALSE(are_the_same(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n")))
+        << "Ks counts beside map_Ks";
     // It lies as its own -s and -o say, and it leaves the diffuse colour alone.
     Image<u8vec3> halves({2, 1}, {255, 255, 255});
     halves[{1, 0}] = {0, 0, 0};
     write_image(folder / "halves.png", halves);
     const Image<vec3> dull = picture("Ks 0 0 0\n");
-    EXPECT_EQ(picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.99 0 0 halves.png\n"), dull);
-    EXPECT_NE(picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.01 0 0 halves.png\n"), dull);
+    EXPECT_TRUE(are_the_same(
+        picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.99 0 0 halves.png\n"), dull))
+        << "where the map is black";
+    EXPECT_FALSE(are_the_same(
+        picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.01 0 0 halves.png\n"), dull))
+        << "where the map is white";
 }
 
 TEST(Phong, HardCase_MissingAndBrokenSpecularMaps) {
@@ -306,9 +333,11 @@ TEST(Phong, HardCase_BacksOfFaces) {
             options.shading.two_sided = true;
             const Image<vec3> back = picture_of(scene, options);
             EXPECT_GT(brightest(back), 0.2f);
-            EXPECT_EQ(share_that_differs(front, back), 0);
+            ASSERT_EQ(share_that_differs(back, front), 0)
+                << name_of(shading) << ", " << name_of(kind) << ": the share of pixels";
             // The front of what has two sides is as before.
-            EXPECT_EQ(picture_of(turned, options), front);
+            ASSERT_TRUE(are_the_same(picture_of(turned, options), front))
+                << name_of(shading) << ", " << name_of(kind) << ", --two-sided";
         }
 }
 
@@ -349,14 +378,18 @@ TEST(Phong, HardCase_ModelsOfAllSizes) {
             // Powers of two scale exactly; roots are taken another way for small and great squares.
             for (const float factor : {0x1p-100f, 0x1p-40f, 0x1p60f, 0x1p120f}) {
                 const Image<vec3> picture = picture_of(scaled(factor), options);
-                EXPECT_TRUE(is_finite(picture)) << factor;
-                EXPECT_EQ(share_that_differs(expected, picture), 0) << factor;
+                ASSERT_TRUE(is_finite(picture)) << factor;
+                ASSERT_EQ(share_that_differs(expected, picture), 0)
+                    << "the share of pixels; the teapot " << factor << " times as large, "
+                    << name_of(shading) << ", " << name_of(kind);
             }
             // Others round each position: some pixel's centre changes sides, or its light's.
             for (const float factor : {1e-30f, 1e-10f, 1e10f, 1e36f}) {
                 const Image<vec3> picture = picture_of(scaled(factor), options);
-                EXPECT_TRUE(is_finite(picture)) << factor;
-                EXPECT_LT(share_that_differs(expected, picture), 0.005) << factor;
+                ASSERT_TRUE(is_finite(picture)) << factor;
+                ASSERT_LT(share_that_differs(expected, picture), 0.005)
+                    << "the share of pixels; the teapot " << factor << " times as large, "
+                    << name_of(shading) << ", " << name_of(kind);
             }
         }
 }
@@ -368,7 +401,8 @@ TEST(Phong, HardCase_NormalsOfTheFileAreTurnedToLengthOne) {
     for (Mesh& mesh : scene.meshes)
         for (std::size_t i = 0; i < mesh.normals.size(); ++i)
             mesh.normals[i] *= i % 2 ? 0x1p-80f : 0x1p100f;
-    EXPECT_EQ(picture_of(scene, small_picture()), expected);
+    EXPECT_TRUE(are_the_same(picture_of(scene, small_picture()), expected))
+        << "with normals of other lengths in the file";
 }
 
 TEST(Phong, PictureOfTheScene) { EXPECT_TRUE(equals_golden("06_phong", "06_phong")); }

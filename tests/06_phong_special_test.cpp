@@ -10,7 +10,9 @@
 
 #include "06_phong/phong.hpp"
 #include "06_phong/shading_variants.hpp"
+#include "support/light_in_words.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/special_numbers.hpp"
@@ -63,7 +65,8 @@ class Lights {
 testing::AssertionResult are_within(const char* what, vec3 v, float least, float most) {
     for (int i = 0; i < 3; ++i)
         if (!(v[i] >= least && v[i] <= most))  // also for NaN
-            return testing::AssertionFailure() << what << " " << testing::PrintToString(v);
+            return testing::AssertionFailure()
+                   << what << " " << shown(v) << ", which is not from " << least << " to " << most;
     return testing::AssertionSuccess();
 }
 
@@ -97,8 +100,10 @@ TEST(Phong, HardCase_SpecialNumbersOfLights) {
         for (int axis = 0; axis < 3; ++axis)
             if (std::isnan(position[axis])) position[axis] = 0;
         const Incoming<float> incoming = incoming_light(light, position);
-        ASSERT_TRUE(is_direction(incoming.toward)) << "seed 2, case " << i;
-        ASSERT_TRUE(are_within("light", incoming.color, 0, 10)) << "seed 2, case " << i;
+        ASSERT_TRUE(is_direction(incoming.toward)) << "toward, at " << shown(position) << ": "
+                                                   << described(light) << "; seed 2, case " << i;
+        ASSERT_TRUE(are_within("color", incoming.color, 0, 10))
+            << "at " << shown(position) << ": " << described(light) << "; seed 2, case " << i;
     }
 }
 
@@ -112,7 +117,10 @@ TEST(Phong, HardCase_SpecialNumbersOfHighlights) {
         const auto highlight = static_cast<Highlight>(mix.below(2));
         const float cosine = highlight == Highlight::phong ? phong_cosine(point, toward_light)
                                                            : blinn_cosine(point, toward_light);
-        ASSERT_TRUE(cosine >= 0 && cosine <= 1) << "seed 3, case " << i << ": " << cosine;
+        ASSERT_TRUE(cosine >= 0 && cosine <= 1)
+            << "the cosine of " << name_of(highlight) << " is " << cosine
+            << ", N = " << shown(point.normal_world) << ", V = " << shown(point.toward_eye)
+            << ", L = " << shown(toward_light) << "; seed 3, case " << i;
         const auto power = static_cast<Power>(mix.below(4));
         const float shininess = mix.amount();
         const float share = power_as(power, cosine, shininess);
@@ -135,11 +143,18 @@ TEST(Phong, HardCase_SpecialNumbersOfReflectedLight) {
         if (highlight == Highlight::phong) {
             ASSERT_EQ(reflected_light(lights, point, PhongHighlight{true, shininess}).specular,
                       light.specular)
-                << "seed 4, case " << i;
+                << "PhongHighlight with n = " << shown(shininess) << ", " << described(point)
+                << ", of: " << described(lights[0]) << "; " << described(lights[1])
+                << "; seed 4, case " << i;
         }
         constexpr float most = 2 * 10 * (1 + 4 * FLT_EPSILON);  // directions may be a bit long
-        ASSERT_TRUE(are_within("diffuse", light.diffuse, 0, most)) << "seed 4, case " << i;
-        ASSERT_TRUE(are_within("specular", light.specular, 0, most)) << "seed 4, case " << i;
+        ASSERT_TRUE(are_within("diffuse", light.diffuse, 0, most))
+            << described(point) << ", of: " << described(lights[0]) << "; " << described(lights[1])
+            << "; seed 4, case " << i;
+        ASSERT_TRUE(are_within("specular", light.specular, 0, most))
+            << "n = " << shown(shininess) << ", " << described(point)
+            << ", of: " << described(lights[0]) << "; " << described(lights[1]) << "; seed 4, case "
+            << i;
 
         // Colours as MTL may have them, also negative ones.
         const auto color = [&] { return glm::clamp(mix.place(), -1e37f, 1e37f); };

@@ -15,7 +15,9 @@
 #include "06_phong/phong.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "common/math/color.hpp"
+#include "support/light_in_words.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 
@@ -97,16 +99,18 @@ constexpr std::array<vec3, 3> vertices_of_floor = {vec3(0, 0, 0), vec3(0, 0, 1),
 
 }  // namespace
 
-TEST(Phong, Eq6_1_SlantedLight) {
+TEST(Phong, Eq6_1_ExampleOfSlantedLight) {
     const SurfacePoint<float> point{vec3(0), up, up};
     const auto arriving = [&](vec3 toward) {
         return light_on(point, sun(toward, {1, 0.5f, 0}), 1).diffuse;
     };
-    EXPECT_EQ(arriving(slanted), vec3(0.8f, 0.4f, 0));
-    EXPECT_LE(difference(arriving(from_up(60)), {0.5f, 0.25f, 0}), FLT_EPSILON);
-    EXPECT_EQ(arriving({1, 0, 0}), vec3(0));
-    EXPECT_EQ(arriving(from_up(120)), vec3(0));
-    EXPECT_EQ(arriving(-up), vec3(0));
+    const char* what = "diffuse light of a directional light of color (1, 0.5, 0), N = (0, 1, 0)";
+    EXPECT_EQ(arriving(slanted), vec3(0.8f, 0.4f, 0)) << what << ", L = (0.6, 0.8, 0)";
+    EXPECT_TRUE(are_near(arriving(from_up(60)), {0.5, 0.25, 0}, FLT_EPSILON))
+        << what << ", L 60 degrees from N";
+    EXPECT_EQ(arriving({1, 0, 0}), vec3(0)) << what << ", L = (1, 0, 0), along the surface";
+    EXPECT_EQ(arriving(from_up(120)), vec3(0)) << what << ", L 120 degrees from N: from behind";
+    EXPECT_EQ(arriving(-up), vec3(0)) << what << ", L = (0, -1, 0): from behind";
 }
 
 TEST(Phong, Eq6_1_LooksEquallyBrightFromAllSides) {
@@ -116,11 +120,16 @@ TEST(Phong, Eq6_1_LooksEquallyBrightFromAllSides) {
         SurfacePoint<float> point{any.vector(), any.direction(), any.direction()};
         const vec3 diffuse = light_on(point, light, 1).diffuse;
         point.toward_eye = any.direction();
-        ASSERT_EQ(light_on(point, light, 1).diffuse, diffuse) << "seed 1, case " << i;
+        ASSERT_EQ(light_on(point, light, 1).diffuse, diffuse)
+            << "the same point seen from elsewhere, in a " << described(light) << ", "
+            << described(point) << "; seed 1, case " << i;
     }
 }
 
-TEST(Phong, Eq6_2_WorkedExample) { EXPECT_EQ(reflected(up, slanted), vec3(-0.6f, 0.8f, 0)); }
+TEST(Phong, Eq6_2_ExampleOfAMirror) {
+    EXPECT_EQ(reflected(up, slanted), vec3(-0.6f, 0.8f, 0))
+        << "R for N = (0, 1, 0) and L = (0.6, 0.8, 0)";
+}
 
 TEST(Phong, Eq6_2_IsTheLightMirroredAtTheNormal) {
     Directions any(2);
@@ -129,18 +138,21 @@ TEST(Phong, Eq6_2_IsTheLightMirroredAtTheNormal) {
     for (int i = 0; i < 100'000; ++i) {
         const vec3 normal = any.direction(), toward_light = any.direction();
         const vec3 r = reflected(normal, toward_light);
-        ASSERT_NEAR(glm::length(r), 1, tolerance) << "seed 2, case " << i;
+        const std::string what = "R = " + shown(r) + " for N = " + shown(normal) +
+                                 " and L = " + shown(toward_light) + "; seed 2, case " +
+                                 std::to_string(i);
+        ASSERT_NEAR(glm::length(r), 1, tolerance) << "the length of " << what;
         ASSERT_NEAR(glm::dot(r, normal), glm::dot(toward_light, normal), tolerance)
-            << "seed 2, case " << i;
+            << "R.N and L.N; " << what;
         // In the plane of both, on the other side: what is across the normal changes its sign.
-        ASSERT_LE(difference(r - glm::dot(r, normal) * normal,
-                             glm::dot(toward_light, normal) * normal - toward_light),
-                  tolerance)
-            << "seed 2, case " << i;
+        ASSERT_TRUE(are_near(r - glm::dot(r, normal) * normal,
+                             dvec3(glm::dot(toward_light, normal) * normal - toward_light),
+                             tolerance))
+            << "what of R is across N is that of L with the other sign; " << what;
     }
 }
 
-TEST(Phong, Eq6_3_PowersOfTheTable) {
+TEST(Phong, Eq6_3_ExamplesOfTheTable) {
     struct Row {
         double degrees;
         float powers[3];
@@ -152,17 +164,26 @@ TEST(Phong, Eq6_3_PowersOfTheTable) {
             constexpr float shininess[] = {10, 90, 1000};
             // The mirror direction of slanted, turned away.
             const SurfacePoint<float> point{vec3(0), up, from_up(degrees - 36.8698976458440)};
-            EXPECT_NEAR(light_on(point, sun(slanted), shininess[i]).specular.x, powers[i],
+            ASSERT_NEAR(light_on(point, sun(slanted), shininess[i]).specular.x, powers[i],
                         in_three_digits)
-                << degrees << " degrees, n = " << shininess[i];
+                << "the highlight, " << degrees << " degrees between R and V, n = " << shininess[i]
+                << ": L = (0.6, 0.8, 0), " << described(point);
         }
 }
 
-TEST(Phong, Eq6_4_WorkedExample) {
+TEST(Phong, Eq6_3_LightFromBehindHasNoHighlight) {
+    const SurfacePoint<float> point{vec3(0), up, {-1, 0, 0}};
+    const ReflectedLight light = light_on(point, sun({0.995f, -0.1f, 0}), 90);
+    EXPECT_EQ(light.specular, vec3(0))
+        << "N = (0, 1, 0), L = (0.995, -0.1, 0), V = (-1, 0, 0): R.V is 0.995, but N.L < 0";
+}
+
+TEST(Phong, Eq6_4_ExampleOfHalfway) {
+    EXPECT_EQ(phong_cosine(up, slanted, up), 0.8f) << "N = V = (0, 1, 0), L = (0.6, 0.8, 0)";
     const float cosine = blinn_cosine(up, slanted, up);
-    EXPECT_NEAR(cosine, 1.8 / std::sqrt(3.6), FLT_EPSILON);
+    EXPECT_NEAR(cosine, 1.8 / std::sqrt(3.6), FLT_EPSILON)
+        << "N = V = (0, 1, 0), L = (0.6, 0.8, 0)";
     EXPECT_NEAR(std::pow(cosine, 4.0f), 0.81f, 4 * FLT_EPSILON);  // four times the cosine's error
-    EXPECT_EQ(phong_cosine(up, slanted, up), 0.8f);
     EXPECT_NEAR(std::pow(std::cos(glm::radians(5.0f)), 360.0f), 0.253f, in_three_digits);
 }
 
@@ -176,9 +197,11 @@ TEST(Phong, Eq6_4_IsHalfOfPhongsAngleInOnePlane) {
         constexpr double tolerance = 4 * FLT_EPSILON;
         ASSERT_NEAR(phong_cosine(up, toward_light, toward_eye), std::max(0.0, std::cos(apart)),
                     tolerance)
-            << "seed 3, case " << i;
+            << "N up, L " << light << " and V " << eye
+            << " degrees from it on the other side; seed 3, case " << i;
         ASSERT_NEAR(blinn_cosine(up, toward_light, toward_eye), std::cos(apart / 2), tolerance)
-            << "seed 3, case " << i;
+            << "N up, L " << light << " and V " << eye
+            << " degrees from it on the other side; seed 3, case " << i;
     }
 }
 
@@ -186,17 +209,23 @@ TEST(Phong, Eq6_5_GlazeOfTheTeapot) {
     const SurfaceColor glaze{{0.03f, 0.25f, 0.3f}, {0.03f, 0.25f, 0.3f}, vec3(0.45f), vec3(0)};
     const SurfacePoint<float> point{vec3(0), up, from_up(10 - 36.8698976458440)};
     const vec3 sent = phong(glaze, {0.04f, 0.05f, 0.07f}, light_on(point, sun(slanted), 90));
-    EXPECT_LE(difference(sent, {0.139f, 0.326f, 0.374f}), in_three_digits);
+    EXPECT_TRUE(are_near(sent, {0.139, 0.326, 0.374}, in_three_digits))
+        << "phong() of the glaze in the example: N.L = 0.8, 10 degrees between R and V, n = 90";
 }
 
 TEST(Phong, Eq6_5_EachColorCountsWhereItShould) {
     const SurfaceColor color{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}};
-    EXPECT_EQ(phong(color, vec3(1), {}), vec3(11, 13, 15));
-    EXPECT_EQ(phong(color, vec3(0), {{1, 2, 3}, vec3(0)}), vec3(14, 21, 30));
-    EXPECT_EQ(phong(color, vec3(0), {vec3(0), {1, 2, 3}}), vec3(17, 27, 39));
+    const char* what =
+        "of ambient (1, 2, 3), diffuse (4, 5, 6), specular (7, 8, 9), emission (10, 11, 12)";
+    EXPECT_EQ(phong(color, vec3(1), {}), vec3(11, 13, 15)) << what << ": emission and ambient";
+    EXPECT_EQ(phong(color, vec3(0), {{1, 2, 3}, vec3(0)}), vec3(14, 21, 30))
+        << what << ": emission and diffuse";
+    EXPECT_EQ(phong(color, vec3(0), {vec3(0), {1, 2, 3}}), vec3(17, 27, 39))
+        << what << ": emission and specular";
     EXPECT_EQ(phong(color, {1, 2, 3}, {{4, 5, 6}, {7, 8, 9}}),
-              vec3(10 + 1 + 16 + 49, 11 + 4 + 25 + 64, 12 + 9 + 36 + 81));
-    EXPECT_EQ(unlit(color), vec3(14, 16, 18));
+              vec3(10 + 1 + 16 + 49, 11 + 4 + 25 + 64, 12 + 9 + 36 + 81))
+        << what << ": all";
+    EXPECT_EQ(unlit(color), vec3(14, 16, 18)) << what << ": emission and diffuse color";
 }
 
 TEST(Phong, Eq6_5_ATextureTintsDiffuseAndAmbientLight) {
@@ -215,7 +244,8 @@ TEST(Phong, Eq6_5_AmbientIsAtMostDiffuse) {
     material.specular = {0.4f, 0.5f, 0.6f};
     material.emission = {0.7f, 0.8f, 0.9f};
     const SurfaceColor color = surface_color(material);
-    EXPECT_EQ(color.ambient, vec3(0.2f, 0.1f, 0.5f));
+    EXPECT_EQ(color.ambient, vec3(0.2f, 0.1f, 0.5f))
+        << "of Ka = (1, 0.1, 0.5) and Kd = (0.2, 0.3, 0.5), the smaller of each";
     EXPECT_EQ(color.diffuse, material.diffuse);
     EXPECT_EQ(color.specular, material.specular);
     EXPECT_EQ(color.emission, material.emission);
@@ -234,10 +264,10 @@ TEST(Phong, Eq6_5_LightsInAnyOrder) {
         constexpr float tolerance = 4 * FLT_EPSILON;
         for (int c = 0; c < 3; ++c) {
             ASSERT_NEAR(in_order.diffuse[c], otherwise.diffuse[c], tolerance * in_order.diffuse[c])
-                << "seed 4, case " << i;
+                << "diffuse light of five lights in two orders; seed 4, case " << i;
             ASSERT_NEAR(in_order.specular[c], otherwise.specular[c],
                         tolerance * in_order.specular[c])
-                << "seed 4, case " << i;
+                << "specular light of five lights in two orders; seed 4, case " << i;
         }
     }
 }
@@ -250,8 +280,12 @@ TEST(Phong, Eq6_5_TwoLightsAddUp) {
         const ReflectedLight both = light_on(point, lights, Highlight::phong);
         const ReflectedLight first = light_on(point, std::span(lights).first(1), Highlight::phong);
         const ReflectedLight second = light_on(point, std::span(lights).last(1), Highlight::phong);
-        ASSERT_EQ(both.diffuse, first.diffuse + second.diffuse) << "seed 5, case " << i;
-        ASSERT_EQ(both.specular, first.specular + second.specular) << "seed 5, case " << i;
+        ASSERT_EQ(both.diffuse, first.diffuse + second.diffuse)
+            << "of a " << described(lights[0]) << ", and a " << described(lights[1]) << "; "
+            << described(point) << "; seed 5, case " << i;
+        ASSERT_EQ(both.specular, first.specular + second.specular)
+            << "of a " << described(lights[0]) << ", and a " << described(lights[1]) << "; "
+            << described(point) << "; seed 5, case " << i;
     }
 }
 
@@ -276,39 +310,49 @@ TEST(Phong, Eq6_5_TurningEverythingChangesNothing) {
             // Positions up to 3.5 are rounded by 2^-23, seen from 0.02 or more; a direction is
             // then off by 6e-6, and the power of 8 by eight times that.
             if (glm::length(light.position_world - point.position_world) < 0.02f) continue;
-            ASSERT_LE(difference(before.diffuse, after.diffuse), 2e-5f) << "seed 6, case " << i;
+            const std::string what = std::string(name_of(highlight)) + ", " + described(light) +
+                                     ", " + described(point) +
+                                     ", and the same with everything turned; seed 6, case " +
+                                     std::to_string(i);
+            ASSERT_TRUE(are_near(after.diffuse, dvec3(before.diffuse), 2e-5f))
+                << "diffuse light of a " << what;
             // Where light comes in along the surface, its highlight ends at once.
             if (before.diffuse.x + before.diffuse.y + before.diffuse.z < 1e-4f) continue;
-            ASSERT_LE(difference(before.specular, after.specular), 1e-4f) << "seed 6, case " << i;
+            ASSERT_TRUE(are_near(after.specular, dvec3(before.specular), 1e-4f)) << what;
             ++lit;
         }
     }
     EXPECT_GT(lit, 4000);
 }
 
-TEST(Phong, Eq6_6_WorkedExample) {
+TEST(Phong, Eq6_6_AnExampleOfDistances) {
     const Light light{LightKind::point, vec3(1), up, {1, 2, 3}, 4};
     for (const auto& [half_distances, share] :
          {std::pair{1.0f, 0.5f}, {2.0f, 0.2f}, {3.0f, 0.1f}, {10.0f, 1 / 101.0f}}) {
-        EXPECT_EQ(distance_attenuation<float>({0, half_distances, 0}), share);
+        ASSERT_EQ(distance_attenuation<float>({0, half_distances, 0}), share)
+            << half_distances << " half distances away";
         const Incoming<float> incoming = incoming_light(light, vec3{1, 2 - 4 * half_distances, 3});
-        EXPECT_EQ(incoming.color, vec3(share));
-        EXPECT_EQ(incoming.toward, up);
+        ASSERT_EQ(incoming.color, vec3(share))
+            << half_distances << " half distances below a " << described(light);
+        ASSERT_EQ(incoming.toward, up) << "to the light, from the surface below it";
     }
-    EXPECT_EQ(distance_attenuation(vec3(0)), 1);
+    EXPECT_EQ(distance_attenuation(vec3(0)), 1) << "at the light";
 }
 
-TEST(Phong, Eq6_7_WorkedExample) {
+TEST(Phong, Eq6_7_AnExampleOfSpots) {
     EXPECT_EQ(spot_attenuation(0.25f, 1, 0), 0.15625f);
     EXPECT_EQ(spot_attenuation(0.5f, 1, 0), 0.5f);
     EXPECT_EQ(spot_attenuation(0.75f, 1, 0), 0.84375f);
     for (const float cosine : {1.0f, 0.96f, 0.95f})
-        EXPECT_EQ(spot_attenuation(cosine, 0.95f, 0.85f), 1);
+        EXPECT_EQ(spot_attenuation(cosine, 0.95f, 0.85f), 1)
+            << "full light from the cosine 0.95 on; the cosine is " << cosine;
     for (const float cosine : {-1.0f, 0.0f, 0.85f})
-        EXPECT_EQ(spot_attenuation(cosine, 0.95f, 0.85f), 0);
+        EXPECT_EQ(spot_attenuation(cosine, 0.95f, 0.85f), 0)
+            << "no light up to the cosine 0.85; the cosine is " << cosine;
     const auto cosine_of = [](float degrees) { return std::cos(glm::radians(degrees)); };
     EXPECT_NEAR(spot_attenuation(cosine_of(25), cosine_of(18), cosine_of(32)), 0.598f,
-                in_three_digits);
+                in_three_digits)
+        << "at 25 degrees, between 18 and 32";
 }
 
 TEST(Phong, Eq6_7_RisesAndItsEndsAreTheSameUpsideDown) {
@@ -316,8 +360,9 @@ TEST(Phong, Eq6_7_RisesAndItsEndsAreTheSameUpsideDown) {
     for (int i = 0; i <= 1000; ++i) {
         const float t = 0.001f * static_cast<float>(i), share = spot_attenuation(t, 1, 0);
         // Half an ulp of 3 - 2t, of each product and of 1 - t.
-        EXPECT_NEAR(share, 1 - spot_attenuation(1 - t, 1, 0), 4 * FLT_EPSILON) << i;
-        EXPECT_GE(share, last) << i;
+        ASSERT_NEAR(share, 1 - spot_attenuation(1 - t, 1, 0), 4 * FLT_EPSILON)
+            << "the share at t = " << t << ", and one minus that at 1 - t";
+        ASSERT_GE(share, last) << "the share at t = " << t << ", and just before it";
         last = share;
     }
     EXPECT_EQ(last, 1);
@@ -325,16 +370,19 @@ TEST(Phong, Eq6_7_RisesAndItsEndsAreTheSameUpsideDown) {
 
 TEST(Phong, Eq6_7_ASpotlightIsAPointLightThatShinesOneWay) {
     Light spot{LightKind::spot, vec3(1), -up, {0, 4, 0}, 4, 0.95f, 0.85f};
-    EXPECT_EQ(incoming_light(spot, vec3(0)).color, vec3(0.5f));     // below it
-    EXPECT_EQ(incoming_light(spot, vec3{0, 8, 0}).color, vec3(0));  // behind it
-    EXPECT_EQ(incoming_light(spot, vec3{4, 4, 0}).color, vec3(0));  // beside it
-    EXPECT_EQ(incoming_light(spot, vec3{0, 8, 0}).toward, -up);
+    const std::string what = ": " + described(spot);
+    EXPECT_EQ(incoming_light(spot, vec3(0)).color, vec3(0.5f)) << "below it" << what;
+    EXPECT_EQ(incoming_light(spot, vec3{0, 8, 0}).color, vec3(0)) << "behind it" << what;
+    EXPECT_EQ(incoming_light(spot, vec3{4, 4, 0}).color, vec3(0)) << "beside it" << what;
+    EXPECT_EQ(incoming_light(spot, vec3{0, 8, 0}).toward, -up) << "to the light" << what;
     spot.kind = LightKind::point;
-    EXPECT_EQ(incoming_light(spot, vec3{4, 4, 0}).color, vec3(0.5f));
-    EXPECT_EQ(incoming_light(spot, vec3{4, 4, 0}).toward, vec3(-1, 0, 0));
+    EXPECT_EQ(incoming_light(spot, vec3{4, 4, 0}).color, vec3(0.5f))
+        << "beside a " << described(spot);
+    EXPECT_EQ(incoming_light(spot, vec3{4, 4, 0}).toward, vec3(-1, 0, 0))
+        << "to the light, beside a " << described(spot);
 }
 
-TEST(Phong, Eq6_8_NormalsBetweenVertices) {
+TEST(Phong, Eq6_8_AnExampleOfNormalsBetweenVertices) {
     const vec3 middle(0.5f, 0, 0.5f);
     const std::array light = {sun(up)};
     const auto at_middle = [&](double apart, NormalScaling scaling) {
@@ -344,12 +392,17 @@ TEST(Phong, Eq6_8_NormalsBetweenVertices) {
                                    shining(90), variant);
         return triangle.light_at(middle, light, {0.5f, 1, 0});  // straight above
     };
-    EXPECT_NEAR(at_middle(40, NormalScaling::exact).diffuse.x, 1, 3 * FLT_EPSILON);
-    EXPECT_NEAR(at_middle(40, NormalScaling::none).diffuse.x, 0.940f, in_three_digits);
+    EXPECT_NEAR(at_middle(40, NormalScaling::exact).diffuse.x, 1, 3 * FLT_EPSILON)
+        << "diffuse light halfway between normals 40 degrees apart";
+    EXPECT_NEAR(at_middle(40, NormalScaling::none).diffuse.x, 0.940f, in_three_digits)
+        << "the same where the interpolated normal is not scaled";
     // 90 times what the cosine is off.
-    EXPECT_NEAR(at_middle(10, NormalScaling::exact).specular.x, 1, 90 * 4 * FLT_EPSILON);
-    EXPECT_NEAR(at_middle(10, NormalScaling::none).specular.x, 0.252f, in_three_digits);
-    EXPECT_GT(at_middle(10, NormalScaling::approximate).specular.x, 0.5f);
+    EXPECT_NEAR(at_middle(10, NormalScaling::exact).specular.x, 1, 90 * 4 * FLT_EPSILON)
+        << "the highlight halfway between normals 10 degrees apart";
+    EXPECT_NEAR(at_middle(10, NormalScaling::none).specular.x, 0.252f, in_three_digits)
+        << "the same where the interpolated normal is not scaled";
+    EXPECT_GT(at_middle(10, NormalScaling::approximate).specular.x, 0.5f)
+        << "the same where it is scaled with an approximate root";
 }
 
 TEST(Phong, Eq6_8_PositionsBetweenVertices) {
@@ -360,11 +413,12 @@ TEST(Phong, Eq6_8_PositionsBetweenVertices) {
     const vec3 toward_eye = normalize_or(eye - position, up);
     const ReflectedLight expected = light_on({position, up, toward_eye}, light, 2);
     const ReflectedLight actual = triangle.light_at(barycentrics, std::span(&light, 1), eye);
-    EXPECT_EQ(actual.diffuse, expected.diffuse);
-    EXPECT_LE(difference(actual.specular, expected.specular), 4 * FLT_EPSILON);  // of toward_eye
+    EXPECT_EQ(actual.diffuse, expected.diffuse) << "in a " << described(light);
+    EXPECT_TRUE(are_near(actual.specular, dvec3(expected.specular), 4 * FLT_EPSILON))  // of V
+        << "in a " << described(light);
 }
 
-TEST(Phong, Eq6_8_LightOnceAFaceAtItsVerticesOrAtEachPixel) {
+TEST(Phong, Eq6_8_LightAtTheVerticesOrAtEachPixel) {
     // Each vertex sees 10 degrees between mirror direction and eye, the middle none; the eye and
     // the light are very far.
     ShadingVariant variant;
@@ -381,11 +435,24 @@ TEST(Phong, Eq6_8_LightOnceAFaceAtItsVerticesOrAtEachPixel) {
         return OneTriangle(vertices_of_floor, normals, shining(90), variant)
             .light_at(vec3(1.0f / 3), light, {0, 1e9f, 0});
     };
-    EXPECT_NEAR(at_middle(Shading::phong).specular.x, 1, 90 * 4 * FLT_EPSILON);
-    EXPECT_NEAR(at_middle(Shading::gouraud).specular.x, 0.252f, in_three_digits);
-    EXPECT_NEAR(at_middle(Shading::gouraud).diffuse.x, 0.996f, in_three_digits);
-    EXPECT_EQ(at_middle(Shading::flat).diffuse.x, 1);  // by the plane's normal
-    EXPECT_NEAR(at_middle(Shading::flat).specular.x, 1, 90 * 4 * FLT_EPSILON);
+    EXPECT_NEAR(at_middle(Shading::phong).specular.x, 1, 90 * 4 * FLT_EPSILON)
+        << "the highlight in the middle, at each pixel";
+    EXPECT_NEAR(at_middle(Shading::gouraud).specular.x, 0.252f, in_three_digits)
+        << "the highlight in the middle, of that at the vertices";
+    EXPECT_NEAR(at_middle(Shading::gouraud).diffuse.x, 0.996f, in_three_digits)
+        << "diffuse light in the middle, of that at the vertices";
+}
+
+TEST(Phong, Eq6_9_FlatShadingTakesTheNormalOfTheFace) {
+    ShadingVariant variant;
+    variant.shading = Shading::flat;
+    const std::array light = {sun(up)};
+    const auto shaded =
+        OneTriangle(vertices_of_floor, {slanted, slanted, slanted}, shining(90), variant)
+            .light_at(vec3(1.0f / 3), light, {0, 1e9f, 0});
+    EXPECT_EQ(shaded.diffuse.x, 1)
+        << "of a floor in light from above, whatever the normals at its vertices";
+    EXPECT_NEAR(shaded.specular.x, 1, 90 * 4 * FLT_EPSILON) << "seen from above";
 }
 
 TEST(Phong, Eq6_8_GouraudMixesTheLightOfTheVertices) {
@@ -408,8 +475,10 @@ TEST(Phong, Eq6_8_GouraudMixesTheLightOfTheVertices) {
         // sees the vertex from the same place.
         constexpr float tolerance = 2 * 5 * 4 * FLT_EPSILON;
         const ReflectedLight actual = mixed.light_at(barycentrics, lights, eye);
-        ASSERT_LE(difference(actual.diffuse, sum.diffuse), tolerance) << "seed 10, case " << i;
-        ASSERT_LE(difference(actual.specular, sum.specular), tolerance) << "seed 10, case " << i;
+        ASSERT_TRUE(are_near(actual.diffuse, dvec3(sum.diffuse), tolerance))
+            << "of what the vertices have; seed 10, case " << i;
+        ASSERT_TRUE(are_near(actual.specular, dvec3(sum.specular), tolerance))
+            << "of what the vertices have; seed 10, case " << i;
     }
 }
 
@@ -420,10 +489,13 @@ TEST(Phong, HardCase_LightAlongTheSurfaceOrFromBehind) {
         for (const float shininess : {0.0f, 1.0f, 90.0f, 1e4f}) {
             const vec3 toward = degrees == 90 ? vec3(1, 0, 0) : from_up(degrees);
             const SurfacePoint<float> point{vec3(0), up, reflected(up, toward)};
-            EXPECT_GT(phong_cosine(up, toward, point.toward_eye), 0.999f);
+            ASSERT_GT(phong_cosine(up, toward, point.toward_eye), 0.999f)
+                << "L = " << shown(toward) << ", " << described(point)
+                << "; phong_cosine() does not ask for N.L";
             const ReflectedLight light = light_on(point, sun(toward), shininess);
-            EXPECT_EQ(light.diffuse, vec3(0)) << degrees << " degrees, n = " << shininess;
-            EXPECT_EQ(light.specular, vec3(0)) << degrees << " degrees, n = " << shininess;
+            ASSERT_EQ(light.diffuse, vec3(0)) << degrees << " degrees between N and L";
+            ASSERT_EQ(light.specular, vec3(0))
+                << degrees << " degrees between N and L, R = V, n = " << shininess;
         }
 }
 
@@ -432,12 +504,14 @@ TEST(Phong, HardCase_EyeOppositeToTheLight) {
     Directions any(7);
     for (int i = 0; i < 10'000; ++i) {
         const vec3 normal = any.direction(), toward = any.direction();
-        EXPECT_EQ(blinn_cosine(normal, toward, -toward), 0);
+        ASSERT_EQ(blinn_cosine(normal, toward, -toward), 0)
+            << "N = " << shown(normal) << ", L = " << shown(toward) << ", V = -L";
         // The cosine of the doubled angle, on the other side; two products of what rounds a dot.
         const double cosine = glm::dot(dvec3(normal), dvec3(toward));
-        EXPECT_NEAR(phong_cosine(normal, toward, -toward), std::max(0.0, 1 - 2 * cosine * cosine),
+        ASSERT_NEAR(phong_cosine(normal, toward, -toward), std::max(0.0, 1 - 2 * cosine * cosine),
                     8 * FLT_EPSILON)
-            << "seed 7, case " << i;
+            << "N = " << shown(normal) << ", L = " << shown(toward) << ", V = -L; seed 7, case "
+            << i;
     }
 }
 
@@ -451,7 +525,9 @@ TEST(Phong, HardCase_PowersOfZeroAndZerothPowers) {
     // A surface that shines evenly: in all that is lit, whatever the eye sees.
     for (const vec3 toward_eye :
          {slanted, reflected(up, slanted), vec3(0, 0, 1), vec3(0.8f, -0.6f, 0)})
-        EXPECT_EQ(light_on({vec3(0), up, toward_eye}, sun(slanted), 0).specular, vec3(1));
+        EXPECT_EQ(light_on({vec3(0), up, toward_eye}, sun(slanted), 0).specular, vec3(1))
+            << "the highlight for n = 0, L = (0.6, 0.8, 0), N = (0, 1, 0), V = "
+            << shown(toward_eye);
 }
 
 TEST(Phong, HardCase_GreatExponents) {
@@ -479,7 +555,9 @@ TEST(Phong, HardCase_NoHighlightIsBrighterThanItsLight) {
             const float cosine = highlight == Highlight::phong
                                      ? phong_cosine(normal, toward, toward_eye)
                                      : blinn_cosine(normal, toward, toward_eye);
-            ASSERT_LE(cosine, 1) << "seed 8, case " << i;
+            ASSERT_LE(cosine, 1) << "the cosine of " << name_of(highlight)
+                                 << ", N = " << shown(normal) << ", L = " << shown(toward)
+                                 << ", V = " << shown(toward_eye) << "; seed 8, case " << i;
             for (const float n : {1e4f, 1e9f, FLT_MAX})
                 for (const Power how : {Power::polynomial, Power::in_double})
                     ASSERT_LE(power_as(how, cosine, n), 1) << "seed 8, case " << i;
@@ -521,7 +599,8 @@ TEST(Phong, HardCase_NormalsThatCancel) {
         const std::array light = {sun(up)};
         const ReflectedLight middle = triangle.light_at({0.25f, 0.25f, 0.5f}, light, {0, 9, 0});
         // As for the first vertex's normal; unscaled it is no normal, and dark.
-        EXPECT_EQ(middle.diffuse, vec3(scaling == NormalScaling::exact ? 1 : 0));
+        EXPECT_EQ(middle.diffuse, vec3(scaling == NormalScaling::exact ? 1 : 0))
+            << (scaling == NormalScaling::exact ? "the first vertex's normal" : "no normal");
         EXPECT_GE(middle.specular.x, 0);
         EXPECT_LE(middle.specular.x, 1);
     }
@@ -541,12 +620,15 @@ TEST(Phong, HardCase_PointLightAtTheSurface) {
     look_up("Eq. 6.6");
     for (const vec3 place : {vec3(0), vec3(1, 2, 3), vec3(-1e30f), vec3(1e-40f)}) {
         Light light{LightKind::point, {1, 2, 3}, -up, place, 1, 0.9f, 0.8f};
-        EXPECT_EQ(incoming_light(light, place).toward, up);
-        EXPECT_EQ(incoming_light(light, place).color, vec3(1, 2, 3));
+        const std::string what = "at the place of the light: " + described(light);
+        ASSERT_EQ(incoming_light(light, place).toward, up) << what;
+        ASSERT_EQ(incoming_light(light, place).color, vec3(1, 2, 3)) << what;
         light.kind = LightKind::spot;  // shines down, as the light is said to come from above
-        EXPECT_EQ(incoming_light(light, place).color, vec3(1, 2, 3));
+        ASSERT_EQ(incoming_light(light, place).color, vec3(1, 2, 3))
+            << "at the place of the light: " << described(light);
         light.direction_world = up;
-        EXPECT_EQ(incoming_light(light, place).color, vec3(0));
+        ASSERT_EQ(incoming_light(light, place).color, vec3(0))
+            << "at the place of the light: " << described(light);
     }
 }
 
@@ -582,8 +664,11 @@ TEST(Phong, HardCase_BacksAreLitAsFrontsWithEverythingMirrored) {
         light.position_world = mirrored(light.position_world);
         const ReflectedLight back =
             below.light_at(barycentrics, std::span(&light, 1), mirrored(eye), true);
-        ASSERT_EQ(front.diffuse, back.diffuse) << "seed 9, case " << i;
-        ASSERT_EQ(front.specular, back.specular) << "seed 9, case " << i;
+        const std::string what = std::string(name_of(variant.shading)) + ", " +
+                                 name_of(variant.highlight) + ", in a " + described(light) +
+                                 " and mirrored; seed 9, case " + std::to_string(i);
+        ASSERT_EQ(back.diffuse, front.diffuse) << "diffuse light: " << what;
+        ASSERT_EQ(back.specular, front.specular) << "specular light: " << what;
         lit += front.specular.x > 0;
     }
     EXPECT_GT(lit, 1000);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 
 #include "07_toon/outline.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/printers.hpp"
 #include "support/toon_pictures.hpp"
 
@@ -94,42 +96,46 @@ TEST(Toon, Eq7_11_IsOneOverTheDistance) {
         if (depth == DepthBuffer::cleared) continue;
         // The depth's rounding, half an ulp of 1, and three of 1 / near.
         ASSERT_NEAR(inverse_w(depth, some) * some.near, some.near / distance, 3 * FLT_EPSILON)
-            << "seed 1, case " << i;
+            << "near / w at the depth " << shown(depth) << ", near " << shown(some.near) << ", far "
+            << shown(some.far) << "; seed 1, case " << i;
     }
-    EXPECT_EQ(inverse_w(0, camera), 1);
-    EXPECT_EQ(inverse_w(DepthBuffer::cleared, camera), 0);
+    EXPECT_EQ(inverse_w(0, camera), 1) << "at the nearest distance, 1";
+    EXPECT_EQ(inverse_w(DepthBuffer::cleared, camera), 0) << "where nothing is seen";
 }
 
 TEST(Toon, Eq7_12_IsZeroForPlanesAndMeasuresBends) {
     const ivec2 x(1, 0), y(0, 1);
     const auto plane = [](ivec2 p) { return static_cast<float>(100 + 7 * p.x - 3 * p.y); };
-    EXPECT_EQ(second_difference(plane, x), 0);
-    EXPECT_EQ(second_difference(plane, y), 0);
+    EXPECT_EQ(second_difference(plane, x), 0) << "of the plane 100 + 7 x - 3 y";
+    EXPECT_EQ(second_difference(plane, y), 0) << "of the plane 100 + 7 x - 3 y";
     const auto bowl = [](ivec2 p) { return static_cast<float>(5 * p.x * p.x + p.y); };
-    EXPECT_EQ(second_difference(bowl, x), 10);
-    EXPECT_EQ(second_difference(bowl, y), 0);
+    EXPECT_EQ(second_difference(bowl, x), 10) << "of 5 x x + y, along x";
+    EXPECT_EQ(second_difference(bowl, y), 0) << "of 5 x x + y, along y";
     // The rows beside count half as much.
     const auto one = [](ivec2 at) { return [=](ivec2 p) { return p == at ? 1.0f : 0.0f; }; };
-    EXPECT_EQ(second_difference(one({0, 0}), x), -1);
-    EXPECT_EQ(second_difference(one({1, 0}), x), 0.5f);
-    EXPECT_EQ(second_difference(one({1, 1}), x), 0.25f);
-    EXPECT_EQ(second_difference(one({0, 1}), x), -0.5f);
-    EXPECT_EQ(second_difference(one({0, 1}), y), 0.5f);
+    const char* what = ", where one pixel is 1 and all others are 0";
+    EXPECT_EQ(second_difference(one({0, 0}), x), -1) << "along x" << what;
+    EXPECT_EQ(second_difference(one({1, 0}), x), 0.5f) << "along x" << what;
+    EXPECT_EQ(second_difference(one({1, 1}), x), 0.25f) << "along x" << what;
+    EXPECT_EQ(second_difference(one({0, 1}), x), -0.5f) << "along x" << what;
+    EXPECT_EQ(second_difference(one({0, 1}), y), 0.5f) << "along y" << what;
 }
 
 TEST(Toon, Eq7_13_IsTheDifferenceAtAnEdge) {
     const ivec2 x(1, 0), y(0, 1);
     const vec3 left(1, 0, 0), right(0, 0, 1);
     const auto edge = [&](ivec2 p) { return p.x <= 0 ? left : right; };
-    EXPECT_EQ(sobel(edge, x), right - left);
-    EXPECT_EQ(sobel(edge, y), vec3(0));
+    EXPECT_EQ(sobel(edge, x), right - left)
+        << "along x; left of an upright edge is (1, 0, 0), right of it (0, 0, 1)";
+    EXPECT_EQ(sobel(edge, y), vec3(0)) << "along y, of an upright edge";
     EXPECT_FLOAT_EQ(glm::length(sobel(edge, x)), std::sqrt(2.0f));  // 2 sin(90 / 2)
-    EXPECT_EQ(sobel([](ivec2) { return vec3(1, 2, 3); }, x), vec3(0));
+    EXPECT_EQ(sobel([](ivec2) { return vec3(1, 2, 3); }, x), vec3(0)) << "of one color";
     const auto row = [&](ivec2 p) { return p.y < 0 ? left : right; };
-    EXPECT_EQ(sobel(row, y), right - left);
+    EXPECT_EQ(sobel(row, y), right - left)
+        << "along y; above a level edge is (1, 0, 0), below it (0, 0, 1)";
     const auto one = [](ivec2 p) { return vec3(p == ivec2(1, -1) ? 1.0f : 0.0f); };
-    EXPECT_EQ(sobel(one, x), vec3(0.25f));
-    EXPECT_EQ(sobel(one, y), vec3(-0.25f));
+    EXPECT_EQ(sobel(one, x), vec3(0.25f)) << "along x; only the upper right neighbour is 1";
+    EXPECT_EQ(sobel(one, y), vec3(-0.25f)) << "along y; only the upper right neighbour is 1";
 }
 
 TEST(Toon, Eq7_14_LinesAreAsWideAsAsked) {
@@ -143,30 +149,39 @@ TEST(Toon, Eq7_14_LinesAreAsWideAsAsked) {
         ByHand fold = ByHand::of(size, [](ivec2) { return 5.0f; });
         for (ivec2 p(0); p.y < size.y; ++p.y)
             for (p.x = 17; p.x < size.x; ++p.x) fold.normals[p] = vec3(1, 0, 0);
-        for (ByHand* picture : {&step, &border, &fold}) {
+        for (const auto& [what, picture] : {std::pair{"a step in depth from 5 to 6", &step},
+                                            {"paper beside a body", &border},
+                                            {"a fold of 90 degrees", &fold}}) {
             const Image<char> inked = picture->edges(width);
-            EXPECT_EQ(ones(inked), expected * size.y) << width;
+            ASSERT_EQ(ones(inked), expected * size.y)
+                << "pixels inked in 40 x 30, " << what << " between columns 16 and 17, width "
+                << width << ": a line of " << expected << " pixels";
             for (int y = 0; y < size.y; ++y)
                 for (int x = 17 - expected / 2; x < 17 + expected / 2; ++x)
-                    ASSERT_TRUE((inked[{x, y}])) << width << ": " << x << ", " << y;
+                    ASSERT_TRUE((inked[{x, y}])) << "ink in pixel (" << x << ", " << y << "), "
+                                                 << what << ", width " << width;
         }
     }
 }
 
-TEST(Toon, Eq7_14_Thresholds) {
+TEST(Toon, Eq7_14_AThresholdIsAShareOfTheDistance) {
     const ivec2 size(12, 9);
     const auto step_of = [&](float farther) {
         return ByHand::of(size, [=](ivec2 p) { return p.x < 6 ? 10.0f : farther; });
     };
     // From 10 to 10.3: 3% nearer and farther.
-    EXPECT_EQ(ones(step_of(10.3f).edges(2, {0.02f, 9})), 2 * size.y);
-    EXPECT_EQ(ones(step_of(10.3f).edges(2, {0.04f, 9})), 0);
+    const char* what = "pixels inked in 12 x 9, at a step from w = 10 to a greater one, ";
+    EXPECT_EQ(ones(step_of(10.3f).edges(2, {0.02f, 9})), 2 * size.y)
+        << what << "10.3: 3% on either side; threshold 2%";
+    EXPECT_EQ(ones(step_of(10.3f).edges(2, {0.04f, 9})), 0)
+        << what << "10.3: 3% on either side; threshold 4%";
     // The worked examples; and between them a step that is above 2% only as seen from behind it.
-    EXPECT_EQ(ones(step_of(10.5f).edges(2)), 2 * size.y);
-    EXPECT_EQ(ones(step_of(10.202f).edges(2)), size.y);
-    EXPECT_EQ(ones(step_of(10.1f).edges(2)), 0);
+    EXPECT_EQ(ones(step_of(10.5f).edges(2)), 2 * size.y) << what << "10.5; threshold 2%";
+    EXPECT_EQ(ones(step_of(10.202f).edges(2)), size.y)
+        << what << "10.202: above 2% of 10, not of 10.202";
+    EXPECT_EQ(ones(step_of(10.1f).edges(2)), 0) << what << "10.1; threshold 2%";
     ByHand rows = ByHand::of(size, [](ivec2 p) { return p.y < 4 ? 10.0f : 10.5f; });
-    EXPECT_EQ(ones(rows.edges(2)), 2 * size.x);
+    EXPECT_EQ(ones(rows.edges(2)), 2 * size.x) << what << "10.5, below it; threshold 2%";
     // Normals 20 and 40 degrees apart: 0.35 and 0.68.
     for (const auto& [degrees, expected] : {std::pair{20.0f, 0}, {40.0f, 2 * size.y}}) {
         ByHand fold = step_of(10);
@@ -174,7 +189,8 @@ TEST(Toon, Eq7_14_Thresholds) {
             for (p.x = 6; p.x < size.x; ++p.x)
                 fold.normals[p] = {std::sin(glm::radians(degrees)), 0,
                                    std::cos(glm::radians(degrees))};
-        EXPECT_EQ(ones(fold.edges(2)), expected) << degrees;
+        EXPECT_EQ(ones(fold.edges(2)), expected)
+            << "pixels inked in 12 x 9, at a fold of " << degrees << " degrees";
     }
 }
 
@@ -242,7 +258,10 @@ TEST(Toon, Eq7_14_RoundingDecidesNothingAtBoxes) {
                     for (int side = 0; side < 3; ++side) squares += along[side] * along[side];
                 // 16 * 0.45 * 0.45 is 3.24.
                 ASSERT_EQ((found[p]) != 0, squares >= 4)
-                    << "seed 1, case " << i << ": " << p.x << ", " << p.y << ": " << squares;
+                    << "ink in pixel " << testing::PrintToString(p) << ", width " << 2 * reach
+                    << ": 16 times the square of the change in normals is " << squares
+                    << ", the threshold 3.24; a corner of a box in " << shown(middle)
+                    << "; seed 1, case " << i;
                 inked += squares >= 4;
                 on_quarter += squares == 4;  // on a threshold of 0.5
             }
@@ -267,7 +286,10 @@ TEST(Toon, Eq7_14_SlantedLines) {
             for (int y = reach; y < size.y - reach; ++y)
                 for (int x = reach; x < size.x - reach; ++x)
                     ASSERT_EQ((inked[{x, y}]) != 0, std::abs(2 * (x + y) - 99) < per_row * reach)
-                        << turn_degrees << ": " << x << ", " << y;
+                        << "ink in pixel (" << x << ", " << y << "), width " << 2 * reach
+                        << ": a fold of " << turn_degrees
+                        << " degrees along x + y = 49.5, inked for " << per_row * reach
+                        << " pixels of a row";
         }
     // Depth: nothing or all of it; above 5.7% of the own distance.
     for (const auto& [distance, per_row] : {std::pair{10.5f, 0},
@@ -280,7 +302,9 @@ TEST(Toon, Eq7_14_SlantedLines) {
         const Image<char> inked = step.edges(4);
         int in_row = 0;
         for (int x = 0; x < size.x; ++x) in_row += inked[{x, 22}];
-        EXPECT_EQ(in_row, per_row * 2) << farther;
+        EXPECT_EQ(in_row, per_row * 2)
+            << "pixels inked in a row, width 4, at a step from w = 10 to " << farther
+            << " along x + y = 49.5";
     }
 }
 
@@ -299,17 +323,20 @@ TEST(Toon, Eq7_14_TheUnitsOfTheSceneDoNotMatter) {
             draw_edges(step.depth, step.normals, of_unit, 2, {}, step.color, counters);
             EXPECT_EQ(count(counters, Counter::outline_pixels),
                       static_cast<std::uint64_t>(expected * 9))
-                << unit << ", " << farther;
+                << "pixels inked at a step from w = 10 to " << farther << " units of " << unit;
         }
 }
 
 TEST(Toon, Eq7_14_PicturesThatAreTooSmall) {
     for (const ivec2 size : {ivec2(1, 1), ivec2(2, 40), ivec2(40, 2), ivec2(0, 0), ivec2(4, 4)}) {
         ByHand picture = ByHand::of(size, [](ivec2 p) { return (p.x + p.y) % 2 ? 5.0f : 50.0f; });
-        EXPECT_EQ(ones(picture.edges(4)), 0);  // reaches two pixels to each side
+        ASSERT_EQ(ones(picture.edges(4)), 0)
+            << "pixels inked in " << testing::PrintToString(size)
+            << ", width 4: no pixel has neighbours 2 away on all sides";
         Counters counters;
         draw_edges(picture.depth, picture.normals, camera, 4, {}, picture.color, counters);
-        EXPECT_EQ(count(counters, Counter::outline_tests), 0u) << "none of them is asked";
+        ASSERT_EQ(count(counters, Counter::outline_tests), 0u)
+            << "none of " << testing::PrintToString(size) << " pixels is asked";
     }
     ByHand least = ByHand::of({5, 5}, [](ivec2 p) { return p.x < 2 ? 5.0f : 50.0f; });
     EXPECT_GT(ones(least.edges(4)), 0);
@@ -336,7 +363,8 @@ TEST(Toon, HardCase_SteepPlanesHaveNoEdges) {
                         ++on_floor;
                         inked += picture[p] == ink;
                     }
-            EXPECT_EQ(inked, 0) << pitch << ", " << yaw;
+            ASSERT_EQ(inked, 0) << "pixels inked on a floor, with --pitch " << pitch << " --yaw "
+                                << yaw;
         }
     EXPECT_GT(on_floor, 500'000);
     // The first difference would ink them: at such a grazing angle the next pixel is more than 2%
@@ -366,8 +394,11 @@ TEST(Toon, HardCase_EdgesAreAsWideAtAnyDistanceAndSize) {
                 // A frame, half of it on either side; its outer corners may be cut off.
                 const double frame =
                     (side + width) * (side + width) - (side - width) * (side - width);
-                EXPECT_NEAR(count_of(seen, Seen::ink), frame, width * width + side / 20)
-                    << size.x << ", " << distance << ", " << width;
-                EXPECT_EQ(gaps_in_outline(seen), 0);
+                const std::string what = " of a square, width " + shown(width) + ", distance " +
+                                         shown(distance) + ", " + testing::PrintToString(size) +
+                                         " pixels";
+                ASSERT_NEAR(count_of(seen, Seen::ink), frame, width * width + side / 20)
+                    << "pixels inked around" << what;
+                ASSERT_EQ(gaps_in_outline(seen), 0) << "gaps in the outline" << what;
             }
 }

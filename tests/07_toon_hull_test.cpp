@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "07_toon/outline.hpp"
 #include "support/lit_sphere.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/printers.hpp"
 #include "support/toon_pictures.hpp"
 
@@ -68,10 +70,14 @@ TEST(Toon, Eq7_7_RingOnASphere) {
                 // Each circle's pixels are counted at their centres, the mesh's are a little
                 // inside.
                 const double tolerance = 0.5 * (outer + inner) / 100 + 4 * std::sqrt(outer);
-                EXPECT_NEAR(count_of(seen, Seen::ink), disc_area(outer) - disc_area(inner),
+                const std::string what = "pixels of a sphere " + shown(distance) +
+                                         " radii away, least " + shown(least) + ", in " +
+                                         testing::PrintToString(size);
+                ASSERT_NEAR(count_of(seen, Seen::ink), disc_area(outer) - disc_area(inner),
                             tolerance * 2)
-                    << size.x << ", distance " << distance << ", least " << least;
-                EXPECT_NEAR(count_of(seen, Seen::body), disc_area(inner), tolerance * 2);
+                    << "inked " << what;
+                ASSERT_NEAR(count_of(seen, Seen::body), disc_area(inner), tolerance * 2)
+                    << "other " << what;
             }
 }
 
@@ -100,12 +106,15 @@ TEST(Toon, HardCase_TheFacingOutlineFailsOnACube) {
         const Image<Seen> seen = seen_in(toon_picture(cube, options));
         const int in = count_of(seen, Seen::ink), body = count_of(seen, Seen::body);
         with_a_flooded_face += in > (in + body) / 20;
-        EXPECT_GT(gaps_in_outline(seen), 100) << yaw;  // of about 250 pixels of its border
+        ASSERT_GT(gaps_in_outline(seen), 100)  // of about 250 pixels of its border
+            << "gaps in the outline of a cube by the facing ratio, with --yaw " << yaw;
 
         options.shading.outline = Outline::hull;
-        EXPECT_EQ(gaps_in_outline(seen_in(toon_picture(cube, options))), 0) << yaw;
+        ASSERT_EQ(gaps_in_outline(seen_in(toon_picture(cube, options))), 0)
+            << "gaps in the outline of a cube by a hull or by edges, with --yaw " << yaw;
         options.shading.outline = Outline::edges;
-        EXPECT_EQ(gaps_in_outline(seen_in(toon_picture(cube, options))), 0) << yaw;
+        ASSERT_EQ(gaps_in_outline(seen_in(toon_picture(cube, options))), 0)
+            << "gaps in the outline of a cube by a hull or by edges, with --yaw " << yaw;
     }
     EXPECT_GT(with_a_flooded_face, 5);
 }
@@ -122,9 +131,11 @@ TEST(Toon, Eq7_8_VerticesOfACubeGrowOutwards) {
         ASSERT_EQ(cube.positions.size(), is_shared ? 8u : 24u);
         const std::vector<vec3> normals = hull_normals(cube);
         for (std::size_t i = 0; i < normals.size(); ++i)
-            for (int axis = 0; axis < 3;
-                 ++axis)  // by angles: not two thirds for one face's two triangles
-                EXPECT_NEAR(normals[i][axis], cube.positions[i][axis] / std::sqrt(3.0), 1e-6);
+            ASSERT_TRUE(are_near(normals[i], dvec3(cube.positions[i]) / std::sqrt(3.0), 1e-6))
+                << "hull_normals() at the cube's vertex " << shown(cube.positions[i])
+                << (is_shared ? ", one position for its faces"
+                              : ", a position for each of its faces")
+                << "; by angles: a face's two triangles do not count two thirds";
     }
 }
 
@@ -140,35 +151,44 @@ TEST(Toon, Eq7_8_EqualPositionsGetTheSameBits) {
         for (std::size_t k = 0; k < i; ++k)
             if (mesh.positions[i] == mesh.positions[k]) {
                 ++shared;
-                EXPECT_EQ(normals[i], normals[k]);
+                ASSERT_EQ(normals[i], normals[k])
+                    << "hull_normals() of positions " << i << " and " << k << ", both at "
+                    << shown(mesh.positions[i]) << "; in full: " << shown(normals[i]) << " and "
+                    << shown(normals[k]);
             }
     EXPECT_EQ(shared, 24);
 }
 
-TEST(Toon, Eq7_8_ASphereGrowsAlongItsRadii) {
+TEST(Toon, Eq7_8_SphereGrowsAlongItsRadii) {
     const Mesh mesh = sphere_mesh(64, 128);  // with seam and poles several times
     const std::vector<vec3> normals = hull_normals(mesh);
     for (const Triangle& triangle : mesh.triangles)
         for (const Vertex& vertex : triangle.vertices)  // the diagonals of quads turn it a bit
-            ASSERT_GT(glm::dot(normals[vertex.position], mesh.positions[vertex.position]), 0.9995f);
+            ASSERT_GT(glm::dot(normals[vertex.position], mesh.positions[vertex.position]), 0.9995f)
+                << "the cosine between " << shown(normals[vertex.position]) << " and the radius "
+                << shown(mesh.positions[vertex.position]);
 }
 
-TEST(Toon, Eq7_8_ASheetWithTwoSidesStays) {
+TEST(Toon, Eq7_8_SheetWithTwoSidesStays) {
     Mesh sheet;
     sheet.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
     sheet.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0},
                        {{Vertex{0}, Vertex{2}, Vertex{1}}, 0}};
-    for (const vec3 normal : hull_normals(sheet)) EXPECT_EQ(normal, vec3(0));
+    for (const vec3 normal : hull_normals(sheet)) EXPECT_EQ(normal, vec3(0)) << "both sides cancel";
     EXPECT_TRUE(hull_normals(Mesh()).empty());
 }
 
-TEST(Toon, Eq7_9_MovesByPixels) {
+TEST(Toon, Eq7_9_AnExampleStraightAhead) {
     // Straight ahead at w = 4, to the right: 3 of 100 pixels, which are 2 in NDC.
-    EXPECT_EQ(pushed({0, 0, 1, 4}, {1, 0, 0, 0}, 3, {100, 50}), vec4(0.24f, 0, 1, 4));
-    EXPECT_EQ(pushed({0, 0, 1, 4}, {0, 1, 0, 0}, 3, {100, 50}), vec4(0, 0.48f, 1, 4));
+    EXPECT_EQ(pushed({0, 0, 1, 4}, {1, 0, 0, 0}, 3, {100, 50}), vec4(0.24f, 0, 1, 4))
+        << "3 of 100 pixels to the right at w = 4: 3 * 2/100 * 4";
+    EXPECT_EQ(pushed({0, 0, 1, 4}, {0, 1, 0, 0}, 3, {100, 50}), vec4(0, 0.48f, 1, 4))
+        << "3 of 50 pixels up at w = 4: 3 * 2/50 * 4";
     // Straight towards the eye or away from it: it stays.
-    EXPECT_EQ(pushed({0, 0, 1, 4}, {0, 0, 1, -1}, 3, {100, 50}), vec4(0, 0, 1, 4));
-    EXPECT_EQ(pushed({2, 2, 1, 4}, {1, 1, 0, 2}, 3, {100, 50}), vec4(2, 2, 1, 4));
+    EXPECT_EQ(pushed({0, 0, 1, 4}, {0, 0, 1, -1}, 3, {100, 50}), vec4(0, 0, 1, 4))
+        << "towards the eye: it stays";
+    EXPECT_EQ(pushed({2, 2, 1, 4}, {1, 1, 0, 2}, 3, {100, 50}), vec4(2, 2, 1, 4))
+        << "away from the eye: it stays";
 }
 
 TEST(Toon, Eq7_9_MovesAlongItsNormal) {
@@ -182,14 +202,18 @@ TEST(Toon, Eq7_9_MovesAlongItsNormal) {
         const ivec2 size(1 + random() % 4000, 1 + random() % 4000);
         const float width = 10 * (1.01f + any(random));
         const vec4 moved = pushed(position, normal, width, size);
-        ASSERT_EQ(moved.z, position.z) << "seed 1, case " << i;
-        ASSERT_EQ(moved.w, position.w) << "seed 1, case " << i;
+        const std::string what = "pushed(" + shown(position) + ", " + shown(normal) + ", " +
+                                 shown(width) + ", " + testing::PrintToString(size) + ") is " +
+                                 shown(moved) + "; seed 1, case " + std::to_string(i);
+        ASSERT_EQ(moved.z, position.z) << what;
+        ASSERT_EQ(moved.w, position.w) << what;
 
         const auto from = on_screen({position.x, position.y, position.w}, size);
         const auto to = on_screen({moved.x, moved.y, moved.w}, size);
         const long double x = to[0] - from[0], y = to[1] - from[1];
         // A coordinate of up to w is rounded by 2^-24 of itself: of 4000 pixels, .0003.
-        ASSERT_LE(std::abs(std::hypot(x, y) - width), 0.001L) << "seed 1, case " << i;
+        ASSERT_LE(std::abs(std::hypot(x, y) - width), 0.001L)
+            << "on the screen it moves by " << std::hypot(x, y) << " pixels; " << what;
         // As a small step along the normal moves it.
         const long double step = 1e-6L * scale;
         const auto ahead = on_screen(
@@ -198,7 +222,10 @@ TEST(Toon, Eq7_9_MovesAlongItsNormal) {
         const long double ahead_x = ahead[0] - from[0], ahead_y = ahead[1] - from[1];
         const long double length = std::hypot(ahead_x, ahead_y);
         if (length < 1e-5L) continue;  // nearly towards the eye: float has no direction
-        ASSERT_GE((x * ahead_x + y * ahead_y) / (length * width), 0.999L) << "seed 1, case " << i;
+        ASSERT_GE((x * ahead_x + y * ahead_y) / (length * width), 0.999L)
+            << "the cosine between the ways on the screen, of this push and of a small step along "
+               "the normal; "
+            << what;
     }
 }
 
@@ -216,11 +243,15 @@ TEST(Toon, HardCase_TheHullIsAsWideAtAnyDistanceAndSize) {
                 const Image<Seen> seen = seen_in(toon_picture(sphere(), options));
                 const double body_radius_px =
                     std::sqrt(count_of(seen, Seen::body) / std::numbers::pi);
-                EXPECT_NEAR(body_radius_px, radius_px(1 / distance, options), 0.1);
+                const std::string what = " of a sphere " + shown(distance) + " radii away, width " +
+                                         shown(width) + ", in " + testing::PrintToString(size) +
+                                         " pixels";
+                ASSERT_NEAR(body_radius_px, radius_px(1 / distance, options), 0.1)
+                    << "the radius" << what;
                 // What counting pixels of two circles leaves: the mean width, to a seventh.
-                EXPECT_NEAR(width_px(count_of(seen, Seen::ink), body_radius_px), width, 0.15)
-                    << size.x << ", distance " << distance;
-                if (width >= 2) { EXPECT_EQ(gaps_in_outline(seen), 0); }
+                ASSERT_NEAR(width_px(count_of(seen, Seen::ink), body_radius_px), width, 0.15)
+                    << "the mean width of the rim" << what;
+                if (width >= 2) { ASSERT_EQ(gaps_in_outline(seen), 0) << "gaps" << what; }
             }
 }
 
@@ -242,8 +273,10 @@ TEST(Toon, HardCase_TheRimOfABodyOutsideReachesIn) {
         Image<vec3> color(size, paper_color);
         DepthBuffer depth(size);
         draw_hull(cube, hull_normals(cube), camera, width, depth, color, counters);
-        EXPECT_EQ(count(counters, Counter::outline_pixels) > 0, is_in) << width;
-        EXPECT_EQ(color[ivec2(0, 32)] == ink, is_in) << width;
+        EXPECT_EQ(count(counters, Counter::outline_pixels) > 0, is_in)
+            << "whether pixels are counted, of a cube just outside at the left, width " << width;
+        EXPECT_EQ(color[ivec2(0, 32)] == ink, is_in)
+            << "whether the rim reaches into pixel (0, 32), width " << width;
     }
 }
 
@@ -257,12 +290,16 @@ TEST(Toon, HardCase_TheHullOfACubeHasNoGaps) {
                 options.shading.outline = Outline::hull;
                 const Image<Seen> seen =
                     seen_in(toon_picture(scene_of_one(cube_mesh(is_shared)), options));
-                EXPECT_EQ(gaps_in_outline(seen), 0) << yaw << ", " << pitch;
+                const std::string what =
+                    "a cube whose faces " + std::string(is_shared ? "share" : "do not share") +
+                    " positions, with --yaw " + std::to_string(yaw) + " --pitch " + shown(pitch);
+                ASSERT_EQ(gaps_in_outline(seen), 0) << "gaps in the hull of " << what;
                 options.shading.outline = Outline::none;
                 const Image<Seen> bare =
                     seen_in(toon_picture(scene_of_one(cube_mesh(is_shared)), options));
                 // The hull lies outside: it hides nothing of the cube.
-                EXPECT_EQ(count_of(seen, Seen::body), count_of(bare, Seen::body)) << yaw;
+                ASSERT_EQ(count_of(seen, Seen::body), count_of(bare, Seen::body))
+                    << "pixels with a hull and without, of " << what;
             }
 }
 
@@ -290,7 +327,9 @@ TEST(Toon, Eq7_10_BacksOfFaces) {
                                    from_eye(2, 0) * minor(0, 1);
         if (std::abs(volume) < 1e-12L) continue;  // edge-on: either
         ASSERT_EQ(is_seen_from_behind(mesh, mesh.triangles[0], eye), volume > 0)
-            << "seed 3, case " << i;
+            << "whether the back is seen of " << shown(mesh.positions[0]) << ", "
+            << shown(mesh.positions[1]) << ", " << shown(mesh.positions[2]) << " from "
+            << shown(eye) << "; seed 3, case " << i;
         backs += volume > 0;
     }
     EXPECT_GT(backs, 40'000);

@@ -88,7 +88,11 @@ TEST(Toon, HardCase_OutlinesOfNoWidthChangeNothing) {
             options.shading.outline = outline;
             const Drawn with = drawn_toon(figure(), options);
             EXPECT_TRUE(are_the_same_bits(with.picture, without))
-                << yaw << ", outline " << static_cast<int>(outline);
+                << "an outline of no width, by "
+                << (outline == Outline::facing ? "the facing ratio"
+                    : outline == Outline::hull ? "a hull"
+                                               : "edges")
+                << ", and none; with --yaw " << yaw;
             EXPECT_GT(with.count(Counter::outline_tests), 10'000u);
             EXPECT_EQ(with.count(Counter::outline_pixels), 0u);
         }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 #include "07_toon/toon_variants.hpp"
 #include "common/math/numerics.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/printers.hpp"
 
 using namespace rasterbook;
@@ -72,9 +74,9 @@ TEST(Toon, Eq7_1_BrightnessIsTheLargestComponent) {
     for (int i = 0; i < 3; ++i) {
         vec3 light(0.5f);
         light[i] = not_a_number;
-        EXPECT_EQ(brightness(light), 0.5f);
+        EXPECT_EQ(brightness(light), 0.5f) << "of " << shown(light);
         light[i] = infinity;
-        EXPECT_EQ(brightness(light), infinity);
+        EXPECT_EQ(brightness(light), infinity) << "of " << shown(light);
     }
 }
 
@@ -88,16 +90,20 @@ TEST(Toon, Eq7_2_FourTones) {
                                   {0.75f, 3},
                                   {1.0f, 3},
                                   {2.4f, 3}})
-        EXPECT_EQ(tone_of(x, 4), tone) << x;
+        ASSERT_EQ(tone_of(x, 4), tone) << "the tone of the brightness " << x << ", of 4";
 }
 
 TEST(Toon, Eq7_2_ThresholdsToTheLastBit) {
     for (int n = 1; n <= max_tones; ++n)
         for (int k = 1; k < n; ++k) {
             const float at = threshold(k, n);
-            ASSERT_EQ(tone_of(std::nextafter(at, 0.0f), n), k - 1) << k << " of " << n;
-            ASSERT_EQ(tone_of(at, n), k) << k << " of " << n;
-            ASSERT_EQ(tone_of(std::nextafter(at, 2.0f), n), k) << k << " of " << n;
+            const std::string what = ", of " + std::to_string(n) + " tones; the threshold is " +
+                                     std::to_string(k) + "/" + std::to_string(n) +
+                                     ", and the least float there is " + shown(at);
+            const float below = std::nextafter(at, 0.0f), above = std::nextafter(at, 2.0f);
+            ASSERT_EQ(tone_of(below, n), k - 1) << "the tone of " << shown(below) << what;
+            ASSERT_EQ(tone_of(at, n), k) << "the tone of " << shown(at) << what;
+            ASSERT_EQ(tone_of(above, n), k) << "the tone of " << shown(above) << what;
         }
 }
 
@@ -107,7 +113,8 @@ TEST(Toon, Eq7_2_IsExactForAllNumbers) {
     for (int i = 0; i < 1'000'000; ++i) {
         const float x = any(random);
         const int n = 1 + static_cast<int>(random() % max_tones);
-        ASSERT_EQ(tone_of(x, n), exact_tone(x, n)) << "seed 1, case " << i;
+        ASSERT_EQ(tone_of(x, n), exact_tone(x, n))
+            << "the tone of the brightness " << shown(x) << ", of " << n << "; seed 1, case " << i;
     }
 }
 
@@ -115,19 +122,22 @@ TEST(Toon, Eq7_3_Levels) {
     EXPECT_EQ(level_of(0, 4), 0);
     EXPECT_EQ(level_of(1, 4), 1.0f / 3);
     EXPECT_EQ(level_of(2, 4), 2.0f / 3);
-    EXPECT_EQ(level_of(3, 4), 1);
+    EXPECT_EQ(level_of(3, 4), 1) << "the brightest of 4 tones is full light";
+    EXPECT_EQ(level_of(0, 1), 1) << "a single tone is full light";
     for (int n = 2; n <= max_tones; ++n) {
-        EXPECT_EQ(level_of(0, n), 0);
-        EXPECT_EQ(level_of(n - 1, n), 1);
-        for (int k = 1; k < n; ++k) ASSERT_GT(level_of(k, n), level_of(k - 1, n));
+        ASSERT_EQ(level_of(0, n), 0) << "of the darkest of " << n << " tones";
+        ASSERT_EQ(level_of(n - 1, n), 1) << "of the brightest of " << n << " tones";
+        for (int k = 1; k < n; ++k)
+            ASSERT_GT(level_of(k, n), level_of(k - 1, n))
+                << "the levels of the tones " << k << " and " << k - 1 << ", of " << n;
     }
 }
 
 TEST(Toon, HardCase_OneToneIsOneColor) {
     look_up("Eq. 7.3");
     for (const float x : {0.0f, 0.5f, 1.0f, -1.0f, 1e30f, infinity, -infinity, not_a_number}) {
-        EXPECT_EQ(quantised(x, 1), 1) << x;
-        EXPECT_EQ(smoothly_quantised(x, 0.1f, 1), 1) << x;
+        ASSERT_EQ(quantised(x, 1), 1) << "brightness " << x;
+        ASSERT_EQ(smoothly_quantised(x, 0.1f, 1), 1) << "brightness " << x;
     }
 }
 
@@ -145,9 +155,9 @@ TEST(Toon, HardCase_SpecialBrightnesses) {
     for (int n = 1; n <= max_tones; ++n) {
         for (const float x : {-0.0f, -1.0f, -FLT_MAX, -infinity, not_a_number, FLT_MIN,
                               std::numeric_limits<float>::denorm_min()})
-            ASSERT_EQ(tone_of(x, n), 0) << x << ", " << n;
+            ASSERT_EQ(tone_of(x, n), 0) << "brightness " << x << ", of " << n << " tones";
         for (const float x : {1.0f, std::nextafter(1.0f, 2.0f), 1e10f, FLT_MAX, infinity})
-            ASSERT_EQ(tone_of(x, n), n - 1) << x << ", " << n;
+            ASSERT_EQ(tone_of(x, n), n - 1) << "brightness " << x << ", of " << n << " tones";
     }
 }
 
@@ -157,14 +167,18 @@ TEST(Toon, Eq7_4_PaintOfALevel) {
     constexpr float tolerance = 2 * FLT_EPSILON;
     const vec3 painted = toon(some_color, around, {{0.3f, 0.6f, 0.1f}, vec3(0)}, 4);
     const dvec3 expected(0.01 + 0.01 + 0.4 * 2 / 3, 0.04 + 0.5 * 2 / 3, 0.15 + 0.6 * 2 / 3);
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(painted[i], expected[i], tolerance);
-    EXPECT_EQ(paint(some_color, around, 0, true), vec3(1));
+    EXPECT_TRUE(are_near(painted, expected, tolerance))
+        << "toon() in the diffuse light (0.3, 0.6, 0.1), tone 2 of 4, level 2/3: Ke + Ka Ia + Kd "
+           "2/3 of Ka = (0.1, 0.2, 0.3), Kd = (0.4, 0.5, 0.6), Ke = (0.01, 0, 0), Ia = (0.1, 0.2, "
+           "0.5)";
+    EXPECT_EQ(paint(some_color, around, 0, true), vec3(1)) << "white in a highlight";
 }
 
-TEST(Toon, Eq7_4_ATonesColorDoesNotDependOnTheLights) {
+TEST(Toon, Eq7_4_TonesHaveOneColorInAnyLight) {
     const vec3 around(0.1f);
     EXPECT_EQ(toon(some_color, around, {{0.6f, 0.1f, 0.2f}, vec3(0)}, 4),
-              toon(some_color, around, {{0.5f, 0.5f, 0.7f}, vec3(0)}, 4));
+              toon(some_color, around, {{0.5f, 0.5f, 0.7f}, vec3(0)}, 4))
+        << "both lights are in tone 2 of 4";
 }
 
 TEST(Toon, Eq7_4_HighlightsAreWhiteFromOneHalfOn) {
@@ -173,17 +187,19 @@ TEST(Toon, Eq7_4_HighlightsAreWhiteFromOneHalfOn) {
         return toon(color, vec3(0.1f), {vec3(0.6f), vec3(specular, 0, 0)}, 4);
     };
     color.specular = vec3(1);
-    EXPECT_EQ(painted(min_tone_highlight), vec3(1));
-    EXPECT_EQ(painted(10), vec3(1));
-    EXPECT_NE(painted(std::nextafter(min_tone_highlight, 0.0f)), vec3(1));
+    EXPECT_EQ(painted(min_tone_highlight), vec3(1)) << "Ks = 1, specular light 1/2";
+    EXPECT_EQ(painted(10), vec3(1)) << "Ks = 1, specular light 10";
+    EXPECT_NE(painted(std::nextafter(min_tone_highlight, 0.0f)), vec3(1))
+        << "Ks = 1, specular light just below 1/2";
     color.specular = vec3(0.25f);  // the material counts
-    EXPECT_EQ(painted(2), vec3(1));
-    EXPECT_NE(painted(std::nextafter(2.0f, 0.0f)), vec3(1));
+    EXPECT_EQ(painted(2), vec3(1)) << "Ks = 1/4, specular light 2: together 1/2";
+    EXPECT_NE(painted(std::nextafter(2.0f, 0.0f)), vec3(1))
+        << "Ks = 1/4, specular light just below 2: together below 1/2";
     color.specular = vec3(0);
-    EXPECT_EQ(painted(1e30f), painted(0));
+    EXPECT_EQ(painted(1e30f), painted(0)) << "Ks = 0: no highlight in any light";
 }
 
-TEST(Toon, Eq7_5_WorkedExample) {
+TEST(Toon, Eq7_5_ExampleOfAQuarter) {
     // A quarter of a pixel in tone 1, three quarters in tone 2.
     EXPECT_FLOAT_EQ(smoothly_quantised(0.525f, 0.1f, 4), 0.25f / 3 + 0.75f * 2 / 3);
     EXPECT_FLOAT_EQ(smoothly_quantised(0.5f, 0.1f, 4), 0.5f);
@@ -202,7 +218,10 @@ TEST(Toon, Eq7_5_IsTheMeanOfTheTones) {
         constexpr long double tolerance = 0x1p-25L + 10 * 0x1p-52L * 0x1p18L;
         ASSERT_LE(std::abs(smoothly_quantised(x, change, n) - exact_mean(x - half, x + half, n)),
                   tolerance)
-            << "seed 2, case " << i << ": " << x << ", " << change << ", " << n;
+            << "smoothly_quantised(" << shown(x) << ", " << shown(change) << ", " << n << ") is "
+            << shown(smoothly_quantised(x, change, n)) << " instead of "
+            << exact_mean(x - half, x + half, n) << "; it is given: see tone_of() and level_of();"
+            << " seed 2, case " << i;
     }
 }
 
@@ -211,7 +230,8 @@ TEST(Toon, Eq7_5_WithoutChangeTonesAreHard) {
         for (int i = 0; i <= 1000; ++i) {
             const float x = 0.001f * static_cast<float>(i);
             for (const int n : {1, 2, 4, 255})
-                ASSERT_EQ(smoothly_quantised(x, change, n), quantised(x, n));
+                ASSERT_EQ(smoothly_quantised(x, change, n), quantised(x, n))
+                    << "brightness " << x << ", change " << change << ", of " << n << " tones";
         }
     EXPECT_EQ(highlight_share(min_tone_highlight, 0), 1);
     EXPECT_EQ(highlight_share(std::nextafter(min_tone_highlight, 0.0f), 0), 0);
@@ -223,12 +243,12 @@ TEST(Toon, Eq7_5_WithoutChangeTonesAreHard) {
 
 TEST(Toon, Eq7_6_FacingRatio) {
     const vec3 normal(0, 0.6f, 0.8f);
-    EXPECT_EQ(facing_ratio({0, 1, 0}, {0, 1, 0}), 1);
-    EXPECT_EQ(facing_ratio(normal, {0, 1, 0}), 0.6f);
-    EXPECT_EQ(facing_ratio(normal, {1, 0, 0}), 0);
-    EXPECT_EQ(facing_ratio(normal, {0, -1, 0}), 0);
-    EXPECT_EQ(facing_ratio(vec3(not_a_number), {0, 1, 0}), 0);
-    EXPECT_TRUE(is_facing_outline(0.3f, 0.35f));
-    EXPECT_FALSE(is_facing_outline(0.35f, 0.35f));
-    EXPECT_FALSE(is_facing_outline(0, 0));  // 0: no outline
+    EXPECT_EQ(facing_ratio({0, 1, 0}, {0, 1, 0}), 1) << "N = V";
+    EXPECT_EQ(facing_ratio(normal, {0, 1, 0}), 0.6f) << "N = (0, 0.6, 0.8), V = (0, 1, 0)";
+    EXPECT_EQ(facing_ratio(normal, {1, 0, 0}), 0) << "N at a right angle to V";
+    EXPECT_EQ(facing_ratio(normal, {0, -1, 0}), 0) << "N leads away from V";
+    EXPECT_EQ(facing_ratio(vec3(not_a_number), {0, 1, 0}), 0) << "N is NaN";
+    EXPECT_TRUE(is_facing_outline(0.3f, 0.35f)) << "a ratio of 0.3 is below 0.35: ink";
+    EXPECT_FALSE(is_facing_outline(0.35f, 0.35f)) << "a ratio of 0.35 is not below 0.35";
+    EXPECT_FALSE(is_facing_outline(0, 0)) << "no ratio is below 0: no outline";
 }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Comparisons whose failures show both values whole, the reader's first, and how they differ.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "common/image/image.hpp"
+#include "common/math/types.hpp"
+
+namespace rasterbook::test {
+
+/// With as few digits as tell it from the floats beside it.
+inline std::string shown(float x) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, x).ptr};
+}
+
+template <glm::length_t n>
+std::string shown(const glm::vec<n, float>& v) {
+    std::string text;
+    for (glm::length_t i = 0; i < n; ++i) text += (i == 0 ? "(" : ", ") + shown(v[i]);
+    return text + ')';
+}
+
+/// How many floats `a` is above `b`; of finite numbers.
+inline std::int64_t ulps_above(float a, float b) {
+    const auto rank = [](float x) {
+        const auto bits = std::bit_cast<std::int32_t>(x);
+        return std::int64_t{bits < 0 ? std::numeric_limits<std::int32_t>::min() - bits : bits};
+    };
+    return rank(a) - rank(b);
+}
+
+/// ", 3 ulps more" where two numbers are neighbours or nearly so; else nothing.
+inline std::string apart(float actual, float expected) {
+    if (!std::isfinite(actual) || !std::isfinite(expected)) return "";
+    const std::int64_t ulps = ulps_above(actual, expected), size = ulps < 0 ? -ulps : ulps;
+    if (size == 0 || size > 64) return "";
+    return ", " + std::to_string(size) + (size == 1 ? " ulp " : " ulps ") +
+           (ulps > 0 ? "more" : "less");
+}
+
+/// For EXPECT_TRUE: each component within the tolerance.
+template <glm::length_t n>
+testing::AssertionResult are_near(const glm::vec<n, float>& actual,
+                                  const glm::vec<n, double>& expected, double tolerance) {
+    for (glm::length_t i = 0; i < n; ++i)
+        if (!(std::abs(actual[i] - expected[i]) <= tolerance)) {
+            std::ostringstream message;
+            message << shown(actual) << " instead of " << shown(glm::vec<n, float>(expected))
+                    << "; component " << i << " is off by " << std::abs(actual[i] - expected[i])
+                    << ", and may be by " << tolerance
+                    << apart(actual[i], static_cast<float>(expected[i]));
+            return testing::AssertionFailure() << message.str();
+        }
+    return testing::AssertionSuccess();
+}
+
+/// For EXPECT_TRUE: pictures in which every pixel is the same.
+inline testing::AssertionResult are_the_same(const Image<vec3>& actual,
+                                             const Image<vec3>& expected) {
+    if (actual.size() != expected.size())
+        return testing::AssertionFailure() << "the sizes of the pictures differ";
+    int differing = 0;
+    ivec2 first(-1);
+    for (ivec2 p(0); p.y < actual.size().y; ++p.y)
+        for (p.x = 0; p.x < actual.size().x; ++p.x)
+            if (actual[p] != expected[p] && differing++ == 0) first = p;
+    if (differing == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << differing << " pixels differ, the first is (" << first.x << ", " << first.y
+           << "): " << shown(actual[first]) << " instead of " << shown(expected[first]);
+}
+
+}  // namespace rasterbook::test
