@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,13 +38,20 @@ constexpr double most_off_a_right_angle = 1e-6;
 
 testing::AssertionResult is_orthonormal(const TangentFrame& frame) {
     const dvec3 t = frame.tangent, b = frame.bitangent, n = frame.normal;
-    for (const double off : {glm::length(t) - 1, glm::length(b) - 1, glm::length(n) - 1,
-                             glm::dot(t, n), glm::dot(b, n), glm::dot(t, b)})
+    const std::pair<const char*, double> all[] = {
+        {"the tangent's length less 1", glm::length(t) - 1},
+        {"the bitangent's length less 1", glm::length(b) - 1},
+        {"the normal's length less 1", glm::length(n) - 1},
+        {"the dot product of tangent and normal", glm::dot(t, n)},
+        {"the dot product of bitangent and normal", glm::dot(b, n)},
+        {"the dot product of tangent and bitangent", glm::dot(t, b)}};
+    for (const auto& [what, off] : all)
         if (!(std::abs(off) <= most_off_a_right_angle))  // also for NaN
             return testing::AssertionFailure()
-                   << testing::PrintToString(frame.tangent) << " "
-                   << testing::PrintToString(frame.bitangent) << " "
-                   << testing::PrintToString(frame.normal) << ": off by " << off;
+                   << what << " is " << off << ", expected 0; tangent "
+                   << testing::PrintToString(frame.tangent) << ", bitangent "
+                   << testing::PrintToString(frame.bitangent) << ", normal "
+                   << testing::PrintToString(frame.normal);
     return testing::AssertionSuccess();
 }
 
@@ -51,7 +59,53 @@ testing::AssertionResult are_near(vec3 actual, vec3 expected, float tolerance = 
     const vec3 off = glm::abs(actual - expected);
     if (std::max({off.x, off.y, off.z}) <= tolerance) return testing::AssertionSuccess();
     return testing::AssertionFailure()
-           << testing::PrintToString(actual) << " instead of " << testing::PrintToString(expected);
+           << testing::PrintToString(actual) << ", expected " << testing::PrintToString(expected);
+}
+
+/// "the triangle (0, 0, 0), (1, 0, 0), (0, 1, 0) with uvs (0, 0), (1, 0), (0, 1)"
+std::string named(const std::array<vec3, 3>& positions, const std::array<vec2, 3>& uvs) {
+    const auto list = [](const auto& all) {
+        return testing::PrintToString(all[0]) + ", " + testing::PrintToString(all[1]) + ", " +
+               testing::PrintToString(all[2]);
+    };
+    return "the triangle " + list(positions) + " with uvs " + list(uvs);
+}
+
+/// For EXPECT_TRUE: what uv_directions() finds.
+testing::AssertionResult has_directions(const std::array<vec3, 3>& positions,
+                                        const std::array<vec2, 3>& uvs,
+                                        const UvDirections& expected, float tolerance = roundings) {
+    const UvDirections found = uv_directions(positions, uvs);
+    const auto wrong = [&](const char* what) {
+        return testing::AssertionFailure()
+               << "the " << what << " of " << named(positions, uvs) << ": ";
+    };
+    if (const auto is = are_near(found.tangent, expected.tangent, tolerance); !is)
+        return wrong("tangent") << is.message();
+    if (const auto is = are_near(found.bitangent, expected.bitangent, tolerance); !is)
+        return wrong("bitangent") << is.message();
+    if (found.handedness != expected.handedness)
+        return wrong("handedness") << found.handedness << ", expected " << expected.handedness;
+    return testing::AssertionSuccess();
+}
+
+/// For EXPECT_TRUE: the frame that tangent_frame() makes.
+testing::AssertionResult has_frame(vec3 tangent, vec3 normal, float handedness,
+                                   const TangentFrame& expected) {
+    const TangentFrame found = tangent_frame(tangent, normal, handedness);
+    const auto wrong = [&](const char* what) {
+        return testing::AssertionFailure()
+               << "tangent_frame() of tangent " << testing::PrintToString(tangent) << ", normal "
+               << testing::PrintToString(normal) << ", handedness " << handedness << ": its "
+               << what << " is ";
+    };
+    if (const auto is = are_near(found.tangent, expected.tangent); !is)
+        return wrong("tangent") << is.message();
+    if (const auto is = are_near(found.bitangent, expected.bitangent); !is)
+        return wrong("bitangent") << is.message();
+    if (const auto is = are_near(found.normal, expected.normal); !is)
+        return wrong("normal") << is.message();
+    return testing::AssertionSuccess();
 }
 
 double degrees_between(vec3 a, vec3 b) {
@@ -117,6 +171,18 @@ Patch half_pipe(std::uint32_t strips) {
 
 }  // namespace
 
+TEST(NormalMaps, Eq8_2_ATextureThatLiesAsItIs) {
+    // u along x, v along y: the first side is 1 T + 0 B, the second 0 T + 1 B.
+    EXPECT_TRUE(has_directions({vec3(0), along_x, along_y}, {vec2(0), {1, 0}, {0, 1}},
+                               {along_x, along_y, 1}));
+    EXPECT_TRUE(has_directions({vec3(0), along_x, along_y}, {vec2(0), {-1, 0}, {0, 1}},
+                               {-along_x, along_y, -1}))
+        << "mirrored: u grows the other way, v does not";
+    // Twice along u: the first side is 2 T, which is T in direction.
+    EXPECT_TRUE(has_directions({vec3(0), along_x, along_y}, {vec2(0), {2, 0}, {0, 1}},
+                               {along_x, along_y, 1}));
+}
+
 TEST(NormalMaps, Eq8_2_SidesAreSumsOfTheDirections) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-1, 1);
@@ -133,50 +199,44 @@ TEST(NormalMaps, Eq8_2_SidesAreSumsOfTheDirections) {
         const dvec3 tangent = glm::length(d2.y * e1 - d1.y * e2) / area * dvec3(found.tangent);
         const dvec3 bitangent = glm::length(d1.x * e2 - d2.x * e1) / area * dvec3(found.bitangent);
         const double size = glm::length(tangent) + glm::length(bitangent);
-        EXPECT_LT(glm::length(d1.x * tangent + d1.y * bitangent - e1), 4 * FLT_EPSILON * size)
-            << "seed 1, case " << i;
-        EXPECT_LT(glm::length(d2.x * tangent + d2.y * bitangent - e2), 4 * FLT_EPSILON * size)
-            << "seed 1, case " << i;
+        ASSERT_LT(glm::length(d1.x * tangent + d1.y * bitangent - e1), 4 * FLT_EPSILON * size)
+            << "u1 T + v1 B is " << testing::PrintToString(vec3(d1.x * tangent + d1.y * bitangent))
+            << ", and e1 is " << testing::PrintToString(vec3(e1)) << " of " << named(p, t)
+            << " (seed 1, case " << i << ")";
+        ASSERT_LT(glm::length(d2.x * tangent + d2.y * bitangent - e2), 4 * FLT_EPSILON * size)
+            << "u2 T + v2 B is " << testing::PrintToString(vec3(d2.x * tangent + d2.y * bitangent))
+            << ", and e2 is " << testing::PrintToString(vec3(e2)) << " of " << named(p, t)
+            << " (seed 1, case " << i << ")";
     }
 }
 
-TEST(NormalMaps, Eq8_3_WorkedExample) {
+TEST(NormalMaps, Eq8_3_AWorkedExample) {
     const std::array<vec3, 3> p{vec3(1, 0, 1), {4, 0, 1}, {1, 0, -2}};
-    const UvDirections found = uv_directions(p, {vec2(0), {0.5f, 0.25f}, {0.25f, 0.5f}});
     const float s = std::sqrt(0.2f);
-    EXPECT_TRUE(are_near(found.tangent, {2 * s, 0, s}));
-    EXPECT_TRUE(are_near(found.bitangent, {-s, 0, -2 * s}));
-    EXPECT_EQ(found.handedness, 1);
+    EXPECT_TRUE(has_directions(p, {vec2(0), {0.5f, 0.25f}, {0.25f, 0.5f}},
+                               {{2 * s, 0, s}, {-s, 0, -2 * s}, 1}));
     // Its mirror image.
-    const UvDirections mirrored = uv_directions(p, {vec2(0), {-0.5f, 0.25f}, {-0.25f, 0.5f}});
-    EXPECT_TRUE(are_near(mirrored.tangent, {-2 * s, 0, -s}));
-    EXPECT_TRUE(are_near(mirrored.bitangent, {-s, 0, -2 * s}));
-    EXPECT_EQ(mirrored.handedness, -1);
-    // The frame is orthogonal all the same.
-    EXPECT_TRUE(are_near(tangent_frame(found.tangent, along_y, 1.0f).bitangent, {s, 0, -2 * s}));
+    EXPECT_TRUE(has_directions(p, {vec2(0), {-0.5f, 0.25f}, {-0.25f, 0.5f}},
+                               {{-2 * s, 0, -s}, {-s, 0, -2 * s}, -1}))
+        << "mirrored: without the determinant's sign both directions turn round";
 }
 
 TEST(NormalMaps, Eq8_3_DirectionsOfKnownTriangles) {
     // u along x, v along y; of any size on either side.
     for (const float size : {1e-30f, 1e-3f, 1.0f, 1e30f})
         for (const float of_texture : {1e-30f, 1.0f, 1e30f}) {
-            const UvDirections found = uv_directions({vec3(0), {size, 0, 0}, {0, size, 0}},
-                                                     {vec2(0), {of_texture, 0}, {0, of_texture}});
-            EXPECT_EQ(found.tangent, along_x);
-            EXPECT_EQ(found.bitangent, along_y);
-            EXPECT_EQ(found.handedness, 1);
+            ASSERT_TRUE(has_directions({vec3(0), {size, 0, 0}, {0, size, 0}},
+                                       {vec2(0), {of_texture, 0}, {0, of_texture}},
+                                       {along_x, along_y, 1}, 0));
         }
     // The texture turned by a quarter: u grows down along -y, v along x.
-    const UvDirections turned =
-        uv_directions({vec3(0), {1, 0, 0}, {0, 1, 0}}, {vec2(0), {0, 1}, {-1, 0}});
-    EXPECT_EQ(turned.tangent, -along_y);
-    EXPECT_EQ(turned.bitangent, along_x);
-    EXPECT_EQ(turned.handedness, 1);
+    EXPECT_TRUE(has_directions({vec3(0), {1, 0, 0}, {0, 1, 0}}, {vec2(0), {0, 1}, {-1, 0}},
+                               {-along_y, along_x, 1}, 0));
     // Slanted: lines of equal u need not stand at right angles to lines of equal v.
-    const UvDirections slanted =
-        uv_directions({vec3(0), {2, 0, 0}, {1, 1, 0}}, {vec2(0), {1, 0}, {0, 1}});
-    EXPECT_EQ(slanted.tangent, along_x);
-    EXPECT_TRUE(are_near(slanted.bitangent, std::sqrt(0.5f) * vec3(1, 1, 0)));
+    const std::array<vec3, 3> p{vec3(0), {2, 0, 0}, {1, 1, 0}};
+    const std::array<vec2, 3> uvs{vec2(0), {1, 0}, {0, 1}};
+    EXPECT_TRUE(has_directions(p, uvs, {along_x, std::sqrt(0.5f) * vec3(1, 1, 0), 1}));
+    EXPECT_EQ(uv_directions(p, uvs).tangent, along_x) << named(p, uvs);
 }
 
 TEST(NormalMaps, Eq8_3_DirectionsDoNotDependOnTheFirstVertex) {
@@ -198,10 +258,16 @@ TEST(NormalMaps, Eq8_3_DirectionsDoNotDependOnTheFirstVertex) {
             const UvDirections other =
                 uv_directions({at(p, a), at(p, b), at(p, c)}, {at(t, a), at(t, b), at(t, c)});
             // Roundings of double are far below those to float, but for very thin triangles.
-            EXPECT_TRUE(are_near(other.tangent, first.tangent)) << "seed 2, case " << i;
-            EXPECT_TRUE(are_near(other.bitangent, first.bitangent)) << "seed 2, case " << i;
-            EXPECT_EQ(other.handedness,
-                      b - a == 1 || b - a == -2 ? first.handedness : -first.handedness);
+            const auto order = [&, a = a, b = b, c = c] {
+                return "the vertices in the order " + std::to_string(a) + std::to_string(b) +
+                       std::to_string(c) + " of " + named(p, t) + " (seed 2, case " +
+                       std::to_string(i) + ")";
+            };
+            ASSERT_TRUE(are_near(other.tangent, first.tangent)) << "the tangent, " << order();
+            ASSERT_TRUE(are_near(other.bitangent, first.bitangent)) << "the bitangent, " << order();
+            ASSERT_EQ(other.handedness,
+                      b - a == 1 || b - a == -2 ? first.handedness : -first.handedness)
+                << order();
         }
     }
 }
@@ -226,11 +292,13 @@ TEST(NormalMaps, Eq8_4_HandednessSaysWhereTheBitangentLies) {
         const double triple =
             glm::dot(glm::cross(dvec3(found.tangent), dvec3(found.bitangent)), glm::normalize(out));
         if (std::abs(triple) < 1e-5) continue;  // T and B nearly parallel
-        EXPECT_EQ(triple > 0 ? 1 : -1, found.handedness) << "seed 3, case " << i;
+        ASSERT_EQ(found.handedness, triple > 0 ? 1 : -1)
+            << "T x B leads " << (triple > 0 ? "out of" : "into") << " the surface of "
+            << named(q, t) << " (seed 3, case " << i << ")";
     }
 }
 
-TEST(NormalMaps, Eq8_4_HandednessIsExactWhereProductsAgree) {
+TEST(NormalMaps, Eq8_4_TheSignIsExactWhereProductsAgree) {
     // Two vertices far out on the line u = v, and one near the origin, a little beside that line or
     // on it. The determinant's products agree in all digits of a double, or nearly.
     std::mt19937 random(6);
@@ -246,23 +314,30 @@ TEST(NormalMaps, Eq8_4_HandednessIsExactWhereProductsAgree) {
         const std::array<vec2, 3> t{vec2(u, v), vec2(first), vec2(second)};
         // The determinant is (first - second) (u - v): multiply it out.
         const int expected = ((first > second) - (first < second)) * ((u > v) - (u < v));
-        EXPECT_EQ(uv_directions(p, t).handedness, expected) << "seed 6, case " << i;
         // From each vertex the same.
-        EXPECT_EQ(uv_directions(p, {t[1], t[2], t[0]}).handedness, expected) << "case " << i;
-        EXPECT_EQ(uv_directions(p, {t[2], t[0], t[1]}).handedness, expected) << "case " << i;
+        for (const std::array<vec2, 3>& uvs :
+             {t, std::array{t[1], t[2], t[0]}, std::array{t[2], t[0], t[1]}})
+            ASSERT_EQ(uv_directions(p, uvs).handedness, expected)
+                << named(p, uvs)
+                << ": the determinant's products round to nearly the same number; "
+                   "difference_of_products() knows their difference (seed 6, case "
+                << i << ")";
         const dvec2 d1 = dvec2(t[1]) - dvec2(t[0]), d2 = dvec2(t[2]) - dvec2(t[0]);
         agree += expected != 0 && d1.x * d2.y == d2.x * d1.y;
     }
     EXPECT_GT(agree, 5000);
 }
 
-TEST(NormalMaps, Eq8_5_WorkedExample) {
+TEST(NormalMaps, Eq8_5_AWorkedExample) {
     const vec3 n(0.6f, 0.8f, 0);
-    EXPECT_TRUE(are_near(across(along_x, n), {0.64f, -0.48f, 0}));
-    const TangentFrame frame = tangent_frame(along_x, n, 1.0f);
-    EXPECT_TRUE(are_near(frame.tangent, {0.8f, -0.6f, 0}));
-    EXPECT_TRUE(are_near(frame.bitangent, -along_z));
-    EXPECT_TRUE(are_near(tangent_frame(along_x, n, -1.0f).bitangent, along_z));
+    EXPECT_TRUE(are_near(across(along_x, n), {0.64f, -0.48f, 0}))
+        << "what across() leaves of (1, 0, 0), with the normal (0.6, 0.8, 0)";
+    EXPECT_TRUE(has_frame(along_x, n, 1, {{0.8f, -0.6f, 0}, -along_z, n}));
+    EXPECT_TRUE(has_frame(along_x, n, -1, {{0.8f, -0.6f, 0}, along_z, n}));
+    // Of a texture that lies slanted, as in the example with Eq. 8.3: orthogonal all the same.
+    const float s = std::sqrt(0.2f);
+    const vec3 tangent(2 * s, 0, s);
+    EXPECT_TRUE(has_frame(tangent, along_y, 1, {tangent, {s, 0, -2 * s}, along_y}));
 }
 
 TEST(NormalMaps, Eq8_5_TheComponentAlongTheNormalIsRemoved) {
@@ -275,8 +350,8 @@ TEST(NormalMaps, Eq8_5_TheComponentAlongTheNormalIsRemoved) {
         for (const float length : {1e-37f, 1e-10f, 1e10f, 1e37f}) {
             const TangentFrame other =
                 tangent_frame(length * vec3(0.8f, 0, 0.6f), length * along_z, handedness);
-            EXPECT_TRUE(are_near(other.tangent, along_x)) << length;
-            EXPECT_TRUE(is_orthonormal(other)) << length;
+            ASSERT_TRUE(are_near(other.tangent, along_x)) << "all lengths times " << length;
+            ASSERT_TRUE(is_orthonormal(other)) << "all lengths times " << length;
         }
     }
     const TangentFrame steep = tangent_frame({0x1p-10f, 0, 1}, along_z, 1.0f);
@@ -292,7 +367,8 @@ TEST(NormalMaps, Eq8_5_FramesAreOrthonormal) {
         vec3 t(normal(random), normal(random), normal(random));
         if (i % 2) t = n + std::exp2(exponent(random)) * t;  // more and more along the normal
         ASSERT_TRUE(is_orthonormal(tangent_frame(t, n, i % 4 < 2 ? 1.0f : -1.0f)))
-            << "seed 4, case " << i;
+            << "of tangent " << testing::PrintToString(t) << ", normal "
+            << testing::PrintToString(n) << " (seed 4, case " << i << ")";
     }
 }
 
@@ -310,13 +386,16 @@ TEST(NormalMaps, Eq8_5_WhereNothingRemainsAnAxisIsTaken) {
     for (int i = 0; i < 100'000; ++i) {
         const vec3 n = unit_or({normal(random), normal(random), normal(random)}, along_x);
         const vec3 size = glm::abs(n), found = any_orthogonal(n);
-        EXPECT_NEAR(glm::dot(found, n), 0, 1e-6f) << "seed 7, case " << i;
-        EXPECT_NEAR(glm::length(found), 1, 1e-6f) << "seed 7, case " << i;
+        ASSERT_NEAR(glm::dot(found, n), 0, 1e-6f)
+            << "any_orthogonal() of " << testing::PrintToString(n) << " (seed 7, case " << i << ")";
+        ASSERT_NEAR(glm::length(found), 1, 1e-6f)
+            << "any_orthogonal() of " << testing::PrintToString(n) << " (seed 7, case " << i << ")";
         const float least = std::min({size.x, size.y, size.z});
         least_degrees = std::min(least_degrees, glm::degrees(std::acos(double{least})));
         // Its component along that axis is the largest possible: the sine of the angle to n.
-        EXPECT_NEAR(std::max({found.x, found.y, found.z}), std::sqrt(1 - least * least), 1e-6f)
-            << "seed 7, case " << i;
+        ASSERT_NEAR(std::max({found.x, found.y, found.z}), std::sqrt(1 - least * least), 1e-6f)
+            << "any_orthogonal() of " << testing::PrintToString(n)
+            << ": not along the axis to which it leans least (seed 7, case " << i << ")";
     }
     EXPECT_NEAR(least_degrees, 54.7, 0.3);
     // So little of the tangent may be left, and no less.
@@ -326,7 +405,7 @@ TEST(NormalMaps, Eq8_5_WhereNothingRemainsAnAxisIsTaken) {
     }
 }
 
-TEST(NormalMaps, Eq8_6_WorkedExample) {
+TEST(NormalMaps, Eq8_6_AWorkedExample) {
     // On the floor, around the origin: 90 degrees with u along x, 45 degrees with u along
     // (0.8, 0, -0.6). The uv of the second triangle: as far as its vertices lie along that, and
     // across it.
@@ -344,7 +423,8 @@ TEST(NormalMaps, Eq8_6_WorkedExample) {
                          {0.8f, 0, -0.6f}));
     for (std::size_t triangle = 0; triangle < 2; ++triangle) {
         const TangentFrame frame = patch.frame(triangle, 0);
-        EXPECT_TRUE(are_near(frame.tangent, unit_or({2.8f, 0, -0.6f}, along_x), 1e-6f));
+        ASSERT_TRUE(are_near(frame.tangent, unit_or({2.8f, 0, -0.6f}, along_x), 1e-6f))
+            << "the shared vertex's tangent: (1, 0, 0) at 90 degrees, (0.8, 0, -0.6) at 45";
         EXPECT_EQ(frame.normal, along_y);
     }
     EXPECT_NEAR(degrees_between(patch.frame(0, 0).tangent, along_x), 12.1, 0.05);
@@ -361,9 +441,10 @@ TEST(NormalMaps, Eq8_6_TangentsOfAPipePointAround) {
                 const vec3 around(out.z, 0, -out.x);
                 // At the two ends there is a face on one side only; orthogonal to the normal, its
                 // tangent points around all the same.
-                EXPECT_TRUE(are_near(vec3(tangents[vertex.normal]), around))
-                    << strips << " strips, vertex " << vertex.position;
-                EXPECT_EQ(tangents[vertex.normal].w, 1);
+                ASSERT_TRUE(are_near(vec3(tangents[vertex.normal]), around))
+                    << "half a pipe of " << strips << " strips, the vertex at "
+                    << testing::PrintToString(pipe.mesh.positions[vertex.position]);
+                ASSERT_EQ(tangents[vertex.normal].w, 1) << "handedness";
             }
     }
 }
@@ -385,7 +466,9 @@ TEST(NormalMaps, Eq8_6_AnglesCountAndNotTheNumberOfTriangles) {
             faces.insert(faces.end(), {{0, 6, 5}, {6, 4, 5}});
         const Patch patch(positions, uvs, faces);
         EXPECT_NEAR(degrees_between(patch.frame(2, 0).tangent, along_x), 30, 1e-4)
-            << through_the_vertex;
+            << "degrees between the shared vertex's tangent and x: two squares with tangents at 0 "
+               "and 60 degrees; the second is cut into triangles "
+            << (through_the_vertex ? "through that vertex" : "beside that vertex");
         // By itself the left square has its own: 60 degrees.
         EXPECT_NEAR(degrees_between(patch.frame(2, 1).tangent, along_x), 60, 1e-4);
         EXPECT_NEAR(degrees_between(patch.frame(0, 1).tangent, along_x), 0, 1e-4);
@@ -406,16 +489,17 @@ TEST(NormalMaps, HardCase_NoAreaInTheTexture) {
                                            {vec2(0), vec2(infinity, 0), vec2(0, 1)},
                                            {vec2(1e38f, 0), vec2(infinity), vec2(0, 1)}}) {
         const UvDirections found = uv_directions(p, uvs);
-        EXPECT_EQ(found.handedness, 0);
-        EXPECT_EQ(found.tangent, vec3(0));
-        EXPECT_EQ(found.bitangent, vec3(0));
+        ASSERT_EQ(found.handedness, 0) << named(p, uvs);
+        ASSERT_EQ(found.tangent, vec3(0)) << named(p, uvs);
+        ASSERT_EQ(found.bitangent, vec3(0)) << named(p, uvs);
         const Patch patch({p.begin(), p.end()}, {uvs.begin(), uvs.end()}, {{0, 1, 2}});
         for (std::size_t vertex = 0; vertex < 3; ++vertex) {
             const TangentFrame frame = patch.frame(0, vertex);
-            EXPECT_TRUE(is_orthonormal(frame));
-            EXPECT_EQ(frame.normal, along_z);
-            EXPECT_EQ(frame.tangent, along_x);  // the axis of the normal's smallest component
-            EXPECT_EQ(frame.bitangent, along_y);
+            ASSERT_TRUE(is_orthonormal(frame)) << named(p, uvs);
+            ASSERT_EQ(frame.normal, along_z) << named(p, uvs);
+            ASSERT_EQ(frame.tangent, along_x)
+                << "the axis to which the normal leans least; " << named(p, uvs);
+            ASSERT_EQ(frame.bitangent, along_y) << named(p, uvs);
         }
     }
     // Such a triangle leaves its neighbours' tangents alone.
@@ -433,10 +517,11 @@ TEST(NormalMaps, HardCase_NoAreaOnTheSurface) {
                                          {vec3(0), vec3(0), vec3(1)},
                                          {vec3(0), vec3(1), vec3(2)},
                                          {vec3(0), vec3(infinity), vec3(1, 0, 0)}}) {
-        EXPECT_EQ(uv_directions(p, uvs).handedness, 1);  // that is the texture's alone
+        ASSERT_EQ(uv_directions(p, uvs).handedness, 1)
+            << "that is the texture's alone; " << named(p, uvs);
         const Patch patch({p.begin(), p.end()}, {uvs.begin(), uvs.end()}, {{0, 1, 2}});
         for (std::size_t vertex = 0; vertex < 3; ++vertex)
-            EXPECT_TRUE(is_orthonormal(patch.frame(0, vertex)));
+            ASSERT_TRUE(is_orthonormal(patch.frame(0, vertex))) << named(p, uvs);
     }
     // With a vertex that is not finite there are no directions; the handedness remains.
     for (const float not_finite : {infinity, -infinity, std::nanf("")})
@@ -450,8 +535,7 @@ TEST(NormalMaps, HardCase_NoAreaOnTheSurface) {
         }
 }
 
-TEST(NormalMaps, HardCase_MirroredTexturesMeetInASeam) {
-    look_up("Eq. 8.6, handedness");
+TEST(NormalMaps, Eq8_6_AtAMirroredTexturesSeamTangentsAreNotMixed) {
     // Two squares beside each other, the second one with the texture mirrored at the seam x = 0.
     const Patch patch({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0}},
                       {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {1, 1}},
@@ -460,10 +544,15 @@ TEST(NormalMaps, HardCase_MirroredTexturesMeetInASeam) {
         for (std::size_t vertex = 0; vertex < 3; ++vertex) {
             const TangentFrame frame = patch.frame(triangle, vertex);
             const bool is_mirrored = triangle >= 2;
-            EXPECT_TRUE(is_orthonormal(frame));
-            EXPECT_EQ(frame.tangent, is_mirrored ? -along_x : along_x);
-            EXPECT_EQ(frame.bitangent, along_y);  // v grows upwards on either side
-            EXPECT_EQ(frame.normal, along_z);
+            const std::string where = std::string("two squares that meet at x = 0; ") +
+                                      (is_mirrored ? "the mirrored one on the left, triangle "
+                                                   : "the one on the right, triangle ") +
+                                      std::to_string(triangle) + ", vertex " +
+                                      std::to_string(vertex);
+            ASSERT_TRUE(is_orthonormal(frame)) << where;
+            ASSERT_EQ(frame.tangent, is_mirrored ? -along_x : along_x) << where;
+            ASSERT_EQ(frame.bitangent, along_y) << "v grows upwards on either side; " << where;
+            ASSERT_EQ(frame.normal, along_z) << where;
         }
 }
 
@@ -476,8 +565,9 @@ TEST(NormalMaps, HardCase_TexturesOfAnySize) {
         for (vec2& uv : pipe.mesh.uvs) uv *= scale;
         const std::vector<vec4> tangents = pipe.tangents(), plain = expected.tangents();
         for (std::size_t i = 0; i < plain.size(); ++i) {
-            EXPECT_TRUE(are_near(vec3(tangents[i]), vec3(plain[i])));
-            EXPECT_EQ(tangents[i].w, plain[i].w);
+            ASSERT_TRUE(are_near(vec3(tangents[i]), vec3(plain[i])))
+                << "uvs times " << testing::PrintToString(scale);
+            ASSERT_EQ(tangents[i].w, plain[i].w) << "uvs times " << testing::PrintToString(scale);
         }
     }
     // And the same of surfaces.
@@ -486,7 +576,7 @@ TEST(NormalMaps, HardCase_TexturesOfAnySize) {
         for (vec3& position : pipe.mesh.positions) position *= scale;
         const std::vector<vec4> tangents = pipe.tangents(), plain = expected.tangents();
         for (std::size_t i = 0; i < plain.size(); ++i)
-            EXPECT_TRUE(are_near(vec3(tangents[i]), vec3(plain[i]))) << scale;
+            ASSERT_TRUE(are_near(vec3(tangents[i]), vec3(plain[i]))) << "positions times " << scale;
     }
 }
 
@@ -496,10 +586,10 @@ TEST(NormalMaps, HardCase_TangentAlongTheNormal) {
                          unit_or(vec3(1), along_x), unit_or(vec3(-3, 1, 2), along_x)})
         for (const float length : {-1e30f, -1.0f, 0.0f, 1e-30f, 1.0f, 1e30f}) {
             const TangentFrame frame = tangent_frame(length * n, n, 1.0f);
-            EXPECT_TRUE(is_orthonormal(frame));
-            EXPECT_EQ(frame.tangent, any_orthogonal(frame.normal))
-                << testing::PrintToString(n) << length;
-            EXPECT_LT(glm::length(frame.normal - n), roundings);
+            ASSERT_TRUE(is_orthonormal(frame));
+            ASSERT_EQ(frame.tangent, any_orthogonal(frame.normal))
+                << "the tangent is " << length << " times the normal " << testing::PrintToString(n);
+            ASSERT_LT(glm::length(frame.normal - n), roundings);
         }
     // A file may have normals that are parallel to the surface's tangent.
     const Patch patch({vec3(0), along_x, along_y}, {vec2(0), {1, 0}, {0, 1}}, {{0, 1, 2}},
@@ -634,8 +724,10 @@ TEST(NormalMaps, Eq8_6_FansOfSlantedFaces) {
         for (std::size_t k = 0; k < count; ++k) {
             const vec4 found = patch.tangents()[patch.mesh.triangles[k].vertices[0].normal];
             // Some roundings of each of five terms up to pi, over the length of their sum.
-            EXPECT_TRUE(are_near(vec3(found), vec3(unit(sum)), 5e-5f)) << "seed 8, case " << i;
-            EXPECT_EQ(found.w, 1);
+            ASSERT_TRUE(are_near(vec3(found), vec3(unit(sum)), 5e-5f))
+                << "the tangent of the vertex that five slanted faces share, with the normal "
+                << testing::PrintToString(normals[0]) << " (seed 8, case " << i << ")";
+            ASSERT_EQ(found.w, 1) << "handedness";
         }
     }
 }

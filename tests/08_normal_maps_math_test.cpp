@@ -80,7 +80,8 @@ TEST(NormalMaps, Eq8_3_DirectionsAsExactAsTheDocumentationSays) {
         const real unsure = 4 * half_ulp_of_double * (std::abs(u1 * v2) + std::abs(u2 * v1));
         if (std::abs(determinant) <= unsure) continue;
         ++with_area;
-        ASSERT_EQ(found.handedness, determinant > 0 ? 1 : -1) << "seed 1, case " << i;
+        ASSERT_EQ(found.handedness, determinant > 0 ? 1 : -1)
+            << "the determinant is " << determinant << " (seed 1, case " << i << ")";
 
         const real sign = found.handedness;
         for (const auto& [direction, raw, sizes] :
@@ -276,7 +277,7 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
     EXPECT_GT(lit, special_cases / 10);
 }
 
-TEST(NormalMaps, Eq8_7_AFragmentsNormalTakesTheStepsOfTheText) {
+TEST(NormalMaps, Eq8_6_TheNormalOfAFragmentTakesTheStepsOfTheText) {
     // Which tangents, which side and which handedness: the same bits as by hand.
     std::mt19937 random(6);
     std::uniform_real_distribution<float> any(-1, 1);
@@ -318,7 +319,10 @@ TEST(NormalMaps, Eq8_7_AFragmentsNormalTakesTheStepsOfTheText) {
                 side * tangent, normal, side * static_cast<float>(of_face.handedness < 0 ? -1 : 1));
             const vec3 in_map = sample_normal(*mapped.maps.textures[0], Filter::nearest,
                                               fragment_uv(mapped.uvs(), at));
-            ASSERT_EQ(found, perturbed(frame, in_map, normal)) << "seed 6, case " << i << ", " << k;
+            ASSERT_EQ(found, perturbed(frame, in_map, normal))
+                << "seen from " << (is_back ? "behind" : "in front") << ", tangents of "
+                << (i % 2 ? "the face" : "the vertices") << ": interpolated, then Eq. 8.5 and 8.7 "
+                << "(seed 6, case " << i << ", " << k << ")";
         }
     }
 }

@@ -14,6 +14,7 @@
 #include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 #include "common/model/obj.hpp"
+#include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
 #include "support/lessons.hpp"
@@ -181,9 +182,9 @@ TEST(NormalMaps, HardCase_AFlatMapChangesNothing) {
                 for (const std::string& map :
                      {"norm " + flat, "norm -bm 7 " + flat, "map_Bump " + level,
                       "map_Bump -bm 100 " + level, "map_Bump " + flat})
-                    EXPECT_TRUE(are_the_same_bits(
+                    ASSERT_TRUE(have_the_same_bits(
                         picture_of(square_of(shiny + map + "\n"), options), plain))
-                        << map;
+                        << "a square with `" << map << "`, beside the same without a map";
             }
         }
 }
@@ -201,8 +202,9 @@ TEST(NormalMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
                 options.shading.two_sided = frame == FrameOf::pixel;
                 const Image<vec3> picture = picture_of(scene, options);
                 options.shading.all_effects = true;
-                EXPECT_TRUE(are_the_same_bits(picture, picture_of(scene, options))) << model;
-                EXPECT_FALSE(is_backdrop(picture)) << model;
+                ASSERT_TRUE(have_the_same_bits(picture_of(scene, options), picture))
+                    << model << " with --all-effects, beside the same without";
+                ASSERT_FALSE(is_backdrop(picture)) << model << ": nothing is drawn";
             }
     }
 }
@@ -276,8 +278,8 @@ TEST(NormalMaps, HardCase_ObjectSpaceMapsNeedNoFrame) {
               0u);
     // -bm scales in the tangent frame: it does not count here.
     const std::string slanted = plain_picture("slanted_up.png", {190, 230, 128}) + "\n";
-    EXPECT_EQ(picture_of(square_of("norm -bm 3 " + slanted, floor), options),
-              picture_of(square_of("norm " + slanted, floor), options));
+    EXPECT_TRUE(are_equal(picture_of(square_of("norm -bm 3 " + slanted, floor), options),
+                          picture_of(square_of("norm " + slanted, floor), options)));
     // From below it is the other side.
     options.orbit.pitch_degrees = -30;
     options.shading.two_sided = true;
@@ -314,13 +316,18 @@ TEST(NormalMaps, HardCase_NormalsOrHeightsInMapBump) {
     const std::string heights = "map_Bump -bm 0.014 " + textures + "brick_height.png\n";
     const Image<vec3> as_norm = picture_of(square_of("norm " + normals), options);
     // Coloured pictures are normals; `norm` counts more; keywords in any case.
-    EXPECT_EQ(picture_of(square_of("map_Bump " + normals), options), as_norm);
-    EXPECT_EQ(picture_of(square_of("bump " + normals), options), as_norm);
-    EXPECT_EQ(picture_of(square_of("norm " + normals + heights), options), as_norm);
-    EXPECT_EQ(picture_of(square_of(heights + "norm " + normals), options), as_norm);
+    EXPECT_TRUE(are_equal(picture_of(square_of("map_Bump " + normals), options), as_norm))
+        << "map_Bump " + normals;
+    EXPECT_TRUE(are_equal(picture_of(square_of("bump " + normals), options), as_norm))
+        << "bump " + normals;
+    EXPECT_TRUE(are_equal(picture_of(square_of("norm " + normals + heights), options), as_norm))
+        << "norm " + normals + heights;
+    EXPECT_TRUE(are_equal(picture_of(square_of(heights + "norm " + normals), options), as_norm))
+        << heights + "norm " + normals;
     const Image<vec3> as_heights = picture_of(square_of(heights), options);
-    EXPECT_NE(as_heights, as_norm);
-    EXPECT_NE(as_heights, picture_of(square_of(""), options));
+    EXPECT_FALSE(are_equal(as_heights, as_norm)) << "heights are read as if they were normals";
+    EXPECT_FALSE(are_equal(as_heights, picture_of(square_of(""), options)))
+        << "heights change nothing";
     // Both come from the same surface.
     double difference = 0, effect = 0;
     const Image<vec3> plain = picture_of(square_of(""), options);

@@ -13,6 +13,7 @@
 
 #include "08_normal_maps/normal_map.hpp"
 #include "common/image/image_io.hpp"
+#include "support/first_difference.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
 
@@ -63,13 +64,13 @@ TEST(NormalMaps, Eq8_1_CodesInTheMiddleAndAtTheEnds) {
     EXPECT_NEAR(component_from_code(64), -64 / 127.0f, FLT_EPSILON);
     for (int bits = 2; bits <= 16; ++bits) {
         const std::uint32_t middle = 1u << (bits - 1);
-        EXPECT_EQ(component_from_code(middle, bits), 0.0f) << bits;
-        EXPECT_EQ(component_from_code(2 * middle - 1, bits), 1.0f) << bits;
-        EXPECT_EQ(component_from_code(1, bits), -1.0f) << bits;
-        EXPECT_EQ(component_from_code(0, bits), -1.0f) << bits;
+        ASSERT_EQ(component_from_code(middle, bits), 0.0f) << "the middle code of " << bits;
+        ASSERT_EQ(component_from_code(2 * middle - 1, bits), 1.0f) << "the last of " << bits;
+        ASSERT_EQ(component_from_code(1, bits), -1.0f) << bits << " bits";
+        ASSERT_EQ(component_from_code(0, bits), -1.0f) << bits << " bits";
         for (std::uint32_t k = 1; k < middle && k < 500; ++k)  // the same on either side
-            EXPECT_EQ(component_from_code(middle + k, bits), -component_from_code(middle - k, bits))
-                << bits << " bits, " << k;
+            ASSERT_EQ(component_from_code(middle + k, bits), -component_from_code(middle - k, bits))
+                << bits << " bits, the codes " << middle + k << " and " << middle - k;
     }
 }
 
@@ -78,25 +79,28 @@ TEST(NormalMaps, Eq8_1_GreenUpAndGreenDown) {
     picture[{1, 0}] = {10, 20, 30, 40};
     const Image<vec4> up = normals_from_codes(picture, Green::up);
     const Image<vec4> down = normals_from_codes(picture, Green::down);
-    EXPECT_EQ(up[ivec2(0)].x, component_from_code(192));
-    EXPECT_EQ(up[ivec2(0)].y, component_from_code(160));
-    EXPECT_EQ(up[ivec2(0)].z, component_from_code(240));
+    EXPECT_EQ(up[ivec2(0)],
+              vec4(component_from_code(192), component_from_code(160), component_from_code(240), 1))
+        << "the codes (192, 160, 240), green up";
     for (const ivec2 texel : {ivec2(0), ivec2(1, 0)}) {
-        EXPECT_EQ(down[texel].x, up[texel].x);
-        EXPECT_EQ(down[texel].y, -up[texel].y);
-        EXPECT_EQ(down[texel].z, up[texel].z);
+        EXPECT_EQ(down[texel], up[texel] * vec4(1, -1, 1, 1))
+            << "green down, beside green up of the same codes";
         EXPECT_EQ(up[texel].w, 1);
-        EXPECT_EQ(down[texel].w, 1);
     }
 }
 
-TEST(NormalMaps, Eq8_7_WorkedExample) {
+TEST(NormalMaps, Eq8_7_AWorkedExample) {
     for (const float handedness : {1.0f, -1.0f}) {
         const TangentFrame frame = tangent_frame({1, 0, 0}, {0.6f, 0.8f, 0}, handedness);
         const vec3 normal = perturbed(frame, {0.36f, 0.48f, 0.8f}, frame.normal);
-        EXPECT_NEAR(normal.x, 0.768f, roundings);
-        EXPECT_NEAR(normal.y, 0.424f, roundings);
-        EXPECT_NEAR(normal.z, -0.48f * handedness, roundings);
+        const vec3 expected(0.768f, 0.424f, -0.48f * handedness);
+        const vec3 off = glm::abs(normal - expected);
+        ASSERT_LE(std::max({off.x, off.y, off.z}), roundings)
+            << "the texel (0.36, 0.48, 0.8) in the frame of tangent "
+            << testing::PrintToString(frame.tangent) << ", bitangent "
+            << testing::PrintToString(frame.bitangent) << ", normal "
+            << testing::PrintToString(frame.normal) << ": perturbed() gives "
+            << testing::PrintToString(normal) << ", expected " << testing::PrintToString(expected);
     }
 }
 
@@ -117,9 +121,15 @@ TEST(NormalMaps, Eq8_7_TheMapsNormalInTheFrame) {
         for (int i = 0; i < 1000; ++i) {
             const vec3 a(any(random), any(random), any(random));
             const vec3 normal = perturbed(frame, a, frame.normal);
-            EXPECT_NEAR(glm::dot(normal, frame.tangent), a.x, roundings) << "seed 1, case " << i;
-            EXPECT_NEAR(glm::dot(normal, frame.bitangent), a.y, roundings) << "seed 1, case " << i;
-            EXPECT_NEAR(glm::dot(normal, frame.normal), a.z, roundings) << "seed 1, case " << i;
+            ASSERT_NEAR(glm::dot(normal, frame.tangent), a.x, roundings)
+                << "seed 1, case " << i << ": along the tangent, the map has "
+                << testing::PrintToString(a);
+            ASSERT_NEAR(glm::dot(normal, frame.bitangent), a.y, roundings)
+                << "seed 1, case " << i << ": along the bitangent, the map has "
+                << testing::PrintToString(a);
+            ASSERT_NEAR(glm::dot(normal, frame.normal), a.z, roundings)
+                << "seed 1, case " << i << ": along the normal, the map has "
+                << testing::PrintToString(a);
         }
     }
 }
@@ -136,9 +146,11 @@ TEST(NormalMaps, HardCase_TheFlatTexelPerturbsNothing) {
                 for (const vec2 uv : {vec2(0), vec2(0.3f, 0.7f), vec2(-3.3f, 7.9f)}) {
                     const FragmentUv at{uv, vec2(0.9f, 0.1f), vec2(0.2f, 0.3f)};
                     const vec3 normal = sample_normal(texture, filter, at);
-                    EXPECT_EQ(normal, out_of_the_surface);
-                    EXPECT_EQ(perturbed(frame, normal, interpolated), interpolated)
-                        << "to the last bit";
+                    ASSERT_EQ(normal, out_of_the_surface)
+                        << "the codes (128, 128, 255) at uv " << testing::PrintToString(uv);
+                    ASSERT_EQ(perturbed(frame, normal, interpolated), interpolated)
+                        << "to the last bit: a map's (0, 0, 1) leaves the normal as it is, even if "
+                           "that is not of length 1";
                 }
         }
     // What the usual decoding makes of it.
@@ -157,8 +169,8 @@ TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
     const Image<vec4> a = normals_from_codes(up, Green::up);
     const Image<vec4> b = normals_from_codes(down, Green::down);
     const Image<vec4> wrong = normals_from_codes(up, Green::down);
-    EXPECT_EQ(a, b);
-    EXPECT_NE(a, wrong);
+    EXPECT_TRUE(are_equal(b, a)) << "green down, beside the same surface with green up";
+    EXPECT_FALSE(are_equal(wrong, a)) << "green down makes no difference";
 }
 
 TEST(NormalMaps, Eq8_8_TheThirdComponentFromTwo) {
@@ -174,21 +186,30 @@ TEST(NormalMaps, Eq8_8_TheThirdComponentFromTwo) {
     for (int i = 0; i < 1000; ++i) {
         const vec3 unit = unit_or({any(random), any(random), any(random)}, vec3(1, 0, 0));
         const vec3 found = with_z(vec2(unit));
-        EXPECT_EQ(vec2(found), vec2(unit));
+        ASSERT_EQ(vec2(found), vec2(unit)) << "x and y stay; seed 2, case " << i;
         // Where z is small, its square is what is left of 1: that rounds to some 2^-23.
-        EXPECT_NEAR(found.z * found.z, unit.z * unit.z, 4 * FLT_EPSILON) << "seed 2, case " << i;
+        ASSERT_NEAR(found.z * found.z, unit.z * unit.z, 4 * FLT_EPSILON)
+            << "with_z() of " << testing::PrintToString(vec2(unit)) << ", seed 2, case " << i;
     }
 }
 
-TEST(NormalMaps, Eq8_9_WorkedExample) {
+TEST(NormalMaps, Eq8_9_AWorkedExample) {
     Image<u8vec4> picture({4, 3}, {102, 102, 102, 255});
     for (int y = 0; y < 3; ++y) picture[{0, y}] = {0, 0, 0, 255};
     const vec4 n = normals_from_heights(picture, Wrap::repeat)[{1, 1}];
-    EXPECT_NEAR(n.x, -0.8f, FLT_EPSILON);
-    EXPECT_EQ(n.y, 0);
-    EXPECT_EQ(n.z, 1);
+    const char* const where =
+        "4 x 3 texels, the column on the left 0, the others 102; the texel (1, 1)";
+    EXPECT_NEAR(n.x, -0.8f, FLT_EPSILON) << where;
+    EXPECT_EQ(n.y, 0) << where;
+    EXPECT_EQ(n.z, 1) << where;
     EXPECT_NEAR(degrees_between(vec3(n), out_of_the_surface), 38.7, 0.05);
     EXPECT_NEAR(degrees_between({0.5f * n.x, n.y, n.z}, out_of_the_surface), 21.8, 0.05);
+    // The same from below.
+    Image<u8vec4> low({4, 3}, {0, 0, 0, 255});
+    for (int x = 0; x < 4; ++x) low[{x, 2}] = {102, 102, 102, 255};
+    EXPECT_NEAR((normals_from_heights(low, Wrap::repeat)[{1, 1}].y), 0.6f, FLT_EPSILON)
+        << "4 x 3 texels, the lowest row 102, the others 0; the texel (1, 1): the surface falls "
+           "upwards, so the normal leans up. Rows run down";
 }
 
 TEST(NormalMaps, Eq8_9_SlopesOfHeights) {
@@ -201,14 +222,19 @@ TEST(NormalMaps, Eq8_9_SlopesOfHeights) {
     const Image<vec4> normals = normals_from_heights(ramp, Wrap::clamp);
     for (int y = 1; y + 1 < size.y; ++y)
         for (int x = 1; x + 1 < size.x; ++x) {
-            EXPECT_NEAR((normals[{x, y}].x), -16 / 255.0f, 16 * FLT_EPSILON);
-            EXPECT_NEAR((normals[{x, y}].y), -16 / 255.0f, 16 * FLT_EPSILON);
-            EXPECT_EQ((normals[{x, y}].z), 1);
-            EXPECT_EQ((normals[{x, y}].w), 1);
+            const vec4 n = normals[{x, y}];
+            ASSERT_NEAR(n.x, -16 / 255.0f, 16 * FLT_EPSILON)
+                << "16 x 8 texels, each one code higher than that on its left; texel (" << x << ", "
+                << y << ")";
+            ASSERT_NEAR(n.y, -16 / 255.0f, 16 * FLT_EPSILON)
+                << "16 x 8 texels, each two codes higher than that below it; texel (" << x << ", "
+                << y << ")";
+            ASSERT_EQ(n.z, 1);
+            ASSERT_EQ(n.w, 1);
         }
     // A step up to the right has a normal that points to the left, one upwards points down.
-    EXPECT_LT((normals[{5, 5}].x), 0);
-    EXPECT_LT((normals[{5, 5}].y), 0);
+    EXPECT_LT((normals[{5, 5}].x), 0) << "higher to the right: the normal leans to the left";
+    EXPECT_LT((normals[{5, 5}].y), 0) << "higher upwards: the normal leans down";
 }
 
 TEST(NormalMaps, Eq8_9_HeightsBeyondTheBorder) {
@@ -222,14 +248,19 @@ TEST(NormalMaps, Eq8_9_HeightsBeyondTheBorder) {
                           normals[{3, 2}].x};
     };
     // Differences over two texels of 1/4: a step of 1 is a slope of 2.
-    EXPECT_EQ(row(Wrap::repeat), (std::array{0.0f, 2.0f, 0.0f, -2.0f}));
-    EXPECT_EQ(row(Wrap::clamp), (std::array{2.0f, 2.0f, 0.0f, 0.0f}));
-    EXPECT_EQ(row(Wrap::mirror), (std::array{2.0f, 2.0f, 0.0f, 0.0f}));
+    const char* const what =
+        "x of a row's normals; 4 x 4 texels, the column on the left 255, the others 0";
+    EXPECT_EQ(row(Wrap::repeat), (std::array{0.0f, 2.0f, 0.0f, -2.0f})) << what;
+    EXPECT_EQ(row(Wrap::clamp), (std::array{2.0f, 2.0f, 0.0f, 0.0f})) << what;
+    EXPECT_EQ(row(Wrap::mirror), (std::array{2.0f, 2.0f, 0.0f, 0.0f})) << what;
     // The same from bottom to top; rows run down.
     Image<u8vec4> low({4, 4}, {0, 0, 0, 255});
     for (int x = 0; x < 4; ++x) low[{x, 3}] = {255, 255, 255, 255};
     const Image<vec4> normals = normals_from_heights(low, Wrap::clamp);
-    for (int y = 0; y < 4; ++y) EXPECT_EQ((normals[{1, y}].y), y >= 2 ? 2 : 0) << y;
+    for (int y = 0; y < 4; ++y)
+        EXPECT_EQ((normals[{1, y}].y), y >= 2 ? 2 : 0)
+            << "4 x 4 texels, the lowest row 255, the others 0, Wrap::clamp; texel (1, " << y
+            << ")";
 }
 
 TEST(NormalMaps, Eq8_9_HeightMapsAndNormalMapsAgree) {
@@ -251,7 +282,8 @@ TEST(NormalMaps, Eq8_9_HeightMapsAndNormalMapsAgree) {
                                            {bump_multiplier * n.x, bump_multiplier * n.y, n.z});
         greatest = std::max(greatest, off), sum += off;
     }
-    EXPECT_LT(greatest, most);
+    EXPECT_LT(greatest, most)
+        << "degrees between brick_normal.png and the normals of brick_height.png";
     EXPECT_GT(greatest, 0.1) << "as if there were no steps";
     EXPECT_LT(sum / static_cast<double>(normals.pixels().size()), 0.5);
 }
@@ -262,7 +294,9 @@ TEST(NormalMaps, HardCase_HeightsThatAreAllEqualAreFlat) {
         for (const int code : {0, 1, 128, 255})
             for (const Wrap wrap : all_wraps) {
                 const Image<u8vec4> flat(size, u8vec4(static_cast<std::uint8_t>(code)));
-                EXPECT_EQ(normals_from_heights(flat, wrap), Image<vec4>(size, vec4(0, 0, 1, 1)));
+                ASSERT_TRUE(are_equal(normals_from_heights(flat, wrap),
+                                      Image<vec4>(size, vec4(0, 0, 1, 1))))
+                    << "all heights are " << code;
             }
 }
 

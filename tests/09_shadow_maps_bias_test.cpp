@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <random>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "09_shadow_maps/shadow_map.hpp"
 #include "support/light_maps.hpp"
 #include "support/look_up.hpp"
+#include "support/names.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
@@ -103,6 +105,17 @@ constexpr double beyond_ideal = 0.02;
 
 }  // namespace
 
+TEST(ShadowMaps, Eq9_8_SlopesOfAKnownPlane) {
+    // 512 texels over 2: the depth rises by 1/4 of x and falls by 1/2 of y; rows run down.
+    const vec2 slope =
+        receiver(map_of_cube(512), Bias::plane, 0, plane_in_cube(1, -2), to_the_light).slope;
+    const char* const where =
+        "a plane with z = x / 2 - y in NDC, seen by a map of 512 texels: depth from a texel to the "
+        "next one";
+    EXPECT_NEAR(slope.x, 0.5 / 512, 1e-9) << where << " on its right";
+    EXPECT_NEAR(slope.y, 1.0 / 512, 1e-9) << where << " below";
+}
+
 TEST(ShadowMaps, Eq9_8_SlopesOfAPlaneInAPerspective) {
     std::mt19937 random(1);
     for (int i = 0; i < 200; ++i) {
@@ -124,8 +137,12 @@ TEST(ShadowMaps, Eq9_8_SlopesOfAPlaneInAPerspective) {
         const lvec3 normal = glm::cross(in_map[1] - in_map[0], in_map[2] - in_map[0]);
         const real x = -normal.x / normal.z, y = -normal.y / normal.z;
         // 3e-6: steep planes are found from vertices in float.
-        ASSERT_TRUE(is_near(at.slope.x, x, 3e-6L * (std::abs(x) + std::abs(y)))) << "seed 1, " << i;
-        ASSERT_TRUE(is_near(at.slope.y, y, 3e-6L * (std::abs(x) + std::abs(y)))) << "seed 1, " << i;
+        const auto where = [&](const char* axis) {
+            return std::string("the slope along ") + axis + " of a plane in the map of a " +
+                   name_of(plane.light.kind) + " (seed 1, case " + std::to_string(i) + ")";
+        };
+        ASSERT_TRUE(is_near(at.slope.x, x, 3e-6L * (std::abs(x) + std::abs(y)))) << where("x");
+        ASSERT_TRUE(is_near(at.slope.y, y, 3e-6L * (std::abs(x) + std::abs(y)))) << where("y");
     }
 }
 
@@ -139,10 +156,16 @@ TEST(ShadowMaps, Eq9_9_TheBiasIsHalfATexelTimesTheSlopes) {
             const Receiver at =
                 receiver(map, Bias::slope, radius, plane_in_cube(a, b), to_the_light);
             const double bias = at.bias + at.bias_per_w;
-            EXPECT_GE(bias, (radius + 0.5) * of_a_texel);
-            EXPECT_LE(bias, (radius + 0.5 + beyond_ideal) * of_a_texel);
-            EXPECT_EQ(at.slope, vec2(0));
-            EXPECT_EQ(at.offset, vec3(0));
+            const std::string where =
+                "the bias of a plane with |dz/dx| + |dz/dy| = " + std::to_string(of_a_texel) +
+                " a texel (along x " + std::to_string(std::abs(a) / 2 / size) + ", along y " +
+                std::to_string(std::abs(b) / 2 / size) + "), PCF with radius " +
+                std::to_string(radius) + ", and " + std::to_string(radius) +
+                " + 1/2 texels of it; a little more is for rounding";
+            ASSERT_GE(bias, (radius + 0.5) * of_a_texel) << where;
+            ASSERT_LE(bias, (radius + 0.5 + beyond_ideal) * of_a_texel) << where;
+            ASSERT_EQ(at.slope, vec2(0)) << "of " << name_of(Bias::slope);
+            ASSERT_EQ(at.offset, vec3(0)) << "of " << name_of(Bias::slope);
         }
     }
     const Receiver flat = receiver(map, Bias::slope, 3, plane_in_cube(0, 0), to_the_light);
@@ -165,42 +188,61 @@ TEST(ShadowMaps, Eq9_10_HardCase_LitPlanesAtSlopesFrom0To50HaveNoShadow) {
                     for (const Bias bias : fitted)
                         for (const int radius : {0, 1, 2, 3}) {
                             ASSERT_EQ(maps.visibility(bias, radius, p.vertices, p.point), 1)
-                                << "seed 2: size " << size << ", light " << int(kind) << ", tilt "
-                                << tilt << ", bias " << int(bias) << ", radius " << radius;
+                                << "a lit plane shadows itself: map of " << size << " texels, "
+                                << name_of(kind) << ", tilted by arctan " << tilt << ", "
+                                << name_of(bias) << ", PCF with radius " << radius << ", at "
+                                << testing::PrintToString(p.point) << " (seed 2)";
                             ++asked;
                         }
             }
     EXPECT_EQ(asked, 5L * 3 * 6 * 50 * 8 * 3 * 4);
 }
 
-TEST(ShadowMaps, Eq9_10_LessThanTheDerivedBiasIsTooLittle) {
-    // In the worst case, a plane needs nearly all of the derived bias: none of it is wasted.
+namespace {
+
+/// In the worst case, a plane needs nearly all of the derived bias: none of it is wasted.
+void less_than_the_derived_bias_is_too_little(LightKind kind, int radius) {
     std::mt19937 random(3);
+    const TiltedPlane plane(random, kind, 3, vec3(0));
+    const LightMaps maps(plane.light, std::span(&plane.mesh, 1), 128);
+    const std::string where = std::string(name_of(kind)) +
+                              ", a map of 128 texels, a plane tilted " +
+                              "by arctan 3, PCF with radius " + std::to_string(radius);
+    int dark_with_less = 0, dark_without = 0;
+    for (const PointOn& p : points_on(plane.mesh, random, 400)) {
+        const ShadowMap& map = maps.map_for(p.point);
+        Receiver at = receiver(map, Bias::slope, radius, p.vertices, maps.toward(p.point));
+        ASSERT_EQ(pcf_visibility(map, radius, at, p.point), 1)
+            << "at " << testing::PrintToString(p.point) << " with a bias of "
+            << at.bias + at.bias_per_w << ": " << where;
+        at.bias *= 0.9f, at.bias_per_w = 0;
+        dark_with_less += pcf_visibility(map, radius, at, p.point) < 1;
+        at.bias = 0;
+        dark_without += pcf_visibility(map, radius, at, p.point) < 1;
+    }
+    EXPECT_GT(dark_with_less, 20)
+        << "of 20000 points, with 9/10 of the bias: it is more than Eq. 9.10 has; " << where;
+    EXPECT_GT(dark_without, 9000) << "of 20000 points, without bias; " << where;
+}
+
+}  // namespace
+
+TEST(ShadowMaps, Eq9_10_LessThanTheDerivedBiasIsTooLittle) {
     for (const LightKind kind : {LightKind::directional, LightKind::spot})
-        for (const int radius : {0, 1, 3}) {
-            const TiltedPlane plane(random, kind, 3, vec3(0));
-            const LightMaps maps(plane.light, std::span(&plane.mesh, 1), 128);
-            int dark_with_less = 0, dark_without = 0;
-            for (const PointOn& p : points_on(plane.mesh, random, 400)) {
-                const ShadowMap& map = maps.map_for(p.point);
-                Receiver at = receiver(map, Bias::slope, radius, p.vertices, maps.toward(p.point));
-                EXPECT_EQ(pcf_visibility(map, radius, at, p.point), 1);
-                at.bias *= 0.9f, at.bias_per_w = 0;
-                dark_with_less += pcf_visibility(map, radius, at, p.point) < 1;
-                at.bias = 0;
-                dark_without += pcf_visibility(map, radius, at, p.point) < 1;
-            }
-            EXPECT_GT(dark_with_less, 20) << "light " << int(kind) << ", radius " << radius;
-            EXPECT_GT(dark_without, 9000) << "light " << int(kind) << ", radius " << radius;
-        }
+        less_than_the_derived_bias_is_too_little(kind, 0);
+}
+
+TEST(ShadowMaps, Eq9_13_LessThanTheDerivedBiasIsTooLittleForPcf) {
+    for (const LightKind kind : {LightKind::directional, LightKind::spot})
+        for (const int radius : {1, 3}) less_than_the_derived_bias_is_too_little(kind, radius);
 }
 
 TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
     constexpr int size = 512;
     const ShadowMap map = map_of_cube(size);
     const Receiver at = receiver(map, Bias::plane, 3, plane_in_cube(1, -2), to_the_light);
-    EXPECT_NEAR(at.slope.x, 0.5 / size, 1e-9);
-    EXPECT_NEAR(at.slope.y, 1.0 / size, 1e-9);  // down is -y
+    EXPECT_NEAR(at.slope.x, 0.5 / size, 1e-9) << "of z = x / 2 - y in NDC, a texel to the right";
+    EXPECT_NEAR(at.slope.y, 1.0 / size, 1e-9) << "a texel down; down is -y";
     // Snapping and roundings are left, whatever the radius.
     EXPECT_LT(at.bias + at.bias_per_w, (1.0 / 512 + beyond_ideal) * 1.5 / size);
     EXPECT_EQ(receiver(map, Bias::plane, 0, plane_in_cube(1, -2), to_the_light).bias, at.bias);
@@ -219,9 +261,14 @@ TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
     for (const float side : {-0.45f, 0.0f, 0.45f}) {
         const vec2 in_map = vec2(250.5f + side, 250.5f - side) * (2.0f / size) - 1.0f;
         const vec3 point(in_map.x, -in_map.y, 0.5f * (in_map.x + 2 * in_map.y));
-        EXPECT_EQ(pcf_visibility<3>(with_plate, at, point), 0) << side;
+        EXPECT_EQ(pcf_visibility<3>(with_plate, at, point), 0)
+            << "a plate a tenth of a texel's slope in front of a tilted plane shadows it: at "
+            << testing::PrintToString(point);
         const Receiver sloped = receiver(map, Bias::slope, 0, plane_in_cube(1, -2), to_the_light);
-        EXPECT_EQ(pcf_visibility<0>(with_plate, sloped, point), 1) << side;
+        EXPECT_EQ(pcf_visibility<0>(with_plate, sloped, point), 1)
+            << "a plate a tenth of a texel's slope in front of a tilted plane is lost in the bias "
+               "of half a texel's: at "
+            << testing::PrintToString(point);
     }
 }
 
@@ -233,16 +280,19 @@ TEST(ShadowMaps, Eq9_12_TheOffsetAlongTheNormal) {
     const Receiver at = receiver(map, Bias::normal, 1, plane_in_cube(1.5f, 0), to_the_light);
     EXPECT_EQ(at.bias, 0);
     const dvec3 offset = dvec3(at.offset) + dvec3(at.offset_times_w);
-    EXPECT_GE(glm::length(offset), 1.5 * 2 / size * 0.6);
-    EXPECT_LE(glm::length(offset), (1.5 + beyond_ideal) * 2 / size * 0.6);
-    EXPECT_NEAR(glm::dot(glm::normalize(offset), dvec3(0.6, 0, -0.8)), 1, 1e-6);  // to the light
+    const std::string where = "the offset is " + testing::PrintToString(vec3(offset)) +
+                              "; texels of 2/512, radius 1, a plane tilted by 3 : 4 along x";
+    EXPECT_NEAR(glm::dot(glm::normalize(offset), dvec3(0.6, 0, -0.8)), 1, 1e-6)
+        << "its direction and the normal on the light's side, (0.6, 0, -0.8); " << where;
+    EXPECT_GE(glm::length(offset), 1.5 * 2 / size * 0.6) << where;
+    EXPECT_LE(glm::length(offset), (1.5 + beyond_ideal) * 2 / size * 0.6) << where;
     // Even edge-on it is no longer than that of two sides of a texel.
     const Vertices edge_on = {vec3(0), vec3(1, 1, 0), vec3(0, 0, 1)};
     const Receiver steep = receiver(map, Bias::normal, 1, edge_on, {1, -1, -1e-3f});
     EXPECT_LE(glm::length(steep.offset + steep.offset_times_w), 1.51 * std::sqrt(2) * 2 / size);
 }
 
-TEST(ShadowMaps, Eq9_12_InAPerspectiveTheMovedPointIsNearerByTheBias) {
+TEST(ShadowMaps, Eq9_12_ThePointMovedInAPerspectiveIsNearerByTheBias) {
     std::mt19937 random(5);
     for (int i = 0; i < 200; ++i) {
         const TiltedPlane plane(random, LightKind::spot, static_cast<float>(i % 4), vec3(0));
@@ -263,7 +313,10 @@ TEST(ShadowMaps, Eq9_12_InAPerspectiveTheMovedPointIsNearerByTheBias) {
         const double of_plane = here.z / here.w + glm::dot(dvec2(at.slope), shift);
         const double bias = sloped.bias + sloped.bias_per_w / there.w;
         // 1e-3: points in float lie beside their plane; the term that stands in 1 - K g is more.
-        EXPECT_NEAR((of_plane - there.z / there.w) / bias, 1, 1e-3) << "seed 5, " << i;
+        ASSERT_NEAR((of_plane - there.z / there.w) / bias, 1, 1e-3)
+            << "the moved point's depth in front of the plane, in biases of Eq. 9.10; the point "
+            << testing::PrintToString(p.point) << " is moved by "
+            << testing::PrintToString(vec3(offset)) << " (seed 5, case " << i << ")";
     }
 }
 
@@ -304,8 +357,10 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
                     for (const Bias bias : fitted)
                         for (const int radius : {0, 1, 2, 3}) {
                             ASSERT_EQ(maps.visibility(bias, radius, p.vertices, p.point), 1)
-                                << "seed 6: size " << size << ", light " << int(kind) << ", plane "
-                                << i << ", bias " << int(bias) << ", radius " << radius;
+                                << "a lit plane shadows itself: map of " << size << " texels, "
+                                << name_of(kind) << ", " << name_of(bias) << ", PCF with radius "
+                                << radius << ", at " << testing::PrintToString(p.point)
+                                << " (seed 6, plane " << i << ")";
                             ++asked;
                         }
                     // K g in long double: with the plane's distances from T's inverse's columns.
@@ -359,13 +414,19 @@ TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
                 for (const float number :
                      {at.slope.x, at.slope.y, at.bias, at.bias_per_w, at.offset.x, at.offset.y,
                       at.offset.z, at.offset_times_w.x, at.offset_times_w.y, at.offset_times_w.z})
-                    EXPECT_TRUE(std::abs(number) <= 3) << int(bias) << ": " << number;
+                    ASSERT_TRUE(std::abs(number) <= 3)
+                        << name_of(bias) << ": " << number << ", expected at most 3";
                 for (const float depth : {0.0f, 0.3f, 1.0f}) {
                     const float visibility = pcf_visibility<3>(map, at, {0, 0, 2 * depth - 1});
-                    EXPECT_TRUE(visibility >= 0 && visibility <= 1) << visibility;
+                    ASSERT_TRUE(visibility >= 0 && visibility <= 1)
+                        << name_of(bias) << ": visibility " << visibility;
                 }
                 if (is_edge_on && (bias == Bias::slope || bias == Bias::plane)) {
-                    EXPECT_EQ(pcf_visibility<3>(map, at, {0, 0, 1}), 1) << "edge-on is lit";
+                    ASSERT_EQ(pcf_visibility<3>(map, at, {0, 0, 1}), 1)
+                        << "a triangle that the light sees edge-on is lit: "
+                        << testing::PrintToString(vertices[0]) << ", "
+                        << testing::PrintToString(vertices[1]) << ", "
+                        << testing::PrintToString(vertices[2]) << ", " << name_of(bias);
                 }
             }
 }
@@ -381,8 +442,8 @@ TEST(ShadowMaps, HardCase_ATriangleTurnedAwayIsLeftToItsNormals) {
             return pcf_visibility<1>(map, receiver(map, bias, 1, plane_in_cube(1, 1), outward),
                                      point);
         };
-        EXPECT_EQ(visibility(to_the_light), 0);
-        EXPECT_EQ(visibility(-to_the_light), 1);
+        ASSERT_EQ(visibility(to_the_light), 0) << name_of(bias) << ", turned to the light";
+        ASSERT_EQ(visibility(-to_the_light), 1) << name_of(bias) << ", turned away from the light";
     }
 }
 
@@ -421,8 +482,10 @@ TEST(ShadowMaps, Eq9_14_AThinWallLeaksAtItsFootNoMoreThanTheBias) {
                         for (const float z : {-0.73f, 0.11f, 1.01f})
                             if (maps.visibility(bias, radius, vertices, vec3(x, 0, z)) > 0)
                                 leak = x;
-                    EXPECT_LE(leak, bound) << elevation_degrees << " degrees, size " << size
-                                           << ", radius " << radius << ", bias " << int(bias);
+                    ASSERT_LE(leak, bound)
+                        << "the widest strip of light at the foot of a wall; a light "
+                        << elevation_degrees << " degrees high, a map of " << size
+                        << " texels, PCF with radius " << radius << ", " << name_of(bias);
                     if (bias == Bias::slope && radius > 0) {
                         EXPECT_GT(leak, 0.2 * height / std::tan(e)) << "the bound is not idle";
                     }
@@ -456,9 +519,11 @@ TEST(ShadowMaps, HardCase_AThinSlabOnTheFloorHasItsShadowFromTwiceTheBiasOn) {
             // bias allows for; compared at the texels' centres, it does not.
             const float visibility = maps.visibility(bias, radius, vertices, {-0.513f, 0, 0.271f});
             if (heights > 1) {
-                EXPECT_EQ(visibility, 0) << int(bias);
+                EXPECT_EQ(visibility, 0) << "under a slab " << h
+                                         << " above the floor, twice the bias; " << name_of(bias);
             } else if (bias == Bias::slope) {
-                EXPECT_GT(visibility, 0.3f) << int(bias);
+                EXPECT_GT(visibility, 0.3f)
+                    << "under a slab " << h << " above the floor; " << name_of(bias);
             }
         }
 }
@@ -492,6 +557,7 @@ TEST(ShadowMaps, Eq9_15_RoundingsStayBelowWhatIsAllowedForThem) {
                                                  w / real(map.rounding_depth)));
         }
     }
-    EXPECT_LE(greatest, 0.5);    // the other half is for the map's side
-    EXPECT_GT(greatest, 0.005);  // and the bound is not out of proportion
+    const char* const what = "the greatest rounding, in rounding_texels or rounding_depth";
+    EXPECT_LE(greatest, 0.5) << what << "; the other half is for the map's side";
+    EXPECT_GT(greatest, 0.005) << what << "; the bound is out of proportion";
 }

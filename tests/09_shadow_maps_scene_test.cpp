@@ -19,10 +19,12 @@
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
 #include "09_shadow_maps/shadows.hpp"
+#include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lessons.hpp"
 #include "support/light_maps.hpp"
 #include "support/look_up.hpp"
+#include "support/names.hpp"
 #include "support/one_triangle.hpp"
 #include "support/pictures.hpp"
 #include "support/printers.hpp"
@@ -120,9 +122,9 @@ TEST(ShadowMaps, Eq9_16_LightFadesOutWhereASurfaceTurnsAway) {
         const vec3 position(-0.5f, 0, 0.3f);
         const vec3 normal =
             3.0f * vec3(std::sqrt(1 - cosine * cosine), cosine, 0);  // of any length
-        EXPECT_NEAR(floor.visibility(0, position, normal), std::clamp(cosine / 0.1f, 0.0f, 1.0f),
+        ASSERT_NEAR(floor.visibility(0, position, normal), std::clamp(cosine / 0.1f, 0.0f, 1.0f),
                     1e-6f)
-            << cosine;
+            << "the cosine between normal and light is " << cosine;
         EXPECT_EQ(floor.visibility(1, position, normal), 1) << "the sky casts no shadows";
     }
     EXPECT_EQ(floor.count(Counter::shadow_tests), 5u) << "only of those that face the light";
@@ -164,7 +166,7 @@ TEST(ShadowMaps, Eq9_16_NormalMapsDoNotChangeWhichShadowTestsAreMade) {
         EXPECT_GT(bumpy.count(Counter::normal_map_samples), 1000u);
         EXPECT_EQ(flat.count(Counter::normal_map_samples), 0u);
         EXPECT_EQ(bumpy.count(Counter::shadow_tests), flat.count(Counter::shadow_tests))
-            << "light " << int(kind);
+            << name_of(kind);
     }
 }
 
@@ -218,7 +220,8 @@ TEST(ShadowMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
             const Drawn planned = drawn(scene, options);
             options.shading.all_effects = true;
             const Drawn all = drawn(scene, options);
-            EXPECT_TRUE(are_the_same_bits(planned.picture, all.picture)) << "light " << int(kind);
+            ASSERT_TRUE(have_the_same_bits(all.picture, planned.picture))
+                << "with --all-effects, beside without; " << name_of(kind);
         }
 }
 
@@ -277,8 +280,8 @@ TEST(ShadowMaps, HardCase_TheOrderOfShadowTestsChangesNothing) {
             return std::pair(of_first, floor.visibility(0, position, second));
         };
         const vec3 up(0.8f, 0.6f, 0), down(0.8f, -0.6f, 0);
-        EXPECT_EQ(in_order(up, down), std::pair(0.0f, 1.0f)) << "bias " << int(bias);
-        EXPECT_EQ(in_order(down, up), std::pair(1.0f, 0.0f)) << "bias " << int(bias);
+        EXPECT_EQ(in_order(up, down), std::pair(0.0f, 1.0f)) << name_of(bias);
+        EXPECT_EQ(in_order(down, up), std::pair(1.0f, 0.0f)) << name_of(bias);
     }
 }
 
@@ -317,9 +320,10 @@ TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {
         // behind its neighbours: of a thousand shadow tests one or two are a ninth too dark.
         for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal})
             EXPECT_LE(wrong[static_cast<std::size_t>(bias)], judged / 500)
-                << "of " << judged << ", light " << int(kind) << ", bias " << int(bias);
-        EXPECT_GT(judged, 2000) << "light " << int(kind);
-        EXPECT_GT(dark, 200) << "light " << int(kind);
+                << "shadow tests that are not what a ray finds, of " << judged << "; "
+                << name_of(kind) << ", " << name_of(bias);
+        EXPECT_GT(judged, 2000) << name_of(kind);
+        EXPECT_GT(dark, 200) << name_of(kind);
     }
 }
 
@@ -390,13 +394,18 @@ TEST(ShadowMaps, HardCase_ALightInsideAMesh) {
             const Vertices floor_of_chest = {vec3(-1, -1, -1), vec3(1, -1, -1), vec3(1, -1, 1)};
             const Vertices floor_of_room = {vec3(-4, -4, -4), vec3(4, -4, -4), vec3(4, -4, 4)};
             for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal}) {
-                ASSERT_EQ(maps.visibility(bias, 1, floor_of_chest, under), 1) << i;
+                ASSERT_EQ(maps.visibility(bias, 1, floor_of_chest, under), 1)
+                    << "in the chest, with the light, at " << testing::PrintToString(under) << "; "
+                    << name_of(light.kind) << ", " << name_of(bias);
                 // Farther along the same ray, through the chest's floor.
                 const vec3 beyond = light.position_world + (4 + light.position_world.y) /
                                                                (1 + light.position_world.y) *
                                                                (under - light.position_world);
                 if (std::max(std::abs(beyond.x), std::abs(beyond.z)) > 3.9f) continue;
-                ASSERT_EQ(maps.visibility(bias, 1, floor_of_room, beyond), 0) << i;
+                ASSERT_EQ(maps.visibility(bias, 1, floor_of_room, beyond), 0)
+                    << "in the room, outside of the chest with the light, at "
+                    << testing::PrintToString(beyond) << "; " << name_of(light.kind) << ", "
+                    << name_of(bias);
             }
         }
     }
@@ -457,8 +466,10 @@ TEST(ShadowMaps, HardCase_ModelsOfAllSizes) {
         const Image<vec3> picture = picture_of(1);
         ASSERT_TRUE(is_finite(picture));
         // A power of two loses no digits; near the ends of the range of float, some are lost.
-        EXPECT_TRUE(are_the_same_bits(picture, picture_of(0x1p20f))) << int(kind);
-        EXPECT_TRUE(are_the_same_bits(picture, picture_of(0x1p-20f))) << int(kind);
+        EXPECT_TRUE(have_the_same_bits(picture_of(0x1p20f), picture))
+            << name_of(kind) << ", scale 0x1p20";
+        EXPECT_TRUE(have_the_same_bits(picture_of(0x1p-20f), picture))
+            << name_of(kind) << ", scale 0x1p-20";
         for (const float scale : {1e-30f, 1e-20f, 1e15f}) {
             const Image<vec3> other = picture_of(scale);
             ASSERT_TRUE(is_finite(other)) << scale;
@@ -467,7 +478,7 @@ TEST(ShadowMaps, HardCase_ModelsOfAllSizes) {
                 const vec3 by = glm::abs(picture.pixels()[i] - other.pixels()[i]);
                 differing += std::max({by.x, by.y, by.z}) > 0.05f;
             }
-            EXPECT_LT(differing, 60) << "light " << int(kind) << ", scale " << scale;  // at edges
+            EXPECT_LT(differing, 60) << name_of(kind) << ", scale " << scale;  // at edges
         }
     }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
 #include "support/look_up.hpp"
+#include "support/names.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
@@ -72,10 +74,61 @@ void put(ShadowMap& map, ivec2 texel, float depth) {
     map.depths.test_and_write(texel + max_pcf_radius, depth);
 }
 
+/// The share of a floor's points in the shadow of a roof far larger than it that are lit, as they
+/// should not be: for EXPECT_TRUE.
+template <int radius>
+testing::AssertionResult is_dark_under_a_large_roof(const Light& light, int size) {
+    // The map ends where the floor does; the roof goes on, and every shadow test there has to find
+    // it.
+    const Mesh roof =
+        mesh_of({{-30, 1, -30}, {-30, 1, 30}, {30, 1, 30}, {30, 1, -30}}, {{0, 1, 2}, {0, 2, 3}});
+    const Bounds floor = box({-1, 0, -1}, {1, 0, 1});
+    const LightViews views = light_views(light, roof.bounds, floor, size);
+    if (views.count != 1)
+        return testing::AssertionFailure()
+               << "light_views() has " << views.count << " maps, expected 1: the roof is above";
+    ShadowMap map(views.clip_from_world[0], views.is_perspective, size, roof.bounds);
+    NoCounters none;
+    draw_casters(map, roof, [](std::size_t) { return true; }, none);
+    for (int y = -20; y <= 20; ++y)
+        for (int x = -20; x <= 20; ++x) {
+            const vec3 point = vec3(x, 0, y) / 20.0f;
+            const vec3 from_light = glm::normalize(point - light.position_world);
+            if (light.kind == LightKind::spot &&
+                glm::dot(from_light, light.direction_world) <= light.cos_none)
+                continue;  // beyond its cone
+            if (const float lit = pcf_visibility<radius>(map, {}, point); lit != 0)
+                return testing::AssertionFailure()
+                       << "a " << name_of(light.kind)
+                       << " shines down on a roof of 60 x 60 at y = 1 "
+                       << "above a floor of 2 x 2 at y = 0, with a map of " << size
+                       << " texels: at " << testing::PrintToString(point) << " on the floor " << lit
+                       << " of its light arrives, expected 0";
+        }
+    return testing::AssertionSuccess();
+}
+
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
+
+TEST(ShadowMaps, Eq9_1_ALightFromTheRight) {
+    // It shines along -x: so z of NDC, which grows away from the light, grows as x gets smaller.
+    const Bounds all = box(vec3(-1), vec3(1));
+    const LightViews views = light_views(directional_light({1, 0, 0}), all, all, 256);
+    ASSERT_EQ(views.count, 1u) << "maps";
+    const dvec3 near = ndc(views.clip_from_world[0], {0.5, 0.25, -0.5});
+    const dvec3 far = ndc(views.clip_from_world[0], {-0.5, 0.25, -0.5});
+    EXPECT_LT(near.z, far.z) << "NDC of (0.5, 0.25, -0.5), which is nearer to the light, has to "
+                                "have less z than that of "
+                                "(-0.5, 0.25, -0.5)";
+    EXPECT_NEAR(near.x, far.x, float_tolerance) << "both lie on one ray: in the same texel";
+    EXPECT_NEAR(near.y, far.y, float_tolerance) << "both lie on one ray: in the same texel";
+    const dvec3 higher = ndc(views.clip_from_world[0], {0.5, 0.75, -0.5});
+    EXPECT_GT(higher.y, near.y) << "what is higher is higher in the map";
+    EXPECT_NEAR(higher.x, near.x, float_tolerance);
+}
 
 TEST(ShadowMaps, Eq9_1_PointsOnOneRayOfADirectionalLightShareATexel) {
     Anywhere anywhere(1);
@@ -90,9 +143,13 @@ TEST(ShadowMaps, Eq9_1_PointsOnOneRayOfADirectionalLightShareATexel) {
         const dvec3 point = anywhere.in(casters);
         const dvec3 here = ndc(views.clip_from_world[0], point);
         const dvec3 nearer = ndc(views.clip_from_world[0], point + dvec3(light.direction_world));
-        ASSERT_NEAR(here.x, nearer.x, float_tolerance) << "seed 1, case " << i;
-        ASSERT_NEAR(here.y, nearer.y, float_tolerance) << "seed 1, case " << i;
-        ASSERT_LT(nearer.z, here.z) << "seed 1, case " << i;
+        const std::string where = "NDC of " + testing::PrintToString(vec3(point)) +
+                                  " and of what lies 1 nearer to a light from " +
+                                  testing::PrintToString(light.direction_world) +
+                                  " (seed 1, case " + std::to_string(i) + ")";
+        ASSERT_NEAR(here.x, nearer.x, float_tolerance) << where;
+        ASSERT_NEAR(here.y, nearer.y, float_tolerance) << where;
+        ASSERT_LT(nearer.z, here.z) << where;
         // Right-handed, up is up: as a camera would see it.
         const dvec3 higher = ndc(views.clip_from_world[0], point + dvec3(0, 1, 0));
         ASSERT_GT(higher.y, here.y - float_tolerance) << "seed 1, case " << i;
@@ -103,19 +160,23 @@ TEST(ShadowMaps, Eq9_1_PointsOnOneRayOfADirectionalLightShareATexel) {
 TEST(ShadowMaps, Eq9_2_TheBoxFillsTheCube) {
     const dmat4 m = crop({2, -1, 10}, {6, 1, 30});
     const auto cropped = [&](dvec3 p) { return dvec3(m * dvec4(p, 1)); };
-    EXPECT_EQ(cropped({2, -1, 10}), dvec3(-1));
-    EXPECT_EQ(cropped({6, 1, 30}), dvec3(1));
-    EXPECT_EQ(cropped({5, 0, 20}), dvec3(0.5, 0, 0));  // the worked example
+    const char* const of_box = "the box from (2, -1, 10) to (6, 1, 30)";
+    EXPECT_EQ(cropped({2, -1, 10}), dvec3(-1)) << of_box;
+    EXPECT_EQ(cropped({6, 1, 30}), dvec3(1)) << of_box;
+    EXPECT_EQ(cropped({5, 0, 20}), dvec3(0.5, 0, 0)) << of_box;  // the worked example
     // Clip space: what is cropped is the quotient, and w stays.
     const dvec4 clip = m * dvec4(3.0 * dvec3(5, 0, 20), 3);
-    EXPECT_EQ(clip, dvec4(1.5, 0, 0, 3));
+    EXPECT_EQ(clip, dvec4(1.5, 0, 0, 3)) << of_box << ": the same point with w = 3";
 }
 
 TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
     const LightBox casters{{0, 0, -5}, {4, 3, -1}}, receivers{{2, -9, -8}, {10, 2, -2}};
     const LightBox region = shadow_region(casters, receivers);
-    ASSERT_EQ(region.low, dvec3(2, 0, -5));  // the worked example
-    ASSERT_EQ(region.high, dvec3(4, 2, -1));
+    const char* const what =
+        "the worked example: casters from (0, 0, -5) to (4, 3, -1), receivers from (2, -9, -8) to "
+        "(10, 2, -2); z is larger towards the light, and the region begins at the nearest caster";
+    ASSERT_EQ(region.low, dvec3(2, 0, -5)) << what;
+    ASSERT_EQ(region.high, dvec3(4, 2, -1)) << what;
 
     // All of the casters is in the map, from the nearest, where receivers are all around.
     constexpr int size = 256;
@@ -135,41 +196,16 @@ TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
         // Inside, and no more than the half percent beside it that rounding is allowed.
         for (int axis = 0; axis < 3; ++axis) {
             const double most = axis == 2 ? 1 : end;
-            ASSERT_TRUE(low[axis] >= -most && low[axis] < -0.99 * most) << "seed 2, case " << i;
-            ASSERT_TRUE(high[axis] <= most && high[axis] > 0.99 * most) << "seed 2, case " << i;
+            const std::string where = std::string("the casters' ") + "xyz"[axis] +
+                                      " in NDC is from " + std::to_string(low[axis]) + " to " +
+                                      std::to_string(high[axis]) + ", expected just inside of -" +
+                                      std::to_string(most) + " to " + std::to_string(most) +
+                                      (axis == 2 ? "" : " (a margin of 4 texels of 256)") +
+                                      "; seed 2, case " + std::to_string(i);
+            ASSERT_TRUE(low[axis] >= -most && low[axis] < -0.99 * most) << where;
+            ASSERT_TRUE(high[axis] <= most && high[axis] > 0.99 * most) << where;
         }
     }
-}
-
-TEST(ShadowMaps, Eq9_3_UnderALargeRoofAllOfASmallFloorIsDark) {
-    // The map ends where the floor does; the roof goes on, and every shadow test there has to find
-    // it.
-    const Mesh roof =
-        mesh_of({{-30, 1, -30}, {-30, 1, 30}, {30, 1, 30}, {30, 1, -30}}, {{0, 1, 2}, {0, 2, 3}});
-    const Bounds floor = box({-1, 0, -1}, {1, 0, 1});
-    NoCounters none;
-    const Light lights[] = {directional_light({0, 1, 0}), directional_light({0.3f, 1, -0.5f}),
-                            spotlight({0.2f, 4, 0.1f}, {0, 0, 0}, 60),
-                            spotlight({0.2f, 4, 0.1f}, {0, 0, 0}, 10)};  // less than the floor
-    for (const Light& light : lights)
-        for (const int size : {16, 64, 256}) {
-            const LightViews views = light_views(light, roof.bounds, floor, size);
-            ASSERT_EQ(views.count, 1u);
-            ShadowMap map(views.clip_from_world[0], views.is_perspective, size, roof.bounds);
-            draw_casters(map, roof, [](std::size_t) { return true; }, none);
-            for (int y = -20; y <= 20; ++y)
-                for (int x = -20; x <= 20; ++x) {
-                    const vec3 point = vec3(x, 0, y) / 20.0f;
-                    const vec3 from_light = glm::normalize(point - light.position_world);
-                    if (light.kind == LightKind::spot &&
-                        glm::dot(from_light, light.direction_world) <= light.cos_none)
-                        continue;  // beyond its cone
-                    ASSERT_EQ(pcf_visibility<0>(map, {}, point), 0)
-                        << size << testing::PrintToString(point);
-                    ASSERT_EQ(pcf_visibility<3>(map, {}, point), 0)
-                        << size << testing::PrintToString(point);
-                }
-        }
 }
 
 TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
@@ -226,14 +262,18 @@ TEST(ShadowMaps, Eq9_4_ASpotlightsMapReachesToTheBorderOfItsCone) {
             // A circle around the axis, a bit inside of the cone, and a bit outside.
             const dvec3 axis = light.direction_world;
             const dvec3 across = glm::normalize(glm::cross(axis, dvec3(anywhere.direction())));
-            const auto greatest = [&](double degrees) {
+            const auto from_middle = [&](double degrees) {
                 const double way_out = std::tan(glm::radians(degrees));
                 const dvec3 in_ndc = ndc(views.clip_from_world[0],
                                          dvec3(position) + 3.0 * (axis + way_out * across));
                 return std::hypot(in_ndc.x, in_ndc.y);
             };
-            ASSERT_LT(greatest(half_angle - 0.1), end) << "seed 3, case " << i;
-            ASSERT_GT(greatest(half_angle + 0.3), end) << "seed 3, case " << i;
+            ASSERT_LT(from_middle(half_angle - 0.1), end)
+                << "in NDC, of a point a little inside of a cone of " << half_angle
+                << " degrees from its axis (seed 3, case " << i << ")";
+            ASSERT_GT(from_middle(half_angle + 0.3), end)
+                << "in NDC, of a point a little outside of a cone of " << half_angle
+                << " degrees from its axis (seed 3, case " << i << ")";
         }
 }
 
@@ -246,11 +286,16 @@ TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsCutDownToCastersAndReceivers) {
     const mat4& clip = views.clip_from_world[0];
     const dvec3 corner = glm::abs(ndc(clip, {1, 5, 1}));  // the plate's top fills the map
     constexpr double end = 1 - 2.0 * margin_texels / 256;
-    EXPECT_NEAR(corner.x, end, 0.005);
-    EXPECT_NEAR(corner.y, end, 0.005);
+    const char* const what =
+        "a spotlight 10 above a floor, a plate of 2 x 2 from 4 to 5: the corner of its top in NDC, "
+        "without signs, and the map's end less a margin of 4 texels of 256";
+    EXPECT_NEAR(corner.x, end, 0.005) << what;
+    EXPECT_NEAR(corner.y, end, 0.005) << what;
     const double nearest = ndc(clip, {0, 5, 0}).z, farthest = ndc(clip, {0, 4, 0}).z;
-    EXPECT_TRUE(nearest >= -1 && nearest < -0.95) << nearest;
-    EXPECT_TRUE(farthest <= 1 && farthest > 0.95) << farthest;
+    EXPECT_TRUE(nearest >= -1 && nearest < -0.95)
+        << nearest << ": z in NDC of the plate's top, expected just above -1";
+    EXPECT_TRUE(farthest <= 1 && farthest > 0.95)
+        << farthest << ": z in NDC of the plate's underside, expected just below 1";
 }
 
 TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsNoWiderThanItsCone) {
@@ -263,7 +308,10 @@ TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsNoWiderThanItsCone) {
     for (const dvec3 border :
          {dvec3(10, 0, 0), dvec3(-10, 0, 0), dvec3(0, 0, 10), dvec3(0, 0, -10)}) {
         const dvec3 in_ndc = glm::abs(ndc(views.clip_from_world[0], border));
-        EXPECT_NEAR(std::max(in_ndc.x, in_ndc.y), end, 0.005);
+        ASSERT_NEAR(std::max(in_ndc.x, in_ndc.y), end, 0.005)
+            << "a spotlight at (0, 10, 0) shines down, its light ends 45 degrees from the axis: at "
+            << testing::PrintToString(vec3(border)) << " in the world, which is at "
+            << testing::PrintToString(vec3(in_ndc)) << " in NDC, without signs";
     }
 }
 
@@ -283,7 +331,7 @@ TEST(ShadowMaps, Eq9_5_EachDirectionLiesWellInsideOfItsFace) {
     const Bounds around = box(vec3(-9), vec3(9));
     const LightViews views = light_views(point_light(position), around, around, size);
     ASSERT_EQ(views.count, 6u);
-    EXPECT_EQ(cube_face({0.5f, -0.8f, 0.3f}), 3u);  // the worked example: down
+    EXPECT_EQ(cube_face({0.5f, -0.8f, 0.3f}), 3u) << "0 to 5 are +x, -x, +y, -y, +z, -z";  // down
     EXPECT_EQ(cube_face({2, 1, -1}), 0u);
     EXPECT_EQ(cube_face({-0.0f, 0, -0.0f}), 0u);
     EXPECT_EQ(cube_face({-1, 1, -1}), 1u);
@@ -300,9 +348,13 @@ TEST(ShadowMaps, Eq9_5_EachDirectionLiesWellInsideOfItsFace) {
         const vec3 direction = anywhere.direction() * anywhere.one(0.5f, 6);
         const dvec3 in_ndc =
             ndc(views.clip_from_world[cube_face(direction)], dvec3(position) + dvec3(direction));
-        ASSERT_LE(std::abs(in_ndc.x), most) << "seed 4, case " << i;
-        ASSERT_LE(std::abs(in_ndc.y), most) << "seed 4, case " << i;
-        ASSERT_LE(std::abs(in_ndc.z), 1) << "seed 4, case " << i;
+        const std::string where =
+            "NDC of a point that lies " + testing::PrintToString(direction) +
+            " from the light, in its face " + std::to_string(cube_face(direction)) + ", is " +
+            testing::PrintToString(vec3(in_ndc)) + " (seed 4, case " + std::to_string(i) + ")";
+        ASSERT_LE(std::abs(in_ndc.x), most) << where;
+        ASSERT_LE(std::abs(in_ndc.y), most) << where;
+        ASSERT_LE(std::abs(in_ndc.z), 1) << where;
         greatest = std::max({greatest, std::abs(in_ndc.x), std::abs(in_ndc.y)});
     }
     EXPECT_GT(greatest, most - 0.01);  // and no wider than that
@@ -358,33 +410,98 @@ TEST(ShadowMaps, HardCase_LightParallelToUp) {
 TEST(ShadowMaps, Eq9_6_PositionsAndDepthsInTheMap) {
     const ShadowMap map = small_map();
     const vec4 in_map = map.texels_from_world * vec4(0.25f, -0.5f, 0.5f, 1);
-    EXPECT_EQ(in_map, vec4(2.5f, 3, 0.75f, 1));  // the worked example
+    EXPECT_EQ(in_map, vec4(2.5f, 3, 0.75f, 1))  // the worked example
+        << "texels_from_world of (0.25, -0.5, 0.5), in a map of 4 x 4 texels whose clip space is "
+           "the world: column, row (down), depth, w";
     EXPECT_EQ(map.depths.depths().size(), ivec2(4 + 2 * max_pcf_radius));
-    for (const float depth : map.depths.depths().pixels()) EXPECT_EQ(depth, 1);
+    for (const float depth : map.depths.depths().pixels()) ASSERT_EQ(depth, 1) << "before drawing";
+}
+
+TEST(ShadowMaps, Eq9_6_TheNearestCasterIsDrawn) {
+    // Plates at depths 0.25 and 0.75, both on the left half of the map, the nearer one first.
+    const auto plate = [](float depth) {
+        const float z = 2 * depth - 1;
+        return mesh_of({{-1, -1, z}, {0, -1, z}, {0, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}});
+    };
+    ShadowMap map = small_map();
+    NoCounters none;
+    for (const float depth : {0.25f, 0.75f})
+        draw_casters(map, plate(depth), [](std::size_t) { return true; }, none);
+    for (int y = -max_pcf_radius; y < 4 + max_pcf_radius; ++y)
+        for (int x = -max_pcf_radius; x < 4 + max_pcf_radius; ++x) {
+            const bool is_covered = x >= 0 && x < 2 && y >= 0 && y < 4;
+            ASSERT_EQ((map.depths.depths()[ivec2(x, y) + max_pcf_radius]),
+                      is_covered ? 0.25f : 1.0f)
+                << "texel (" << x << ", " << y << ") of a map of 4 x 4 texels, which begins "
+                << max_pcf_radius << " texels from its memory's corner; casters at depths 0.25 and "
+                << "0.75 cover the columns 0 and 1";
+        }
+    ShadowMap empty = small_map();
+    draw_casters(empty, plate(0.25f), [](std::size_t) { return false; }, none);
+    for (const float depth : empty.depths.depths().pixels())
+        ASSERT_EQ(depth, 1) << "of a material that casts no shadow, nothing is drawn";
 }
 
 TEST(ShadowMaps, Eq9_7_LitIsWhatIsNotBehindTheMap) {
     ShadowMap map = small_map();
     put(map, {1, 2}, 0.5f);
     Receiver none;
-    const auto is_lit = [&](vec3 point) { return pcf_visibility<0>(map, none, point) == 1; };
-    EXPECT_TRUE(is_lit(at_texel(1, 2, 0.25f)));
-    EXPECT_TRUE(is_lit(at_texel(1, 2, 0.5f)));
-    EXPECT_FALSE(is_lit(at_texel(1, 2, 0.5001f)));
-    EXPECT_FALSE(is_lit(at_texel(1, 2, 7.0f))) << "far behind";
-    EXPECT_TRUE(is_lit(at_texel(1, 2, -7.0f))) << "far in front";
+    // A point 0 or some of a texel's side from the centre of a texel.
+    const auto has_light = [&](float column, float row, float depth, int expected) {
+        const float found = pcf_visibility<0>(map, none, at_texel(column, row, depth));
+        return (found == static_cast<float>(expected) ? testing::AssertionSuccess()
+                                                      : testing::AssertionFailure())
+               << "the map has depth 0.5 in column 1, row 2 and 1 elsewhere; of a point in column "
+               << column << ", row " << row << ", at depth " << depth << " with bias " << none.bias
+               << " the visibility is " << found << ", expected " << expected;
+    };
+    EXPECT_TRUE(has_light(1, 2, 0.25f, 1));
+    EXPECT_TRUE(has_light(1, 2, 0.75f, 0));
+    EXPECT_TRUE(has_light(1, 2, 0.5f, 1)) << "equal depths: it is lit";
+    EXPECT_TRUE(has_light(1, 2, 0.5001f, 0));
+    EXPECT_TRUE(has_light(1, 2, 7.0f, 0)) << "far behind";
+    EXPECT_TRUE(has_light(1, 2, -7.0f, 1)) << "far in front";
     none.bias = 0.01f;
-    EXPECT_TRUE(is_lit(at_texel(1, 2, 0.505f)));
-    EXPECT_FALSE(is_lit(at_texel(1, 2, 0.515f)));
+    EXPECT_TRUE(has_light(1, 2, 0.505f, 1));
+    EXPECT_TRUE(has_light(1, 2, 0.515f, 0));
     none.bias = 0;
     // All of the texel, and none of its neighbours.
     for (const float side : {-0.49f, 0.49f}) {
-        EXPECT_FALSE(is_lit(at_texel(1 + side, 2 - side, 0.75f)));
-        EXPECT_TRUE(is_lit(at_texel(1 + 1.1f * side, 2, 0.75f)));
-        EXPECT_TRUE(is_lit(at_texel(1, 2 + 1.1f * side, 0.75f)));
+        ASSERT_TRUE(has_light(1 + side, 2 - side, 0.75f, 0));
+        ASSERT_TRUE(has_light(1 + 1.1f * side, 2, 0.75f, 1));
+        ASSERT_TRUE(has_light(1, 2 + 1.1f * side, 0.75f, 1));
     }
     for (const float depth : {0.75f, 1.0f, 1.5f, 1e30f})
-        EXPECT_TRUE(is_lit(at_texel(2, 2, depth))) << "nothing is in front, " << depth;
+        ASSERT_TRUE(has_light(2, 2, depth, 1)) << "nothing is in front";
+}
+
+TEST(ShadowMaps, Eq9_7_InAPerspectiveThePlaceIsDividedByW) {
+    const mat4 clip(perspective(glm::radians(90.0), 1.0, 1.0, 9.0));
+    ShadowMap map(clip, true, 4, box({-9, -9, -9}, {9, 9, -1}));
+    put(map, {2, 1}, 0);
+    EXPECT_EQ(pcf_visibility<0>(map, {}, {0.5f, 0.5f, -2}), 0)
+        << "a spotlight at 0 looks along -z, 45 degrees to each side; its map of 4 x 4 texels has "
+           "depth 0 in column 2, row 1, and 1 elsewhere. The point (0.5, 0.5, -2) has w = 2, and "
+           "lies at (0.25, 0.25) in NDC: in column 2, row 1";
+    EXPECT_EQ(pcf_visibility<0>(map, {}, {-0.5f, 0.5f, -2}), 1)
+        << "the same map: the point (-0.5, 0.5, -2) lies in column 1, row 1";
+}
+
+TEST(ShadowMaps, Eq9_7_UnderALargeRoofAllOfASmallFloorIsDark) {
+    for (const vec3 toward : {vec3(0, 1, 0), vec3(0.3f, 1, -0.5f)})
+        for (const int size : {16, 64, 256})
+            ASSERT_TRUE(is_dark_under_a_large_roof<0>(directional_light(toward), size));
+}
+
+TEST(ShadowMaps, Eq9_13_UnderALargeRoofAllOfASmallFloorIsDarkInAnyLight) {
+    const Light lights[] = {directional_light({0, 1, 0}), directional_light({0.3f, 1, -0.5f}),
+                            spotlight({0.2f, 4, 0.1f}, {0, 0, 0}, 60),
+                            spotlight({0.2f, 4, 0.1f}, {0, 0, 0}, 10)};  // less than the floor
+    for (const Light& light : lights)
+        for (const int size : {16, 64, 256}) {
+            ASSERT_TRUE(is_dark_under_a_large_roof<0>(light, size)) << "1 texel a test";
+            ASSERT_TRUE(is_dark_under_a_large_roof<3>(light, size)) << "7 x 7 texels a test";
+        }
 }
 
 TEST(ShadowMaps, HardCase_OutsideOfTheMapAllIsLit) {
@@ -417,15 +534,18 @@ TEST(ShadowMaps, HardCase_BehindASpotlightAllIsLit) {
     EXPECT_EQ(pcf_visibility<0>(map, {}, {1, 1, 0}), 1) << "beside it";
 }
 
-TEST(ShadowMaps, Eq9_13_TheShareOfTexelsThatAreLit) {
+TEST(ShadowMaps, Eq9_13_AShareOfTexelsIsLit) {
     ShadowMap map = small_map();
     for (const ivec2 texel : {ivec2(0, 0), ivec2(1, 1), ivec2(2, 1), ivec2(3, 3)})
         put(map, texel, 0.5f);
     const vec3 point = at_texel(1.3f, 0.8f, 0.75f);
-    EXPECT_EQ(pcf_visibility<0>(map, {}, point), 0);
-    EXPECT_EQ(pcf_visibility<1>(map, {}, point), 6 / 9.0f);  // the worked example
-    EXPECT_EQ(pcf_visibility<2>(map, {}, point), 21 / 25.0f);
-    EXPECT_EQ(pcf_visibility<3>(map, {}, point), 45 / 49.0f);
+    const char* const where =
+        "a point at depth 0.75 in texel (1, 1); the texels (0, 0), (1, 1), (2, 1) and (3, 3) have "
+        "0.5, all others 1";
+    EXPECT_EQ(pcf_visibility<0>(map, {}, point), 0) << where;
+    EXPECT_EQ(pcf_visibility<1>(map, {}, point), 6 / 9.0f) << where;  // the worked example
+    EXPECT_EQ(pcf_visibility<2>(map, {}, point), 21 / 25.0f) << where;
+    EXPECT_EQ(pcf_visibility<3>(map, {}, point), 45 / 49.0f) << where;
     EXPECT_EQ(pcf_visibility<1>(map, {}, at_texel(0, 3, 0.75f)), 1) << "at the map's corner";
     // Comparisons, not depths, are averaged: the point in front is lit, however near the others.
     EXPECT_EQ(pcf_visibility<1>(map, {}, at_texel(1, 1, 0.4f)), 1);

@@ -23,10 +23,14 @@
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
+#include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
 #include "support/lessons.hpp"
 #include "support/look_up.hpp"
+#include "support/name_of_split.hpp"
+#include "support/names.hpp"
+#include "support/one_triangle.hpp"
 #include "support/pictures.hpp"
 #include "support/pretend_pool.hpp"
 #include "support/printers.hpp"
@@ -126,6 +130,32 @@ std::vector<const Mesh*> pointers_to(const std::vector<Mesh>& meshes) {
 
 }  // namespace
 
+TEST(Threading, Eq10_7_ABatchListsItsTrianglesByTiles) {
+    // Two tiles beside each other; triangle 0 lies in the left one, 1 in both, 2 in the right one.
+    Mesh mesh = mesh_of({{-0.9f, -0.5f, 0},
+                         {-0.1f, -0.5f, 0},
+                         {-0.5f, 0.5f, 0},
+                         {0.9f, -0.5f, 0},
+                         {0.1f, -0.5f, 0},
+                         {0.5f, 0.5f, 0}},
+                        {{0, 1, 2}, {0, 3, 2}, {4, 3, 5}});
+    const std::array<const Mesh*, 1> meshes = {&mesh};
+    const Tiling tiling(Split::tiles, {32, 16}, 1, 16);
+    ThreadPool pool(1);
+    WorkerCounters<NoCounters> counters(1);
+    const BinnedTriangles binned(pool, meshes, mat4(1), tiling, Culling::none, counters);
+    ASSERT_EQ(binned.batches.size(), 1u);
+    ASSERT_EQ(binned.batches[0].triangles.size(), 3u);
+    for (std::size_t tile = 0; tile < 2; ++tile) {
+        const auto of = binned.batches[0].of(tile);
+        const std::vector<std::uint32_t> expected = {static_cast<std::uint32_t>(tile),
+                                                     static_cast<std::uint32_t>(tile) + 1};
+        ASSERT_EQ(std::vector(of.begin(), of.end()), expected)
+            << "triangles listed for the tile on the " << (tile == 0 ? "left" : "right")
+            << ", in the scene's order: 0 lies on the left, 1 on both sides, 2 on the right";
+    }
+}
+
 TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
     const Scene scene = loaded("scene_bumpy.obj");
     const std::vector<const Mesh*> meshes = pointers_to(scene.meshes);
@@ -156,7 +186,9 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
                 EXPECT_EQ(triangles.batches.size(), batches_of(count));
                 for (std::size_t tile = 0; tile < tiling.count(); ++tile)
                     ASSERT_EQ(listed(triangles, tile, scene), expected[tile])
-                        << "split " << int(split) << ", tile " << tile;
+                        << "the scene's triangles by number, in the order in which they are drawn, "
+                        << "in tile " << tile << " of " << tiling.count() << ", " << name_of(split)
+                        << ", " << workers << " workers";
                 Counters sum;
                 counters.add_to(sum);
                 EXPECT_EQ(sum.values[std::size_t(Counter::triangles_in)], count);
@@ -199,9 +231,12 @@ TEST(Threading, Eq10_7_HardCase_AnyThreadsAndSplitGiveTheSameBitsAHundredTimes) 
         for (const Split split : splits) {
             options.threads.split = split;
             for (int i = 0; i < repeats; ++i)
-                ASSERT_EQ(hash_of(lesson_10::render(options, assets, pool, ignored)), hash)
-                    << threads << " threads, split " << int(split) << ", the " << i + 1
-                    << "th time";
+                if (const Image<vec3> picture = lesson_10::render(options, assets, pool, ignored);
+                    hash_of(picture) != hash) {
+                    FAIL() << "not the bits of lesson 09's picture, " << threads << " threads, "
+                           << name_of(split) << ", run " << i + 1 << " of " << repeats << ": "
+                           << have_the_same_bits(picture, expected).message();
+                }
         }
     }
 }
@@ -218,8 +253,9 @@ TEST(Threading, Eq10_7_HardCase_AnyOrderOfTheTasksGivesTheSameBits) {
             options.threads.split = splits[seed % 3];
             options.threads.tile = seed % 2 ? 32 : 5;
             ASSERT_TRUE(
-                are_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
-                << "light " << int(kind) << ", seed " << seed;
+                have_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
+                << "beside lesson 09's picture; " << name_of(kind) << ", "
+                << name_of(options.threads.split) << ", tasks in any order (seed " << seed << ")";
         }
     }
 }
@@ -238,6 +274,18 @@ TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
     knobs[9].orbit.distance = 1e6f;   // next to nothing is seen
     knobs[10].normal_map.space = MapSpace::none, knobs[10].shadow.bias = Bias::normal;
     knobs[11].orbit.pitch_degrees = -90;  // from below
+    constexpr std::array names_of_knobs = {"no option",
+                                           "back faces",
+                                           "--all-effects",
+                                           "--depth",
+                                           "--filter nearest",
+                                           "--light point",
+                                           "--light spot",
+                                           "--bias plane --pcf 7",
+                                           "much clipped",
+                                           "next to nothing seen",
+                                           "--normal-map none --bias normal",
+                                           "the eye below the floor"};
     ThreadPool pool(3);
     for (std::size_t k = 0; k < knobs.size(); ++k) {
         lesson_10::Options& options = knobs[k];
@@ -250,12 +298,13 @@ TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
                 options.threads.split = split, options.threads.tile = tile;
                 Counters counts;
                 const Image<vec3> picture = lesson_10::render(options, assets, pool, counts);
-                EXPECT_TRUE(are_the_same_bits(picture, expected))
-                    << "knobs " << k << ", split " << int(split) << ", tile " << tile;
+                const std::string where = std::string("with ") + names_of_knobs[k] + ", " +
+                                          name_of(split) + ", tile side " + std::to_string(tile) +
+                                          ", beside lesson 09";
+                ASSERT_TRUE(have_the_same_bits(picture, expected)) << where;
                 for (std::size_t i = 0; i < counter_names.size(); ++i)
-                    EXPECT_EQ(counts.values[i], expected_counts.values[i])
-                        << counter_names[i] << ", knobs " << k << ", split " << int(split)
-                        << ", tile " << tile;
+                    ASSERT_EQ(counts.values[i], expected_counts.values[i])
+                        << "the counter " << counter_names[i] << ' ' << where;
             }
     }
 }
@@ -273,10 +322,10 @@ TEST(Threading, HardCase_PicturesOfAFewPixels) {
             for (const Split split : splits)
                 for (const int tile : {1, 64}) {
                     options.threads.split = split, options.threads.tile = tile;
-                    EXPECT_TRUE(are_the_same_bits(lesson_10::render(options, assets, pool, ignored),
-                                                  expected))
-                        << size.x << "x" << size.y << ", " << threads << " threads, split "
-                        << int(split) << ", tile " << tile;
+                    ASSERT_TRUE(have_the_same_bits(
+                        lesson_10::render(options, assets, pool, ignored), expected))
+                        << "a picture of " << size.x << " x " << size.y << ", " << threads
+                        << " threads, " << name_of(split) << ", tile side " << tile;
                 }
         }
     }
@@ -297,13 +346,14 @@ TEST(Threading, HardCase_AWorkerThatThrowsWhileItDraws) {
                 ThrowingCounters counters;
                 try {
                     lesson_10::render(options, assets, pool, counters);
-                    ADD_FAILURE() << "nothing arrived, " << threads << " threads";
+                    FAIL() << "a worker throws, with " << threads << " threads, " << name_of(split)
+                           << ", and render() does not";
                 } catch (const std::runtime_error& error) {
                     EXPECT_STREQ(error.what(), "a worker is tired");
                 }
-                EXPECT_TRUE(
-                    are_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
-                    << "afterwards, " << threads << " threads";
+                ASSERT_TRUE(
+                    have_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
+                    << "the picture after one in which a worker threw, " << threads << " threads";
             }
     }
 }
@@ -340,12 +390,13 @@ TEST(Threading, HardCase_MapsHaveTheSameBitsAndNothingAroundThem) {
                         WorkerCounters<Counters> counters(5);
                         draw_map(pool, map, scene, Tiling(split, ivec2(size), 5, 13), is_drawn,
                                  counters);
-                        EXPECT_TRUE(map.depths.depths() == expected.depths.depths())
-                            << "light " << int(kind) << ", size " << size << ", split "
-                            << int(split);
+                        ASSERT_TRUE(are_equal(map.depths.depths(), expected.depths.depths()))
+                            << "a map of " << size << " texels, which begins " << max_pcf_radius
+                            << " texels from its memory's corner; " << name_of(kind) << ", "
+                            << name_of(split);
                         Counters sum;
                         counters.add_to(sum);
-                        EXPECT_EQ(sum.values, serial.values);
+                        ASSERT_EQ(sum.values, serial.values) << "counters";
                     }
                 }
         }
@@ -365,7 +416,8 @@ TEST(Threading, HardCase_WhoDrewWhatIsShownAsItWas) {
         for (std::size_t i = 0; i < tiling.count(); ++i)
             tint(expected, tiling[i], pool.worker_of(i));
         options.threads.show = true;
-        EXPECT_TRUE(are_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected));
+        EXPECT_TRUE(have_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
+            << "with --show-threads, " << name_of(split);
     }
     // What was brighter is brighter still, in each colour, and none is black.
     for (std::size_t worker = 0; worker < 8; ++worker) {
@@ -391,10 +443,11 @@ TEST(Threading, PictureOfTheSceneIsLesson09sByteForByte) {
     };
     const std::string expected = file_of("09_shadow_maps", {});
     ASSERT_GT(expected.size(), 100000u);
-    EXPECT_TRUE(file_of("10_threading", {}) == expected);
+    EXPECT_TRUE(file_of("10_threading", {}) == expected)
+        << "10_threading.png is not 09_shadow_maps.png; ./tests/run --diagnose says where";
     for (const char* split : {"rows", "interleaved", "tiles"})
         EXPECT_TRUE(file_of("10_threading", {"--threads", "3", "--split", split}) == expected)
-            << split;
+            << "with --threads 3 --split " << split << " the picture is not lesson 09's";
 }
 
 TEST(Threading, PictureOfWhoDrewWhat) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iostream>
 #include <map>
 #include <random>
 #include <set>
@@ -26,6 +27,7 @@
 #include "common/app/counters.hpp"
 #include "common/image/image.hpp"
 #include "support/look_up.hpp"
+#include "support/name_of_split.hpp"
 #include "support/printers.hpp"
 
 using namespace rasterbook;
@@ -54,10 +56,32 @@ Image<int> hits_of(const Tiling& tiling) {
                 for (int x = strip.first.x; x <= strip.last.x; ++x)
                     if (hits.contains({x, y}))
                         ++hits[{x, y}];
-                    else
-                        ADD_FAILURE() << "(" << x << ", " << y << ") is outside";
+                    else if (!testing::Test::HasFailure())
+                        ADD_FAILURE() << "tile " << i << " has the pixel (" << x << ", " << y
+                                      << "), which is outside of the picture of " << tiling.size().x
+                                      << " x " << tiling.size().y;
         });
     return hits;
+}
+
+/// "tile 2 of 7"
+std::string numbered(std::size_t tile, const Tiling& tiling) {
+    return "tile " + std::to_string(tile) + " of " + std::to_string(tiling.count());
+}
+
+/// "a picture of 65 x 63, interleaved rows, 7 workers, tile side 64"
+std::string named(ivec2 size, Split split, int workers, int side) {
+    return "a picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) + ", " +
+           name_of(split) + ", " + std::to_string(workers) + " workers, tile side " +
+           std::to_string(side);
+}
+
+/// "the triangle (3, 4), (5, 0), (1, 1) in pixels"
+std::string named(const ScreenTriangle& triangle) {
+    std::string name = "the triangle ";
+    for (const ivec2 vertex : triangle.vertices)
+        name += testing::PrintToString(vec2(vertex) / static_cast<float>(subpixels)) + ", ";
+    return name + "in pixels";
 }
 
 /// By definition, pixel by pixel: which tile a pixel is in.
@@ -90,6 +114,53 @@ ScreenTriangle any_triangle(std::mt19937& random, ivec2 size) {
 }
 
 }  // namespace
+
+TEST(Threading, Eq10_8_ThePoolDoesEachTaskOnce) {
+    for (const int threads : {1, 2, 3}) {
+        constexpr std::size_t tasks = 10;
+        std::vector<std::atomic<int>> times(tasks);
+        std::vector<std::atomic<bool>> has_worked(static_cast<std::size_t>(threads));
+        std::atomic<int> begun = 0;
+        ThreadPool pool(threads);
+        ASSERT_EQ(pool.size(), static_cast<std::size_t>(threads))
+            << "workers of a pool of " << threads << " threads: the caller is one of them";
+        pool.run(tasks, [&](std::size_t task, std::size_t worker) {
+            ASSERT_LT(task, tasks) << "task numbers are 0 to 9";
+            ASSERT_LT(worker, has_worked.size()) << "of " << threads << " threads";
+            has_worked[worker] = true;
+            // Until all have a task, at most for two seconds: so nobody does all of them.
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+            for (++begun; begun < threads && std::chrono::steady_clock::now() < end;)
+                std::this_thread::yield();
+            // The caller is done first, and has to wait for the others.
+            if (worker != 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            ++times[task];
+        });
+        // Said at once: workers that go on in a job that is gone may crash.
+        if (const auto left =
+                std::ranges::count_if(times, [](const std::atomic<int>& n) { return n == 0; });
+            left > 0)
+            std::cerr << "run() came back before " << left << " of 10 tasks were done, with "
+                      << threads << " threads\n";
+        for (std::size_t task = 0; task < tasks; ++task)
+            ASSERT_EQ(times[task], 1) << "so often task " << task << " of 10 has been done by "
+                                      << threads << " threads when run() comes back";
+        for (std::size_t worker = 0; worker < has_worked.size(); ++worker)
+            ASSERT_TRUE(has_worked[worker])
+                << "no task is given to worker " << worker << " of " << threads;
+    }
+    // Short tasks: whoever reads the counter and writes it in two steps takes some twice.
+    ThreadPool pool(2);
+    constexpr std::size_t tasks = 5'000'000;
+    struct alignas(cache_line) Count {
+        std::size_t tasks = 0;
+    };
+    std::array<Count, 2> done;
+    pool.run(tasks, [&](std::size_t, std::size_t worker) { ++done.at(worker).tasks; });
+    EXPECT_EQ(done[0].tasks + done[1].tasks, tasks)
+        << "short tasks done by 2 threads; if there are more, both took the same one: to read the "
+           "counter and to write it has to be one step";
+}
 
 TEST(Threading, HardCase_EachTaskIsDoneOnceByOneWorker) {
     look_up("The pool");
@@ -146,10 +217,11 @@ TEST(Threading, HardCase_AllThreadsTakePart) {
             const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
             while (begun < threads && std::chrono::steady_clock::now() < end)
                 std::this_thread::yield();
-            EXPECT_EQ(begun, threads);
+            EXPECT_EQ(begun, threads) << "threads have begun a task within ten seconds";
         });
         for (std::size_t worker = 0; worker < pool.size(); ++worker)
-            EXPECT_EQ(tasks_of[worker], 1) << "worker " << worker << " of " << threads;
+            ASSERT_EQ(tasks_of[worker], 1)
+                << "tasks of worker " << worker << ", of as many tasks as threads: " << threads;
     }
 }
 
@@ -169,8 +241,11 @@ TEST(Threading, HardCase_TenMillionShortTasks) {
         });
         Sum all;
         for (const Sum& sum : sums) all.tasks += sum.tasks, all.numbers += sum.numbers;
-        EXPECT_EQ(all.tasks, tasks) << threads << " threads";
-        EXPECT_EQ(all.numbers, tasks * (tasks - 1) / 2) << threads << " threads";
+        ASSERT_EQ(all.tasks, tasks)
+            << "tasks done by " << threads << " threads; if there are more, two threads took the "
+            << "same one: reading the counter and writing it has to be one step";
+        ASSERT_EQ(all.numbers, tasks * (tasks - 1) / 2)
+            << "the sum of the tasks' numbers, " << threads << " threads";
     }
 }
 
@@ -187,7 +262,9 @@ TEST(Threading, HardCase_JobsSeeWhatTheOnesBeforeWrote) {
         }
         long sum = 0;
         for (const long number : numbers) sum += number;
-        EXPECT_EQ(sum, jobs * (1000 + 97)) << threads << " threads";
+        ASSERT_EQ(sum, jobs * (1000 + 97))
+            << "what 300 jobs of 97 tasks have added to plain numbers, with " << threads
+            << " threads";
     }
 }
 
@@ -200,7 +277,8 @@ TEST(Threading, HardCase_WhatATaskThrowsArrivesWholeAndNothingHangs) {
                 pool.run(100, [&](std::size_t task, std::size_t) {
                     if (task == thrower) throw Trouble(task, {1, 2, 3});
                 });
-                ADD_FAILURE() << "nothing arrived";
+                FAIL() << "task " << thrower << " of 100 throws, with " << threads
+                       << " threads, and run() does not";
             } catch (const Trouble& trouble) {
                 EXPECT_EQ(trouble.task, thrower);
                 EXPECT_EQ(trouble.numbers, (std::vector{1, 2, 3}));
@@ -225,7 +303,7 @@ TEST(Threading, HardCase_WhenAllTasksThrowTheFirstArrives) {
                                       throw Trouble(task, {});
                                   }),
                          Trouble);
-            EXPECT_LE(begun, threads) << "who has thrown begins no other";
+            ASSERT_LE(begun, threads) << "tasks begun: whoever has thrown begins no other";
         }
     }
 }
@@ -249,8 +327,10 @@ TEST(Threading, HardCase_OfTwoThatThrowTheFirstArrives) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(200));
                 throw Trouble(task, {});
             });
-            ADD_FAILURE() << "nothing arrived";
-        } catch (const Trouble& trouble) { EXPECT_EQ(trouble.task, first); }
+            ADD_FAILURE() << "both tasks throw, and run() does not";
+        } catch (const Trouble& trouble) {
+            EXPECT_EQ(trouble.task, first) << "the task that threw first is kept";
+        }
     }
 }
 
@@ -297,15 +377,19 @@ TEST(Threading, Eq10_3_EvenRowsLeaveTheRestToTheLast) {
     const Tiling tiling(Split::rows, {1920, 1080}, 7, 64);
     ASSERT_EQ(tiling.count(), 7u);
     for (std::size_t i = 0; i < 7; ++i) {
-        EXPECT_EQ(tiling[i].box.first, ivec2(0, 154 * i));
-        EXPECT_EQ(tiling[i].box.last, ivec2(1919, i < 6 ? 154 * i + 153 : 1079));
-        EXPECT_EQ(tiling[i].row_step, 1);
+        const std::string where = numbered(i, tiling) + ", of 1080 rows";
+        ASSERT_EQ(tiling[i].box.first, ivec2(0, 154 * i)) << "first pixel of " << where;
+        ASSERT_EQ(tiling[i].box.last, ivec2(1919, i < 6 ? 154 * i + 153 : 1079))
+            << "last pixel of " << where << (i == 6 ? ": the rest is the last one's" : "");
+        ASSERT_EQ(tiling[i].row_step, 1) << where;
     }
     // The largest rest: 61 workers, 121 rows; one row for each, and 61 for the last.
     const Tiling uneven(Split::rows, {10, 121}, 61, 64);
-    EXPECT_EQ(uneven[59].box.last.y, 59);
-    EXPECT_EQ(uneven[60].box.first.y, 60);
-    EXPECT_EQ(uneven[60].box.last.y, 120);
+    const char* const what =
+        "121 rows, 61 workers: one row for each, and the last one has the rest";
+    EXPECT_EQ(uneven[59].box.last.y, 59) << what;
+    EXPECT_EQ(uneven[60].box.first.y, 60) << what;
+    EXPECT_EQ(uneven[60].box.last.y, 120) << what;
 }
 
 TEST(Threading, Eq10_4_InterleavedRowsGoRound) {
@@ -315,21 +399,27 @@ TEST(Threading, Eq10_4_InterleavedRowsGoRound) {
         std::vector<int> rows;
         for_each_strip(tiling[i], [&](const PixelBox& strip) {
             EXPECT_EQ(strip.first.x, 0);
-            EXPECT_EQ(strip.last, ivec2(4, strip.first.y));
+            EXPECT_EQ(strip.last, ivec2(4, strip.first.y))
+                << "the last pixel of a strip of " << numbered(i, tiling)
+                << ", interleaved rows of a picture of 5 x 10: it is one row, which begins at "
+                << testing::PrintToString(strip.first);
             rows.push_back(strip.first.y);
         });
         const int first = static_cast<int>(i);
-        EXPECT_EQ(rows, i < 2 ? (std::vector{first, first + 4, first + 8})
-                              : (std::vector{first, first + 4}));
+        ASSERT_EQ(rows, i < 2 ? (std::vector{first, first + 4, first + 8})
+                              : (std::vector{first, first + 4}))
+            << "rows of " << numbered(i, tiling) << ", of 10 rows";
     }
 }
 
 TEST(Threading, Eq10_5_TilesOfTheWorkedExample) {
     const Tiling tiling(Split::tiles, {1920, 1080}, 7, 64);
-    EXPECT_EQ(tiling.count(), 30u * 17u);
-    EXPECT_EQ(tiling[31].box.first, ivec2(64, 64));
-    EXPECT_EQ(tiling[31].box.last, ivec2(127, 127));
-    EXPECT_EQ(tiling[509].box.first, ivec2(1856, 1024));
+    ASSERT_EQ(tiling.count(), 30u * 17u)
+        << "tiles of 64 x 64 in 1920 x 1080 pixels: 30 columns, and 17 rows with the last in part";
+    EXPECT_EQ(tiling[1].box.first, ivec2(64, 0)) << "tile 1 is on the right of tile 0";
+    EXPECT_EQ(tiling[31].box.first, ivec2(64, 64)) << "tile 31 of 30 columns: column 1, row 1";
+    EXPECT_EQ(tiling[31].box.last, ivec2(127, 127)) << "tile 31: the last pixel is its own";
+    EXPECT_EQ(tiling[509].box.first, ivec2(1856, 1024)) << "the last tile";
     EXPECT_EQ(tiling[509].box.last, ivec2(1919, 1079)) << "the last row of tiles is 56 pixels high";
 }
 
@@ -341,22 +431,30 @@ TEST(Threading, HardCase_EachPixelIsInOneTile) {
                 for (const int side : {1, 2, 8, 63, 64, 1000}) {
                     const Tiling tiling(split, size, static_cast<std::size_t>(workers), side);
                     const Image<int> hits = hits_of(tiling);
-                    ASSERT_TRUE(std::ranges::all_of(hits.pixels(), [](int n) { return n == 1; }))
-                        << size.x << "x" << size.y << ", split " << int(split) << ", " << workers
-                        << " workers, tile side " << side;
+                    const std::string where = named(size, split, workers, side);
+                    ASSERT_FALSE(HasFailure()) << where;
+                    for (int y = 0; y < size.y; ++y)
+                        for (int x = 0; x < size.x; ++x)
+                            ASSERT_EQ((hits[{x, y}]), 1) << "so many tiles have the pixel (" << x
+                                                         << ", " << y << ") of " << where;
                     for (std::size_t i = 0; i < tiling.count(); ++i)
                         for_each_strip(tiling[i], [&](const PixelBox& strip) {
-                            ASSERT_EQ(tile_of(strip.first, split, size, workers, side), i);
-                            ASSERT_EQ(tile_of(strip.last, split, size, workers, side), i);
+                            for (const ivec2 pixel : {strip.first, strip.last})
+                                ASSERT_EQ(i, tile_of(pixel, split, size, workers, side))
+                                    << "the tile of the pixel " << testing::PrintToString(pixel)
+                                    << " of " << where;
                         });
+                    ASSERT_FALSE(HasFatalFailure());
                 }
 }
 
 TEST(Threading, HardCase_MoreWorkersThanRowsOrTiles) {
     look_up("Eq. 10.3");
     for (const Split split : {Split::rows, Split::interleaved}) {
-        EXPECT_EQ(Tiling(split, {100, 3}, 61, 64).count(), 3u);
-        EXPECT_EQ(Tiling(split, {100, 1}, 61, 64).count(), 1u);
+        ASSERT_EQ(Tiling(split, {100, 3}, 61, 64).count(), 3u)
+            << name_of(split) << " of a picture of 100 x 3, 61 workers";
+        ASSERT_EQ(Tiling(split, {100, 1}, 61, 64).count(), 1u)
+            << name_of(split) << " of a picture of 100 x 1, 61 workers";
     }
     EXPECT_EQ(Tiling(Split::tiles, {100, 3}, 61, 64).count(), 2u);
     for (const Split split : splits)
@@ -372,7 +470,16 @@ TEST(Threading, Eq10_6_ATriangleIsListedInJustTheTilesThatItsBoxMeets) {
     std::vector<std::size_t> met;
     Tiling(Split::tiles, {1920, 1080}, 4, 64)
         .for_each_in({{100, 50}, {130, 70}}, [&](std::size_t i) { met.push_back(i); });
-    EXPECT_EQ(met, (std::vector<std::size_t>{1, 2, 31, 32}));
+    EXPECT_EQ(met, (std::vector<std::size_t>{1, 2, 31, 32}))
+        << "tiles of 64 x 64, 30 a row, that a box from (100, 50) to (130, 70) meets";
+
+    // Of a triangle: the pixels whose centres lie in its box.
+    const PixelBox known =
+        box_around(snap_triangle({1.25f, 2.75f}, {4.75f, 2.75f}, {1.25f, 5.25f}));
+    EXPECT_EQ(known.first, ivec2(1, 3)) << "the first pixel of the triangle (1.25, 2.75), "
+                                           "(4.75, 2.75), (1.25, 5.25): centres lie at 1/2";
+    EXPECT_EQ(known.last, ivec2(4, 4)) << "the last pixel of the triangle (1.25, 2.75), "
+                                          "(4.75, 2.75), (1.25, 5.25): centres lie at 1/2";
 
     std::mt19937 random(1);
     const ivec2 size(70, 50);
@@ -382,8 +489,12 @@ TEST(Threading, Eq10_6_ATriangleIsListedInJustTheTilesThatItsBoxMeets) {
         fill_triangle(triangle, size, [&](ivec2 pixel, vec3) {
             ASSERT_TRUE(glm::all(glm::greaterThanEqual(pixel, box.first)) &&
                         glm::all(glm::lessThanEqual(pixel, box.last)))
-                << "seed 1, triangle " << k;
+                << "the triangle has the pixel " << testing::PrintToString(pixel)
+                << ", and its box is from " << testing::PrintToString(box.first) << " to "
+                << testing::PrintToString(box.last) << ": " << named(triangle) << " (seed 1, " << k
+                << ")";
         });
+        ASSERT_FALSE(HasFatalFailure());
         const Split split = splits[random() % 3];
         const int workers = thread_counts[random() % thread_counts.size()];
         const int side = 1 + static_cast<int>(random() % 40);
@@ -396,7 +507,10 @@ TEST(Threading, Eq10_6_ATriangleIsListedInJustTheTilesThatItsBoxMeets) {
             .for_each_in(box, [&](std::size_t tile) {
                 ASSERT_TRUE(actual.insert(tile).second) << "seed 1, triangle " << k << ": twice";
             });
-        ASSERT_EQ(actual, expected) << "seed 1, triangle " << k << ", split " << int(split);
+        ASSERT_EQ(actual, expected)
+            << "tiles that the box from " << testing::PrintToString(box.first) << " to "
+            << testing::PrintToString(box.last) << " meets in " << named(size, split, workers, side)
+            << " (seed 1, " << k << ")";
     }
 }
 
@@ -416,14 +530,27 @@ TEST(Threading, Eq10_7_TilesTogetherAreTheWholeTriangleBitForBit) {
         const Tiling tiling(split, size, static_cast<std::size_t>(workers), side);
         for (std::size_t i = 0; i < tiling.count(); ++i)
             fill_tile(triangle, tiling[i], [&](ivec2 pixel, vec3 barycentrics) {
-                ASSERT_EQ(tile_of(pixel, split, size, workers, side), i) << "seed 2, " << k;
+                const auto where = [&] {
+                    return "at the pixel " + testing::PrintToString(pixel) + " of " +
+                           named(triangle) + ", in " + numbered(i, tiling) + ", " +
+                           named(size, split, workers, side) + " (seed 2, " + std::to_string(k) +
+                           ")";
+                };
+                ASSERT_EQ(i, tile_of(pixel, split, size, workers, side)) << where();
                 const auto found = whole.find({pixel.y, pixel.x});
-                ASSERT_TRUE(found != whole.end()) << "seed 2, triangle " << k << ": twice";
-                ASSERT_EQ(found->second, barycentrics) << "seed 2, triangle " << k;
+                ASSERT_TRUE(found != whole.end())
+                    << "drawn twice, or not the triangle's, " << where();
+                ASSERT_EQ(barycentrics, found->second)
+                    << "as fill_tile() and as fill_triangle() have it, " << where();
                 whole.erase(found);
                 ++pixels;
             });
-        ASSERT_TRUE(whole.empty()) << "seed 2, triangle " << k << ": pixels are missing";
+        ASSERT_FALSE(HasFatalFailure());
+        ASSERT_TRUE(whole.empty())
+            << whole.size() << " pixels of " << named(triangle) << " are in no tile of "
+            << named(size, split, workers, side) << ": the first is ("
+            << std::get<1>(whole.begin()->first) << ", " << std::get<0>(whole.begin()->first)
+            << ") (seed 2, " << k << ")";
     }
     EXPECT_GT(pixels, 100000);
 }
@@ -431,10 +558,11 @@ TEST(Threading, Eq10_7_TilesTogetherAreTheWholeTriangleBitForBit) {
 TEST(Threading, Eq10_1_NoScheduleIsShorterThanItsWorkOrItsLongestTask) {
     // The worked example: tasks of 4, 3, 2, 2 and 1.
     const std::array times = {4.0, 3.0, 2.0, 2.0, 1.0};
-    EXPECT_EQ(schedule_of(times, 1).least(), 12);
-    EXPECT_EQ(schedule_of(times, 2).least(), 6);
-    EXPECT_EQ(schedule_of(times, 3).least(), 4);
-    EXPECT_EQ(schedule_of(times, 5).least(), 4) << "the longest task";
+    EXPECT_EQ(schedule_of(times, 1).least(), 12) << "tasks of 4, 3, 2, 2, 1; one worker: all";
+    EXPECT_EQ(schedule_of(times, 2).least(), 6) << "tasks of 4, 3, 2, 2, 1; two workers: half";
+    EXPECT_EQ(schedule_of(times, 3).least(), 4) << "tasks of 4, 3, 2, 2, 1; three workers";
+    EXPECT_EQ(schedule_of(times, 5).least(), 4)
+        << "tasks of 4, 3, 2, 2, 1; five workers: the longest task";
 }
 
 TEST(Threading, Eq10_2_WhatIsLeftToOneWorkerBoundsAll) {
@@ -448,9 +576,11 @@ TEST(Threading, Eq10_2_WhatIsLeftToOneWorkerBoundsAll) {
 
 TEST(Threading, Eq10_8_EachTaskGoesToWhoeverIsFreeFirst) {
     // The worked example, and the same tasks with the shortest first.
-    EXPECT_EQ(schedule_of(std::array{4.0, 3.0, 2.0, 2.0, 1.0}, 2).finish, 6);
-    EXPECT_EQ(schedule_of(std::array{1.0, 2.0, 2.0, 3.0, 4.0}, 2).finish, 7);
-    EXPECT_EQ(schedule_of({}, 3).finish, 0);
+    EXPECT_EQ(schedule_of(std::array{4.0, 3.0, 2.0, 2.0, 1.0}, 2).finish, 6)
+        << "tasks of 4, 3, 2, 2, 1, two workers";
+    EXPECT_EQ(schedule_of(std::array{1.0, 2.0, 2.0, 3.0, 4.0}, 2).finish, 7)
+        << "tasks of 1, 2, 2, 3, 4, two workers";
+    EXPECT_EQ(schedule_of({}, 3).finish, 0) << "no tasks";
 
     // Another way to the same: go through time in small steps; who is free takes the next task.
     std::mt19937 random(3);
@@ -471,11 +601,19 @@ TEST(Threading, Eq10_8_EachTaskGoesToWhoeverIsFreeFirst) {
                         took = true;
                     }
             }
-        ASSERT_EQ(schedule_of(times, workers).finish, finish) << "seed 3, case " << k;
+        ASSERT_EQ(schedule_of(times, workers).finish, finish)
+            << workers << " workers, tasks of " << testing::PrintToString(times)
+            << " (seed 3, case " << k << ")";
     }
 }
 
 TEST(Threading, Eq10_9_TheBoundHoldsInAnyOrderAndIsMet) {
+    // The worked example: 12 tasks of 1, and one of 4 that comes last.
+    std::vector<double> worst(12, 1);
+    worst.push_back(4);
+    const Schedule met = schedule_of(worst, 4);
+    EXPECT_EQ(met.finish, 7) << "12 tasks of 1 and then one of 4; four workers";
+    EXPECT_EQ(met.most(), 7) << "12 tasks of 1 and then one of 4; four workers: no less would hold";
     std::mt19937 random(4);
     for (int k = 0; k < 3000; ++k) {
         std::vector<double> times(1 + random() % 60);
@@ -483,21 +621,21 @@ TEST(Threading, Eq10_9_TheBoundHoldsInAnyOrderAndIsMet) {
         const std::size_t workers = 1 + random() % 20;
         const Schedule schedule = schedule_of(times, workers);
         // 1e-9: a quotient by p and its product are rounded.
-        ASSERT_LE(schedule.finish, schedule.most() * (1 + 1e-9)) << "seed 4, case " << k;
-        ASSERT_GE(schedule.finish * (1 + 1e-9), schedule.least()) << "seed 4, case " << k;
+        ASSERT_LE(schedule.finish, schedule.most() * (1 + 1e-9))
+            << workers << " workers, tasks of " << testing::PrintToString(times)
+            << " (seed 4, case " << k << ")";
+        ASSERT_GE(schedule.finish * (1 + 1e-9), schedule.least())
+            << workers << " workers, tasks of " << testing::PrintToString(times)
+            << " (seed 4, case " << k << ")";
     }
-    // The worked example: 12 tasks of 1, and one of 4 that comes last.
-    std::vector<double> worst(12, 1);
-    worst.push_back(4);
-    const Schedule met = schedule_of(worst, 4);
-    EXPECT_EQ(met.finish, 7);
-    EXPECT_EQ(met.most(), 7) << "no less would hold";
 }
 
 TEST(Threading, Eq10_10_IdleShares) {
     // The worked examples.
-    EXPECT_EQ(schedule_of(std::array{4.0, 3.0, 2.0, 2.0, 1.0}, 2).idle_share(), 0);
-    EXPECT_NEAR(schedule_of(std::array{1.0, 2.0, 2.0, 3.0, 4.0}, 2).idle_share(), 1.0 / 7, 1e-15);
+    EXPECT_EQ(schedule_of(std::array{4.0, 3.0, 2.0, 2.0, 1.0}, 2).idle_share(), 0)
+        << "tasks of 4, 3, 2, 2, 1, two workers";
+    EXPECT_NEAR(schedule_of(std::array{1.0, 2.0, 2.0, 3.0, 4.0}, 2).idle_share(), 1.0 / 7, 1e-15)
+        << "tasks of 1, 2, 2, 3, 4, two workers";
     EXPECT_EQ(schedule_of(std::array{5.0}, 4).idle_share(), 0.75) << "three have nothing to do";
     EXPECT_EQ(schedule_of({}, 4).idle_share(), 0);
     EXPECT_EQ(schedule_of(std::array{0.0, 0.0}, 4).idle_share(), 0);

@@ -21,10 +21,12 @@
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "common/image/backdrop.hpp"
+#include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
 #include "support/lessons.hpp"
 #include "support/look_up.hpp"
+#include "support/name_of_split.hpp"
 #include "support/pictures.hpp"
 #include "support/pretend_pool.hpp"
 #include "support/printers.hpp"
@@ -153,7 +155,8 @@ TEST(SceneFiles, HardCase_AllEffectsForcedGiveTheSameBits) {
         const Drawn plain = drawn(loaded(name), options);
         options.shading.all_effects = true;
         const Drawn forced = drawn(loaded(name), options);
-        EXPECT_TRUE(are_the_same_bits(plain.picture, forced.picture));
+        ASSERT_TRUE(have_the_same_bits(forced.picture, plain.picture))
+            << "with --all-effects, beside without";
         EXPECT_GT(forced.count(Counter::colored_fragments), 1000u);
         EXPECT_GT(forced.count(Counter::blended_fragments), 1000u);
         EXPECT_GT(forced.count(Counter::texture_samples), 1000u);
@@ -192,8 +195,16 @@ TEST(SceneFiles, HardCase_AllEffectsForcedKeepHolesTransparencyAndPaper) {
         lesson_11::Options options = small_picture({16, 16});
         const Drawn plain = drawn(squares.scene, options);
         options.shading.all_effects = true;
-        EXPECT_TRUE(are_the_same_bits(plain.picture, drawn(squares.scene, options).picture))
-            << "order " << index[0] << index[1] << index[2] << index[3] << index[4] << index[5];
+        const auto in_order = [&] {
+            constexpr std::array names = {"holes", "wall",       "back of a wall",
+                                          "glass", "near glass", "comic"};
+            std::string list;
+            for (const std::size_t i : index)
+                list += (list.empty() ? "" : ", ") + std::string(names[i]);
+            return list;
+        };
+        ASSERT_TRUE(have_the_same_bits(drawn(squares.scene, options).picture, plain.picture))
+            << "with --all-effects, beside without; squares in the order " << in_order();
         ++cases;
     } while (std::next_permutation(index.begin(), index.end()) && cases < 720);
     EXPECT_EQ(cases, 720);
@@ -221,10 +232,12 @@ TEST(SceneFiles, HardCase_AnyNumberOfThreadsAndAnyOrderGiveTheSameBits) {
                 if (!expected)
                     expected = std::move(picture);
                 else
-                    EXPECT_TRUE(are_the_same_bits(picture, *expected)) << threads;
+                    ASSERT_TRUE(have_the_same_bits(picture, *expected))
+                        << threads << " threads, " << name_of(split) << ", beside one thread";
                 ShuffledPool shuffled(static_cast<std::size_t>(threads), 7);
-                EXPECT_TRUE(are_the_same_bits(
-                    lesson_11::render(options, assets, shuffled, ignored, clock), *expected));
+                ASSERT_TRUE(have_the_same_bits(
+                    lesson_11::render(options, assets, shuffled, ignored, clock), *expected))
+                    << "tasks in another order, " << name_of(split);
             }
     }
 }
@@ -240,7 +253,10 @@ TEST(SceneFiles, Eq11_7_WhatLiesBehindIsSeenThroughHoles) {
             if (leaf_first) add_leaf();
             squares.add(0, vec3(1, 0, 0));
             if (!leaf_first) add_leaf();
-            EXPECT_EQ(squares.middle(), opacity < 0.5f ? vec3(1, 0, 0) : vec3(0, 1, 0));
+            ASSERT_EQ(squares.middle(), opacity < 0.5f ? vec3(1, 0, 0) : vec3(0, 1, 0))
+                << "a green leaf of opacity " << opacity
+                << " and cutoff 0.5 before a red wall; the " << (leaf_first ? "leaf" : "wall")
+                << " is drawn first";
         }
     // The opacity is that of material and vertices together.
     Squares squares;
@@ -269,9 +285,12 @@ TEST(SceneFiles, Eq11_9_IntersectingTransparentSurfacesAreRightInEachPixel) {
         const Drawn picture = drawn(squares.scene, small_picture({16, 16}));
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 16; ++x)  // red is nearer on the left
-                EXPECT_EQ((picture.picture[{x, y}]),
+                ASSERT_EQ((picture.picture[{x, y}]),
                           x < 8 ? vec3(0.75f, 0.25f, 0.5f) : vec3(0.5f, 0.25f, 0.75f))
-                    << x << " " << y;
+                    << "pixel (" << x << ", " << y
+                    << "): panes of red and blue glass, opacity 0.5, "
+                    << "over white; red is nearer for x < 8; " << (red_first ? "red" : "blue")
+                    << " comes first in the file";
         EXPECT_EQ(picture.count(Counter::blended_fragments), 512u) << "not what is hidden";
         EXPECT_EQ(picture.count(Counter::fragments_shaded), 768u);
     }
@@ -283,7 +302,8 @@ TEST(SceneFiles, Eq11_10_EqualVertexColorsAreExactEverywhere) {
     const Drawn plain = drawn(squares.scene, small_picture({64, 64}));
     squares.scene.meshes[0].colors.assign(4, vec4(1));
     const Drawn white = drawn(squares.scene, small_picture({64, 64}));
-    EXPECT_TRUE(are_the_same_bits(plain.picture, white.picture));
+    EXPECT_TRUE(have_the_same_bits(white.picture, plain.picture))
+        << "with white vertices, beside without vertex colours";
     EXPECT_GT(white.count(Counter::colored_fragments), 1000u);
     squares.scene.meshes[0].colors.assign(4, vec4(0.1f, 0.2f, 0.3f, 1));
     const Drawn tinted = drawn(squares.scene, small_picture({64, 64}));
@@ -321,7 +341,7 @@ TEST(SceneFiles, HardCase_OutlinesAreOneSidedWhateverIsForced) {
     lesson_11::Options options = small_picture();
     const Image<vec3> one_sided = drawn(loaded("toon.glb"), options).picture;
     options.shading.two_sided = true;
-    EXPECT_TRUE(are_the_same_bits(drawn(loaded("toon.glb"), options).picture, one_sided))
+    EXPECT_TRUE(have_the_same_bits(drawn(loaded("toon.glb"), options).picture, one_sided))
         << "its parts are closed, so their backs are not seen; outlines' backs would hide them";
 }
 
@@ -447,8 +467,16 @@ TEST(SceneFiles, HardCase_TheFinalRendererDrawsLesson10sPicture) {
             const Image<vec3> expected =
                 lesson_10::render(same, lesson_10::make_assets(loaded(name), same), pool, counters);
             const Drawn actual = drawn(loaded(name), options);
-            EXPECT_TRUE(are_the_same_bits(actual.picture, expected)) << name << ", knobs " << k;
-            EXPECT_EQ(actual.counters.values, counters.values) << name << ", knobs " << k;
+            constexpr std::array names_of_knobs = {"no option",
+                                                   "--light point",
+                                                   "--light spot, back faces",
+                                                   "--filter nearest --pcf 7",
+                                                   "--normal-map none --distance 0.15",
+                                                   "--depth"};
+            ASSERT_TRUE(have_the_same_bits(actual.picture, expected))
+                << name << " with " << names_of_knobs[k] << ", beside lesson 10";
+            ASSERT_EQ(actual.counters.values, counters.values)
+                << "counters of " << name << " with " << names_of_knobs[k] << ", beside lesson 10";
         }
 }
 
@@ -461,8 +489,10 @@ TEST(SceneFiles, Eq11_5_AToonMaterialHasTwoColors) {
         squares.scene.lights = {{"sun", SceneLight::Kind::directional, vec3(9), vec3(0),
                                  vec3(0, 0, -toward_eye), std::numeric_limits<float>::infinity()}};
         // With a level of 0 or 1, and eighths, no step is rounded.
-        EXPECT_EQ(squares.middle(),
-                  toward_eye > 0 ? vec3(0.875f, 0.625f, 0.375f) : vec3(0.375f, 0.25f, 0.625f));
+        ASSERT_EQ(squares.middle(),
+                  toward_eye > 0 ? vec3(0.875f, 0.625f, 0.375f) : vec3(0.375f, 0.25f, 0.625f))
+            << "a square of (0.75, 0.5, 0.25), in the shade (0.25, 0.125, 0.5), that emits 0.125; "
+            << "the sun shines from " << (toward_eye > 0 ? "the front" : "behind");
     }
 }
 

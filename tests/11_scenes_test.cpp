@@ -45,14 +45,18 @@ TEST(Scenes, Eq11_1_ADirectionalLightOfPiLuxMakesAWhiteSurfaceWhite) {
     EXPECT_EQ(sun.kind, LightKind::directional);
     EXPECT_EQ(sun.direction_world, vec3(0, 1, 0)) << "towards the light; the file has it from it";
     const Incoming incoming = incoming_light(sun, vec3(50, -4, 9));
-    EXPECT_EQ(incoming.color.r, 1);
-    EXPECT_NEAR(incoming.color.g, 2 / pi, 2e-7);  // an ulp of a quotient, and of pi in float
+    EXPECT_EQ(incoming.color.r, 1) << "a sun of pi lux of red: so much of it arrives";
+    EXPECT_NEAR(incoming.color.g, 2 / pi, 2e-7)  // an ulp of a quotient, and of pi in float
+        << "a sun of 2 lux of green: so much of it arrives";
     EXPECT_EQ(incoming.color.b, 0);
 }
 
 TEST(Scenes, Eq11_2_APointLightFallsOffWithTheSquareOfTheDistance) {
     constexpr float radius = 4;
     const Light point_light = light_of(file_light(SceneLight::Kind::point, vec3(60)), radius);
+    // 5 away: within a hundredth, since a lamp is no point here.
+    EXPECT_NEAR(incoming_light(point_light, vec3(1, 2, 8)).color.r, 60 / (25 * pi), 1e-3)
+        << "of a lamp of 60 candela, 5 away, 60 / (25 pi) arrive: the worked example";
     EXPECT_EQ(point_light.position_world, vec3(1, 2, 3));
     const double size = double{lamp_size} * radius;
     for (const double distance : {0.0, 0.25, 0.5, 1.0, 3.0, 40.0}) {
@@ -60,14 +64,14 @@ TEST(Scenes, Eq11_2_APointLightFallsOffWithTheSquareOfTheDistance) {
         const double arriving = incoming_light(point_light, point).color.r;
         // A dozen roundings on the way.
         const double exact = 60 / pi / (distance * distance + size * size);
-        EXPECT_NEAR(arriving, exact, 1e-6 * exact) << distance;
+        ASSERT_NEAR(arriving, exact, 1e-6 * exact)
+            << "of a lamp of 60 candela and the size " << size << ", " << distance << " away";
         if (distance >= 10 * size) {
             const double of_a_point = 60 / pi / (distance * distance);
-            EXPECT_NEAR(arriving, of_a_point, 0.01 * of_a_point) << distance;
+            ASSERT_NEAR(arriving, of_a_point, 0.01 * of_a_point)
+                << "of a lamp of 60 candela, " << distance << " away: nearly that of a point";
         }
     }
-    EXPECT_NEAR(incoming_light(point_light, vec3(1, 2, 8)).color.r, 60 / (25 * pi), 1e-3)
-        << "as worked";
 }
 
 TEST(Scenes, HardCase_PointLightsAreFiniteInScenesOfAnySize) {
@@ -75,11 +79,14 @@ TEST(Scenes, HardCase_PointLightsAreFiniteInScenesOfAnySize) {
     for (const float radius : {1e-37f, 1e-10f, 1.0f, 1e10f, 3e38f})
         for (const SceneLight::Kind kind : {SceneLight::Kind::point, SceneLight::Kind::spot}) {
             const Light point_light = light_of(file_light(kind, vec3(1e30f, 1, 0)), radius);
-            EXPECT_GE(point_light.half_distance, std::numeric_limits<float>::min());
+            ASSERT_GE(point_light.half_distance, std::numeric_limits<float>::min())
+                << "in a scene of radius " << radius;
             for (const vec3 point : {vec3(1, 2, 3), vec3(0), vec3(1e30f), vec3(-5, 1, 2)}) {
                 const vec3 color = incoming_light(point_light, point).color;
-                EXPECT_TRUE(std::isfinite(color.r) && std::isfinite(color.g)) << radius;
-                EXPECT_EQ(color.b, 0);
+                ASSERT_TRUE(std::isfinite(color.r) && std::isfinite(color.g))
+                    << testing::PrintToString(color) << " at " << testing::PrintToString(point)
+                    << ", in a scene of radius " << radius;
+                ASSERT_EQ(color.b, 0);
             }
         }
 }
@@ -123,8 +130,10 @@ TEST(Scenes, Eq11_12_LightsOfAnyUnitAreScaledDownTogether) {
             std::array lights = {sun, file_light(kind, vec3(0, 9000, 4))};
             lights[1].position_world = vec3(1, 2, 3 + distance);
             const double far_away = std::max(distance, 2.0);  // one radius at least
-            EXPECT_NEAR(exposure_of(lights, bounds), pi * far_away * far_away / 9000, 1e-7)
-                << distance;
+            ASSERT_NEAR(exposure_of(lights, bounds), pi * far_away * far_away / 9000, 1e-7)
+                << "a lamp of 9000 candela, " << distance
+                << " from the middle of a scene of radius "
+                << "2: it counts as " << far_away << " away";
         }
 
     Scene scene;
@@ -151,7 +160,9 @@ TEST(Scenes, HardCase_LightsOfAnyStrengthAreNeitherBlackNorInfinite) {
                 bounds.add(vec3(1, 2, 3) - size), bounds.add(vec3(1, 2, 3) + size);
                 const SceneLight light = file_light(kind, vec3(strength));
                 const float exposure = exposure_of({&light, 1}, bounds);
-                EXPECT_TRUE(exposure > 0 && exposure <= 1) << size << ' ' << strength;
+                ASSERT_TRUE(exposure > 0 && exposure <= 1)
+                    << exposure << ", expected above 0 and at most 1; a scene of half size " << size
+                    << ", a light of " << strength;
             }
 }
 
@@ -166,18 +177,24 @@ TEST(Scenes, Eq11_3_EachSetOfEffectsHasAPermutationWithAllOfThem) {
         used.insert(permutation);
         const Permutation effects = all_permutations[permutation];
         const bool toon = plan[Effect::toon], light = plan[Effect::light];
-        EXPECT_EQ(effects.model, toon    ? ShadingModel::toon
-                                 : light ? ShadingModel::phong
-                                         : ShadingModel::unlit);
+        std::string called_for;
+        for (std::size_t e = 0; e < effect_count; ++e)
+            if (plan.effects[static_cast<Effect>(e)])
+                called_for += (called_for.empty() ? "" : ", ") + std::string(effect_names[e]);
+        SCOPED_TRACE("called for: " + called_for);
+        ASSERT_EQ(static_cast<int>(effects.model), static_cast<int>(toon    ? ShadingModel::toon
+                                                                    : light ? ShadingModel::phong
+                                                                            : ShadingModel::unlit))
+            << "the shading model: toon before Phong's, and neither without light";
         if (!toon && !light) {
-            EXPECT_FALSE(effects.normal_map || effects.shadow) << "no light: nothing to perturb";
+            ASSERT_FALSE(effects.normal_map || effects.shadow) << "no light: nothing to perturb";
             continue;
         }
-        EXPECT_TRUE(effects.normal_map || !plan[Effect::normal_map]);
-        EXPECT_TRUE(effects.shadow || !plan[Effect::shadow]);
+        ASSERT_TRUE(effects.normal_map || !plan[Effect::normal_map]) << "no normal map";
+        ASSERT_TRUE(effects.shadow || !plan[Effect::shadow]) << "no shadow";
         if (light && !toon) {  // the common ones have no more than is called for
-            EXPECT_EQ(effects.normal_map, plan[Effect::normal_map]);
-            EXPECT_EQ(effects.shadow, plan[Effect::shadow]);
+            ASSERT_EQ(effects.normal_map, plan[Effect::normal_map]);
+            ASSERT_EQ(effects.shadow, plan[Effect::shadow]);
         }
     }
     EXPECT_EQ(used.size(), all_permutations.size()) << "none is compiled for nothing";
@@ -188,9 +205,12 @@ TEST(Scenes, Eq11_4_TheShadingBorderOfAToonMaterial) {
         return ToonMaterial{.toony = toony, .shift = shift};
     };
     // The worked example: toony 0.95, shift -0.1.
-    EXPECT_EQ(toon_step(0.0f, look(0.95f, -0.1f)), 0);
-    EXPECT_NEAR(toon_step(0.1f, look(0.95f, -0.1f)), 0.5, 1e-6);  // 1 - 0.95 has 1e-6 of error
-    EXPECT_EQ(toon_step(0.2f, look(0.95f, -0.1f)), 1);
+    const char* const worked = "look(toony, shift): the border goes from cosine 0.05 to 0.15";
+    EXPECT_EQ(toon_step(0.0f, look(0.95f, -0.1f)), 0) << worked;
+    EXPECT_NEAR(toon_step(0.1f, look(0.95f, -0.1f)), 0.5, 1e-6)  // 1 - 0.95 has 1e-6 of error
+        << worked;
+    EXPECT_NEAR(toon_step(0.075f, look(0.95f, -0.1f)), 0.25, 1e-5) << worked;
+    EXPECT_EQ(toon_step(0.2f, look(0.95f, -0.1f)), 1) << worked;
     // Sharp: light from the threshold on.
     EXPECT_EQ(toon_step(0.0f, look(1, 0)), 1);
     EXPECT_EQ(toon_step(std::nextafter(0.0f, -1.0f), look(1, 0)), 0);
@@ -198,15 +218,21 @@ TEST(Scenes, Eq11_4_TheShadingBorderOfAToonMaterial) {
     EXPECT_EQ(toon_step(-0.251f, look(1, 0.25f)), 0);
     // As wide as the sphere: half of Lambert's way from one side to the other.
     for (const float cosine : {-1.0f, -0.5f, 0.0f, 0.25f, 1.0f})
-        EXPECT_EQ(toon_step(cosine, look(0, 0)), 0.5f + 0.5f * cosine);
-    for (const float toony : {0.0f, 0.3f, 1.0f}) EXPECT_EQ(toon_step(nan_value, look(toony, 0)), 0);
+        ASSERT_EQ(toon_step(cosine, look(0, 0)), 0.5f + 0.5f * cosine)
+            << "cosine " << cosine << ", toony 0: the border is all of the sphere";
+    for (const float toony : {0.0f, 0.3f, 1.0f})
+        ASSERT_EQ(toon_step(nan_value, look(toony, 0)), 0)
+            << "a cosine that is no number, toony " << toony;
     for (const float toony : {0.0f, 0.5f, 0.9f, 1.0f})
         for (const float shift : {-1.0f, -0.2f, 0.0f, 1.0f}) {
             float last = 0;
             for (int i = -100; i <= 100; ++i) {
                 const float step = toon_step(static_cast<float>(i) / 100, look(toony, shift));
-                EXPECT_GE(step, last);
-                EXPECT_LE(step, 1);
+                ASSERT_GE(step, last)
+                    << "at the cosine " << i / 100.0 << ", beside 0.01 less; toony " << toony
+                    << ", shift " << shift;
+                ASSERT_LE(step, 1)
+                    << "at the cosine " << i / 100.0 << ", toony " << toony << ", shift " << shift;
                 last = step;
             }
         }
@@ -218,16 +244,21 @@ TEST(Scenes, Eq11_5_OnlyTheRelativeBrightnessOfLightsCounts) {
     const auto all = [](std::size_t) { return 1.0f; };
     for (const float bright : {1e-6f, 0.3f, 1.0f, 1e6f}) {
         const std::array sun = {Light{LightKind::directional, vec3(bright, 0, 0), up}};
-        EXPECT_EQ(toon_level(sun, vec3(0), 5.0f * up, sharp, all), 1) << bright;
-        EXPECT_EQ(toon_level(sun, vec3(0), -up, sharp, all), 0);
-        EXPECT_EQ(toon_level(sun, vec3(0), up, sharp, [](std::size_t) { return 0.5f; }), 1);
-        EXPECT_EQ(toon_level(sun, vec3(0), up, sharp, [](std::size_t) { return 0.49f; }), 0);
+        SCOPED_TRACE("a sun above, of brightness " + std::to_string(bright));
+        ASSERT_EQ(toon_level(sun, vec3(0), 5.0f * up, sharp, all), 1)
+            << "the normal points up, and is 5 long";
+        ASSERT_EQ(toon_level(sun, vec3(0), -up, sharp, all), 0) << "the normal points down";
+        ASSERT_EQ(toon_level(sun, vec3(0), up, sharp, [](std::size_t) { return 0.5f; }), 1)
+            << "half of the light is in shadow: that is none";
+        ASSERT_EQ(toon_level(sun, vec3(0), up, sharp, [](std::size_t) { return 0.49f; }), 0)
+            << "more than half of the light is in shadow: that is all";
     }
     // The worked example: the sun is behind, and the sky of a quarter of its brightness is not.
     const std::array lights = {Light{LightKind::directional, vec3(2, 1, 1), -up},
                                Light{LightKind::directional, vec3(0.1f, 0.5f, 0.2f), up}};
-    EXPECT_EQ(toon_level(lights, vec3(0), up, sharp, all), 0.25f);
-    EXPECT_EQ(toon_level(lights, vec3(0), -up, sharp, all), 1);
+    EXPECT_EQ(toon_level(lights, vec3(0), up, sharp, all), 0.25f)
+        << "only the sky shines on it, of a quarter of the sun's brightness";
+    EXPECT_EQ(toon_level(lights, vec3(0), -up, sharp, all), 1) << "only the sun shines on it";
     const std::array both = {lights[0], Light{LightKind::directional, vec3(2), -up}};
     EXPECT_EQ(toon_level(both, vec3(0), -up, sharp, all), 1) << "not more than lit";
     // No light, no normal, no number.
@@ -251,25 +282,48 @@ TEST(Scenes, Eq11_7_TheAlphaTestPassesAtTheCutoff) {
 }
 
 TEST(Scenes, Eq11_8_OverIsExactAtBothEnds) {
+    EXPECT_EQ(over(vec3(1, 0, 0), 0.5f, vec3(0, 0, 1)), vec3(0.5f, 0, 0.5f)) << "as worked";
+    EXPECT_EQ(over(vec3(1, 0, 0), 0.25f, vec3(0, 0, 1)), vec3(0.25f, 0, 0.75f))
+        << "a quarter of red over blue";
     std::mt19937 random(11);
     const auto number = [&] { return static_cast<float>(random()) * 0x1p-30f; };
     for (int k = 0; k < 10000; ++k) {
         const vec3 color(number(), number(), number()), behind(number(), number(), number());
         const float opacity = static_cast<float>(random()) * 0x1p-32f;
-        ASSERT_EQ(over(color, 1, behind), color);
-        ASSERT_EQ(over(color, 0, behind), behind);
+        ASSERT_EQ(over(color, 1, behind), color) << "with an opacity of 1 it is the colour itself";
+        ASSERT_EQ(over(color, 0, behind), behind) << "with an opacity of 0 it is what lies behind";
         const vec3 sum = over(color, opacity, behind);
         for (int i = 0; i < 3; ++i) {
             const long double exact =
                 static_cast<long double>(opacity) * color[i] + (1.0L - opacity) * behind[i];
             // Two products, a difference and a sum are rounded, each by half an ulp of at most 4.
-            ASSERT_NEAR(sum[i], static_cast<double>(exact), 4 * 4 * 0x1p-24) << "seed 11, " << k;
+            ASSERT_NEAR(sum[i], static_cast<double>(exact), 4 * 4 * 0x1p-24)
+                << testing::PrintToString(color) << " with opacity " << opacity << " over "
+                << testing::PrintToString(behind) << " (seed 11, " << k << ")";
         }
     }
-    EXPECT_EQ(over(vec3(1, 0, 0), 0.5f, vec3(0, 0, 1)), vec3(0.5f, 0, 0.5f)) << "as worked";
 }
 
 TEST(Scenes, Eq11_9_FragmentsAreBlendedBackToFrontInWhateverOrderTheyCome) {
+    // The worked example: glass of red at 0.3, of blue at 0.6, both of a half, over white.
+    for (const bool red_first : {true, false}) {
+        TransparentFragments panes;
+        const TransparentFragment red{{0, 0}, 0.3f, 0.5f, {1, 0, 0}},
+            blue{{0, 0}, 0.6f, 0.5f, {0, 0, 1}};
+        panes.add(red_first ? red : blue), panes.add(red_first ? blue : red);
+        Image<vec3> white({1, 1}, vec3(1));
+        panes.blend_over(white);
+        ASSERT_EQ((white[{0, 0}]), vec3(0.75f, 0.25f, 0.5f))
+            << "over white, blue glass at depth 0.6 and red glass at 0.3, both of opacity 0.5; "
+            << (red_first ? "red" : "blue") << " is added first";
+    }
+    // Of equal depths, the first one lies on top.
+    TransparentFragments panes;
+    panes.add({{0, 0}, 0.5f, 1, {1, 0, 0}}), panes.add({{0, 0}, 0.5f, 1, {0, 0, 1}});
+    Image<vec3> white({1, 1}, vec3(1));
+    panes.blend_over(white);
+    EXPECT_EQ((white[{0, 0}]), vec3(1, 0, 0))
+        << "red is added first, then blue at the same depth; both have opacity 1";
     std::mt19937 random(12);
     const ivec2 size(5, 4);
     for (int k = 0; k < 300; ++k) {
@@ -304,18 +358,9 @@ TEST(Scenes, Eq11_9_FragmentsAreBlendedBackToFrontInWhateverOrderTheyCome) {
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x)
                 ASSERT_EQ((actual[{x, y}]), (expected[{x, y}]))
-                    << "seed 12, case " << k << ", pixel " << x << ' ' << y;
-        EXPECT_TRUE(gathered.empty());
-    }
-    // The worked example: glass of red at 0.3, of blue at 0.6, both of a half, over white.
-    for (const bool red_first : {true, false}) {
-        TransparentFragments panes;
-        const TransparentFragment red{{0, 0}, 0.3f, 0.5f, {1, 0, 0}},
-            blue{{0, 0}, 0.6f, 0.5f, {0, 0, 1}};
-        panes.add(red_first ? red : blue), panes.add(red_first ? blue : red);
-        Image<vec3> white({1, 1}, vec3(1));
-        panes.blend_over(white);
-        EXPECT_EQ((white[{0, 0}]), vec3(0.75f, 0.25f, 0.5f));
+                    << "pixel (" << x << ", " << y << ") of " << transparent.size()
+                    << " fragments, some of equal depth (seed 12, case " << k << ")";
+        ASSERT_TRUE(gathered.empty()) << "after blending none is left";
     }
 }
 
@@ -353,14 +398,19 @@ TEST(Scenes, Eq11_6_OutlinesHaveTheWidthThatIsAskedFor) {
         EXPECT_EQ(c.position, 1u);
         for (std::size_t i = 0; i < 4; ++i) {
             const dvec3 place(scene.meshes[0].positions[i]), way(dvec3(hull.positions[i]) - place);
-            EXPECT_GT(glm::dot(way, place), 0) << "outwards";
+            ASSERT_GT(glm::dot(way, place), 0)
+                << "a tetrahedron's vertex " << testing::PrintToString(vec3(place))
+                << " is pushed by " << testing::PrintToString(vec3(way)) << ", expected outwards";
             // A tetrahedron's vertex is pushed straight away from its middle.
-            EXPECT_NEAR(glm::length(glm::cross(way, place)), 0, 1e-6);
+            ASSERT_NEAR(glm::length(glm::cross(way, place)), 0, 1e-6);
             const double distance = -(camera.view_from_world * vec4(place, 1)).z;
             const double height = 2 * distance * std::tan(25 * pi / 180);
-            EXPECT_NEAR(glm::length(way), h == 0 ? 0.25 : 0.01 * height, 2e-6);
-            EXPECT_LE(hull.bounds.min.x, hull.positions[i].x);
-            EXPECT_GE(hull.bounds.max.y, hull.positions[i].y);
+            ASSERT_NEAR(glm::length(way), h == 0 ? 0.25 : 0.01 * height, 2e-6)
+                << (h == 0 ? "an outline of 0.25 in the world"
+                           : "an outline of 0.01 heights of the picture, by a camera of 50 degrees")
+                << ": so far is a vertex pushed that is " << distance << " in front of the camera";
+            ASSERT_LE(hull.bounds.min.x, hull.positions[i].x) << "the bounds hold all positions";
+            ASSERT_GE(hull.bounds.max.y, hull.positions[i].y) << "the bounds hold all positions";
         }
     }
     OutlineHull behind = hulls[1];
@@ -447,7 +497,11 @@ TEST(Scenes, Eq11_11_AFittedSceneTakesNineTenthsOfThePicture) {
         }
         // In float: the eye may be a thousand times as far away as a corner of the box is beside
         // the middle.
-        ASSERT_NEAR(farthest, 0.9f, 1e-3f) << "seed 13, case " << k;
+        ASSERT_NEAR(farthest, 0.9f, 1e-3f)
+            << "the corner of the scene's box that is farthest from the picture's middle, in NDC; "
+               "a "
+            << "picture of " << size.x << " x " << size.y << ", " << orbit.fov_degrees
+            << " degrees (seed 13, case " << k << ")";
     }
     // The worked example: a cube of side 2 from the front, 90 degrees, a square picture.
     const Bounds cube{vec3(-1), vec3(1)};
