@@ -24,8 +24,8 @@ namespace {
 
 constexpr vec3 out_of_the_surface(0, 0, 1);
 
-/// A few roundings of numbers up to 1.
-constexpr float roundings = 4 * FLT_EPSILON;
+/// One rounding, and a few, of numbers up to 1.
+constexpr float one_rounding = FLT_EPSILON, roundings = 4 * FLT_EPSILON;
 
 /// Not parallel to the axes, so that nothing is right by chance.
 TangentFrame some_frame(float handedness = 1) {
@@ -60,8 +60,8 @@ TEST(NormalMaps, Eq8_1_CodesInTheMiddleAndAtTheEnds) {
     EXPECT_EQ(component_from_code(1), -1.0f);
     EXPECT_EQ(component_from_code(0), -1.0f);
     EXPECT_NEAR(component_from_code(64), -0.504f, 0.0005f);  // the worked example
-    EXPECT_NEAR(component_from_code(192), 64 / 127.0f, FLT_EPSILON);
-    EXPECT_NEAR(component_from_code(64), -64 / 127.0f, FLT_EPSILON);
+    EXPECT_NEAR(component_from_code(192), 64 / 127.0f, one_rounding);
+    EXPECT_NEAR(component_from_code(64), -64 / 127.0f, one_rounding);
     for (int bits = 2; bits <= 16; ++bits) {
         const std::uint32_t middle = 1u << (bits - 1);
         ASSERT_EQ(component_from_code(middle, bits), 0.0f) << "the middle code of " << bits;
@@ -175,9 +175,9 @@ TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
 
 TEST(NormalMaps, Eq8_8_TheThirdComponentFromTwo) {
     EXPECT_EQ(with_z({0, 0}), out_of_the_surface);
-    EXPECT_NEAR(with_z({0.6f, 0}).z, 0.8f, FLT_EPSILON);
-    EXPECT_NEAR(with_z({0.6f, 0.48f}).z, 0.64f, FLT_EPSILON);  // the worked example
-    EXPECT_NEAR(with_z({0.48f, -0.64f}).z, 0.6f, FLT_EPSILON);
+    EXPECT_NEAR(with_z({0.6f, 0}).z, 0.8f, one_rounding);
+    EXPECT_NEAR(with_z({0.6f, 0.48f}).z, 0.64f, one_rounding);  // the worked example
+    EXPECT_NEAR(with_z({0.48f, -0.64f}).z, 0.6f, one_rounding);
     EXPECT_EQ(with_z({1, 0}).z, 0);
     EXPECT_EQ(with_z({0.9f, 0.9f}).z, 0) << "too long for a third";
     EXPECT_EQ(with_z({-3, 4}), vec3(-3, 4, 0));
@@ -188,7 +188,7 @@ TEST(NormalMaps, Eq8_8_TheThirdComponentFromTwo) {
         const vec3 found = with_z(vec2(unit));
         ASSERT_EQ(vec2(found), vec2(unit)) << "x and y stay; seed 2, case " << i;
         // Where z is small, its square is what is left of 1: that rounds to some 2^-23.
-        ASSERT_NEAR(found.z * found.z, unit.z * unit.z, 4 * FLT_EPSILON)
+        ASSERT_NEAR(found.z * found.z, unit.z * unit.z, 4 * one_rounding)
             << "with_z() of " << testing::PrintToString(vec2(unit)) << ", seed 2, case " << i;
     }
 }
@@ -199,7 +199,7 @@ TEST(NormalMaps, Eq8_9_AWorkedExample) {
     const vec4 n = normals_from_heights(picture, Wrap::repeat)[{1, 1}];
     const char* const where =
         "4 x 3 texels, the column on the left 0, the others 102; the texel (1, 1)";
-    EXPECT_NEAR(n.x, -0.8f, FLT_EPSILON) << where;
+    EXPECT_NEAR(n.x, -0.8f, one_rounding) << where;
     EXPECT_EQ(n.y, 0) << where;
     EXPECT_EQ(n.z, 1) << where;
     EXPECT_NEAR(degrees_between(vec3(n), out_of_the_surface), 38.7, 0.05);
@@ -207,7 +207,7 @@ TEST(NormalMaps, Eq8_9_AWorkedExample) {
     // The same from below.
     Image<u8vec4> low({4, 3}, {0, 0, 0, 255});
     for (int x = 0; x < 4; ++x) low[{x, 2}] = {102, 102, 102, 255};
-    EXPECT_NEAR((normals_from_heights(low, Wrap::repeat)[{1, 1}].y), 0.6f, FLT_EPSILON)
+    EXPECT_NEAR((normals_from_heights(low, Wrap::repeat)[{1, 1}].y), 0.6f, one_rounding)
         << "4 x 3 texels, the lowest row 102, the others 0; the texel (1, 1): the surface falls "
            "upwards, so the normal leans up. Rows run down";
 }
@@ -223,10 +223,10 @@ TEST(NormalMaps, Eq8_9_SlopesOfHeights) {
     for (int y = 1; y + 1 < size.y; ++y)
         for (int x = 1; x + 1 < size.x; ++x) {
             const vec4 n = normals[{x, y}];
-            ASSERT_NEAR(n.x, -16 / 255.0f, 16 * FLT_EPSILON)
+            ASSERT_NEAR(n.x, -16 / 255.0f, 16 * one_rounding)
                 << "16 x 8 texels, each one code higher than that on its left; texel (" << x << ", "
                 << y << ")";
-            ASSERT_NEAR(n.y, -16 / 255.0f, 16 * FLT_EPSILON)
+            ASSERT_NEAR(n.y, -16 / 255.0f, 16 * one_rounding)
                 << "16 x 8 texels, each two codes higher than that below it; texel (" << x << ", "
                 << y << ")";
             ASSERT_EQ(n.z, 1);
