@@ -290,6 +290,12 @@ TEST(TriangleFill, Eq2_4_AtThePixelsOfTheWorkedExample) {
         << "the shares of a = (1, 1), b = (1, 5), c = (5, 1) at pixel (1, 2)";
 }
 
+TEST(TriangleFill, TriangleSeenClockwiseIsFilledToo) {
+    look_up("Eq. 2.4 and Front and back");
+    EXPECT_TRUE(same_pixels(covered(a, c, b, {8, 8}), covered(a, b, c, {8, 8})))
+        << "(1, 1), (5, 1), (1, 5) is (1, 1), (1, 5), (5, 1) seen from behind";
+}
+
 TEST(TriangleFill, Eq2_4_BarycentricsAreWithinTwoUlpOfTheExactOnes) {
     constexpr long double two_ulp =
         2.0L * FLT_EPSILON;  // three roundings of half an ulp each, one of 1/area
