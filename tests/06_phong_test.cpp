@@ -289,7 +289,7 @@ TEST(Phong, Eq6_5_TwoLightsAddUp) {
     }
 }
 
-TEST(Phong, Eq6_5_TurningEverythingChangesNothing) {
+TEST(Phong, Eq6_7_TurningEverythingChangesNothing) {
     Directions any(6);
     int lit = 0;
     for (int i = 0; i < 10'000; ++i) {

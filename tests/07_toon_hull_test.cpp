@@ -159,7 +159,7 @@ TEST(Toon, Eq7_8_EqualPositionsGetTheSameBits) {
     EXPECT_EQ(shared, 24);
 }
 
-TEST(Toon, Eq7_8_SphereGrowsAlongItsRadii) {
+TEST(Toon, Eq7_8_VerticesOfASphereGrowAlongTheirRadii) {
     const Mesh mesh = sphere_mesh(64, 128);  // with seam and poles several times
     const std::vector<vec3> normals = hull_normals(mesh);
     for (const Triangle& triangle : mesh.triangles)
