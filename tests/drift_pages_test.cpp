@@ -35,8 +35,9 @@ TEST(Drift, LinksWithinATextLeadToItsHeadings) {
 TEST(Drift, EachEquationAndPictureBelongsToOneStepOfItsLesson) {
     for (const std::string& name : lessons()) {
         std::multiset<std::string> equations, pictures;
-        for (const std::string& step :
-             all_between(read_text(root / "lessons" / name / "README.md"), "\nstep: ", "\n")) {
+        for (const std::string& part :
+             parts_after(read_text(root / "lessons" / name / "README.md"), "\nstep: ")) {
+            const std::string step = part.substr(0, part.find('\n'));
             std::istringstream fields(step);
             std::string numbers, options, of_step, title, word;
             std::getline(fields, numbers, '|') && std::getline(fields, options, '|') &&

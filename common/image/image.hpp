@@ -90,8 +90,8 @@ class Image {
 
     /// An assertion that says which pixel of which image was asked for.
     [[noreturn]] void fail_outside(ivec2 p) const {
-        std::fprintf(stderr, "pixel (%d, %d) lies outside of the image of %d x %d pixels\n", p.x, p.y,
-                     size_.x, size_.y);
+        std::fprintf(stderr, "pixel (%d, %d) lies outside of the image of %d x %d pixels\n", p.x,
+                     p.y, size_.x, size_.y);
         std::abort();
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Whether AddressSanitizer or ThreadSanitizer watches the tests: all takes many times as long then,
-/// and terabytes of address space are taken.
+/// Whether AddressSanitizer or ThreadSanitizer watches the tests: all takes many times as long
+/// then, and terabytes of address space are taken.
 #pragma once
 
 namespace rasterbook::test {

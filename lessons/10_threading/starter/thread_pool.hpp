@@ -69,7 +69,7 @@ class ThreadPool {
     }
 
     void work(const std::stop_token& stop, std::size_t worker) {
-        // TODO: wait for a job that this worker has not been in, take tile, and again, until
+        // TODO: wait for a job that this worker has not been in, take tasks, and again, until
         // `stop`. has_job_.wait(lock, stop, condition) gives false once the pool is to end and
         // there is no job.
     }
