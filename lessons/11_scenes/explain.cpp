@@ -19,7 +19,8 @@ void add_word(std::string& words, const std::string& word) {
 }  // namespace
 
 void explain(const SceneAssets& assets, const std::string& camera, const Counters& counters,
-             const StepClock& clock) {
+             StepClock& clock) {
+    clock.end();
     std::osyncstream out(std::cout);  // not between the words of another frame
     const Scene& scene = assets.scene;
     std::size_t triangles = 0;

@@ -44,7 +44,8 @@ class StepClock {
 ///
 /// @param camera    Its name.
 /// @param counters  Of the picture.
+/// @param clock     Its last step ends now.
 void explain(const SceneAssets& assets, const std::string& camera, const Counters& counters,
-             const StepClock& clock);
+             StepClock& clock);
 
 }  // namespace rasterbook

@@ -86,7 +86,6 @@ Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool
         transparent.blend_over(color);
         if (options.threads.show) tint(color, tile, worker);
     });
-    clock.end();
     counters_of.add_to(total);
     if (options.show_depth) return depth_picture(depth);
     return color;
@@ -98,16 +97,14 @@ int main(int argc, char** argv) {
     return run_lesson<Options>(
         argc, argv, "11_scenes", "Draws a scene of any file, and what it calls for.",
         make_scene_assets<Options>,
-        [](const Options& options, const SceneAssets& assets, Counters& total) {
+        [](const Options& options, const SceneAssets& assets, Counters& counters) {
             thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
-            Counters counters;                                 // of this picture alone
             StepClock clock;
             Image<vec3> picture = render(options, assets, *pool, counters, clock);
             if (options.scene.explain)
                 explain(assets, camera_of_picture(options, options.scene.camera, assets.scene).name,
                         counters, clock);
-            total.add(counters);
             return picture;
         });
 }
