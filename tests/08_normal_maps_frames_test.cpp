@@ -251,14 +251,13 @@ TEST(NormalMaps, Eq8_3_DirectionsDoNotDependOnTheFirstVertex) {
         }
         const UvDirections first = uv_directions(p, t);
         // Both ways around: the other one is the triangle from behind, under the same texture.
-        for (const auto& [a, b, c] : {std::array{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}}) {
-            const auto at = [](auto& vertices, int k) {
-                return vertices[static_cast<std::size_t>(k)];
-            };
+        for (const auto& vertices : {std::array{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}}) {
+            const int a = vertices[0], b = vertices[1], c = vertices[2];
+            const auto at = [](auto& of, int k) { return of[static_cast<std::size_t>(k)]; };
             const UvDirections other =
                 uv_directions({at(p, a), at(p, b), at(p, c)}, {at(t, a), at(t, b), at(t, c)});
             // Roundings of double are far below those to float, but for very thin triangles.
-            const auto order = [&, a = a, b = b, c = c] {
+            const auto order = [&] {
                 return "the vertices in the order " + std::to_string(a) + std::to_string(b) +
                        std::to_string(c) + " of " + named(p, t) + " (seed 2, case " +
                        std::to_string(i) + ")";
