@@ -120,9 +120,9 @@ marks_of() { sed -n "s/^$1: //p" "lessons/$2/README.md"; }
 
 # Prints one line of the steps of lesson $2, by its number $1: EQUATIONS | OPTIONS | PICTURES | TITLE.
 step_of() {
-    local line
-    line=$(marks_of step "$2" | sed -n "${1}p")
-    if [[ ! $1 =~ ^[1-9]$ ]] || [ -z "$line" ]; then
+    local line=
+    [[ ! $1 =~ ^[1-9]$ ]] || line=$(marks_of step "$2" | sed -n "${1}p")
+    if [ -z "$line" ]; then
         echo "error: lesson ${2%%_*} has no step '$1'; its steps are:" >&2
         marks_of step "$2" | awk -F ' *[|] *' '{ print "  " NR ": " $4 }' >&2
         return 1
