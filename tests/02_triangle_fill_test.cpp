@@ -16,15 +16,15 @@
 #include "common/math/numerics.hpp"
 #include "support/ascii_picture.hpp"
 #include "support/exact.hpp"
+#include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/look_up.hpp"
-#include "support/same_image.hpp"
 #include "support/triangulations.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::exact_center, rasterbook::test::exact_twice_area,
     rasterbook::test::exactly_snapped, rasterbook::test::Pixels, rasterbook::test::same_pixels,
-    rasterbook::test::look_up, rasterbook::test::same_image;
+    rasterbook::test::look_up, rasterbook::test::are_equal;
 
 namespace {
 
@@ -374,7 +374,7 @@ TEST(TriangleFill, Eq2_4_PartsOfAPictureTogetherShowAllOfIt) {
             parts[p] = barycentrics;
         });
     }
-    EXPECT_TRUE(same_image("what four parts together hold", parts, whole));
+    EXPECT_TRUE(are_equal(parts, whole)) << "what four parts together hold";
     EXPECT_FALSE(whole == Image<vec3>(size, unseen)) << "nothing is visited";
     fill_triangle(t, {40, 7}, {39, 47}, [](ivec2, vec3) { FAIL() << "in nothing"; });
 }
@@ -594,8 +594,8 @@ TEST(TriangleFill, HardCase_AllOrdersAndWindingsCoverTheSamePixelsWithTheSameBar
                 expected_now[pixel][n] =
                     barycentrics[pixel][static_cast<int>(order[static_cast<std::size_t>(n)])];
         });
-        ASSERT_TRUE(same_image("the barycentrics", barycentrics_now, expected_now))
-            << "vertices in the order " << testing::PrintToString(order);
+        ASSERT_TRUE(are_equal(barycentrics_now, expected_now))
+            << "the barycentrics, vertices in the order " << testing::PrintToString(order);
     }
 }
 

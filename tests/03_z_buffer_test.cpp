@@ -16,9 +16,9 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "common/math/numerics.hpp"
 #include "support/exact.hpp"
+#include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/look_up.hpp"
-#include "support/same_image.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::exact_center, rasterbook::test::exact_twice_area,
@@ -253,9 +253,8 @@ TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
     std::mt19937 random(5);
     for (int i = 0; i < 200; ++i) {
         std::shuffle(patches.begin(), patches.end(), random);
-        ASSERT_TRUE(
-            test::same_image("the visible one of 12 triangles", visible(patches, {60, 40}), first))
-            << "drawn in another order, " << i;
+        ASSERT_TRUE(test::are_equal(visible(patches, {60, 40}), first))
+            << "the visible one of 12 triangles, drawn in another order, " << i;
     }
 }
 
@@ -266,8 +265,9 @@ TEST(ZBuffer, HardCase_RotatedVerticesGiveTheSameBits) {
         const auto depths = depths_of(p, {0, 0}, {40, 30});
         for (const auto& turned : {std::array{p[1], p[2], p[0]}, std::array{p[2], p[0], p[1]},
                                    std::array{p[2], p[1], p[0]}})
-            ASSERT_TRUE(test::same_image("the depth", depths_of(turned, {0, 0}, {40, 30}), depths))
-                << name(turned) << " and in another order " << name(p) << "; seed 6, case " << id;
+            ASSERT_TRUE(test::are_equal(depths_of(turned, {0, 0}, {40, 30}), depths))
+                << "the depth of " << name(turned) << " and in another order " << name(p)
+                << "; seed 6, case " << id;
         different.insert(depths.pixels().begin(), depths.pixels().end());
     }
     EXPECT_GT(different.size(), 100'000u);

@@ -19,12 +19,12 @@
 #include "04_mvp/transform.hpp"
 #include "common/app/counters.hpp"
 #include "support/ascii_picture.hpp"
+#include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/look_up.hpp"
 #include "support/plane_names.hpp"
 #include "support/printers.hpp"
 #include "support/projected.hpp"
-#include "support/same_image.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::look_up, rasterbook::test::Pixels, rasterbook::test::projected,

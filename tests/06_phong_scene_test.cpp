@@ -18,6 +18,7 @@
 #include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 #include "common/model/obj.hpp"
+#include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_process.hpp"
 #include "support/lessons.hpp"
@@ -217,12 +218,12 @@ TEST(Phong, HardCase_IllumDecides) {
                 << "illum 0: pixel " << testing::PrintToString(p) << " is " << shown(unlit[p])
                 << " instead of Ke + Kd, " << shown(middle) << ", or the backdrop";
     // 1: no highlight, whatever Ks. 2, and no word, and all above: with one.
-    EXPECT_TRUE(are_the_same(picture(plain + "Ks 1 1 1\nillum 1\n"), lit)) << "illum 1";
-    EXPECT_TRUE(are_the_same(picture(plain + "Ks 0 0 0\nillum 2\n"), lit)) << "Ks 0, illum 2";
+    EXPECT_TRUE(are_equal(picture(plain + "Ks 1 1 1\nillum 1\n"), lit)) << "illum 1";
+    EXPECT_TRUE(are_equal(picture(plain + "Ks 0 0 0\nillum 2\n"), lit)) << "Ks 0, illum 2";
     const Image<vec3> shining = picture(plain + "Ks 1 1 1\nillum 2\n");
     EXPECT_GT(brightest(shining), brightest(lit) + 0.1f);
     for (const char* illum : {"", "illum 3\n", "illum 10\n"})
-        EXPECT_TRUE(are_the_same(picture(plain + "Ks 1 1 1\n" + illum), shining)) << illum;
+        EXPECT_TRUE(are_equal(picture(plain + "Ks 1 1 1\n" + illum), shining)) << illum;
 }
 
 TEST(Phong, HardCase_AmbientOfOneAsExportersWriteIt) {
@@ -232,10 +233,10 @@ TEST(Phong, HardCase_AmbientOfOneAsExportersWriteIt) {
         for (Material& material : scene.materials) material.ambient = material.diffuse;
         const Image<vec3> as_diffuse = picture_of(scene, small_picture());
         for (Material& material : scene.materials) material.ambient = vec3(1);
-        EXPECT_TRUE(are_the_same(picture_of(scene, small_picture()), as_diffuse))
+        EXPECT_TRUE(are_equal(picture_of(scene, small_picture()), as_diffuse))
             << model << " with Ka = 1, and with Ka = Kd";
         for (Material& material : scene.materials) material.ambient = vec3(0);
-        EXPECT_FALSE(are_the_same(picture_of(scene, small_picture()), as_diffuse))
+        EXPECT_FALSE(are_equal(picture_of(scene, small_picture()), as_diffuse))
             << model << " with Ka = 0, and with Ka = Kd";
     }
 }
@@ -252,24 +253,24 @@ TEST(Phong, HardCase_SpecularMapsArePlainNumbers) {
             scene.materials.back().specular *= vec3(188, 94, 47) / 255.0f;
         return picture_of(scene, before_the_square());
     };
-    EXPECT_TRUE(are_the_same(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 1 1 1\n")))
+    EXPECT_TRUE(are_equal(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 1 1 1\n")))
         << "a gray map_Ks, and its numbers over 255 in Ks";
     EXPECT_TRUE(
-        are_the_same(picture("Ks 0.5 0.5 0.5\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n")))
+        are_equal(picture("Ks 0.5 0.5 0.5\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n")))
         << "a gray map_Ks, and its numbers over 255 in Ks";
-    EXPECT_TRUE(are_the_same(picture("Ks 0 0 0\nmap_Ks gray.png\n"), picture("Ks 0 0 0\n")))
+    EXPECT_TRUE(are_equal(picture("Ks 0 0 0\nmap_Ks gray.png\n"), picture("Ks 0 0 0\n")))
         << "a gray map_Ks, and its numbers over 255 in Ks";
-    EXPECT_FALSE(are_the_same(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n")))
+    EXPECT_FALSE(are_equal(picture("Ks 1 1 1\nmap_Ks gray.png\n"), picture("Ks 0.5 0.5 0.5\n")))
         << "Ks counts beside map_Ks";
     // It lies as its own -s and -o say, and it leaves the diffuse colour alone.
     Image<u8vec3> halves({2, 1}, {255, 255, 255});
     halves[{1, 0}] = {0, 0, 0};
     write_image(folder / "halves.png", halves);
     const Image<vec3> dull = picture("Ks 0 0 0\n");
-    EXPECT_TRUE(are_the_same(
+    EXPECT_TRUE(are_equal(
         picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.99 0 0 halves.png\n"), dull))
         << "where the map is black";
-    EXPECT_FALSE(are_the_same(
+    EXPECT_FALSE(are_equal(
         picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.01 0 0 halves.png\n"), dull))
         << "where the map is white";
 }
@@ -336,7 +337,7 @@ TEST(Phong, HardCase_BacksOfFaces) {
             ASSERT_EQ(share_that_differs(back, front), 0)
                 << name_of(shading) << ", " << name_of(kind) << ": the share of pixels";
             // The front of what has two sides is as before.
-            ASSERT_TRUE(are_the_same(picture_of(turned, options), front))
+            ASSERT_TRUE(are_equal(picture_of(turned, options), front))
                 << name_of(shading) << ", " << name_of(kind) << ", --two-sided";
         }
 }
@@ -401,7 +402,7 @@ TEST(Phong, HardCase_NormalsOfTheFileAreTurnedToLengthOne) {
     for (Mesh& mesh : scene.meshes)
         for (std::size_t i = 0; i < mesh.normals.size(); ++i)
             mesh.normals[i] *= i % 2 ? 0x1p-80f : 0x1p100f;
-    EXPECT_TRUE(are_the_same(picture_of(scene, small_picture()), expected))
+    EXPECT_TRUE(are_equal(picture_of(scene, small_picture()), expected))
         << "with normals of other lengths in the file";
 }
 

@@ -3,15 +3,37 @@
 /// For EXPECT_TRUE: two pictures agree; or else where they differ first, in words.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "common/image/image.hpp"
+#include "support/near.hpp"
 #include "support/printers.hpp"
 
 namespace rasterbook::test {
+
+/// " (3 ulp apart)" for two floats, between which as many lie and one; for other values nothing.
+template <typename Value>
+std::string ulps_between(const Value& a, const Value& b) {
+    if constexpr (std::same_as<Value, float>) {
+        if (a == a && b == b)
+            return " (" + std::to_string(std::abs(ulps_above(a, b))) + " ulp apart)";
+    }
+    return "";
+}
+
+template <typename Value>
+std::string text_of_pixel(const Value& value) {
+    if constexpr (std::floating_point<Value>)
+        return text_of(value);
+    else
+        return testing::PrintToString(value);
+}
 
 /// @param agree  Called as agree(a, b) with two pixels.
 template <typename Pixel, typename Agree>
@@ -29,11 +51,11 @@ testing::AssertionResult agree_everywhere(const Image<Pixel>& actual, const Imag
     if (differing == 0) return testing::AssertionSuccess();
     return testing::AssertionFailure()
            << differing << " of " << size.x * size.y << " pixels differ; the first is "
-           << testing::PrintToString(first) << ": " << testing::PrintToString(actual[first])
-           << ", expected " << testing::PrintToString(expected[first]);
+           << testing::PrintToString(first) << ": " << text_of_pixel(actual[first]) << ", expected "
+           << text_of_pixel(expected[first]) << ulps_between(actual[first], expected[first]);
 }
 
-/// By ==.
+/// For EXPECT_TRUE: two pictures are equal.
 template <typename Pixel>
 testing::AssertionResult are_equal(const Image<Pixel>& actual, const Image<Pixel>& expected) {
     return agree_everywhere(actual, expected,

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What failing tests call lights and biases.
+/// What failing tests call biases, beside lights (support/light_in_words.hpp).
 #pragma once
 
-#include "06_phong/light.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
+#include "support/light_in_words.hpp"
 
 namespace rasterbook::test {
-
-inline const char* name_of(LightKind kind) {
-    return kind == LightKind::directional ? "directional light"
-           : kind == LightKind::point     ? "point light"
-                                          : "spotlight";
-}
 
 inline const char* name_of(Bias bias) {
     switch (bias) {

@@ -14,7 +14,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/image/image.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook::test {
@@ -64,22 +63,6 @@ testing::AssertionResult are_near(const glm::vec<n, float>& actual,
             return testing::AssertionFailure() << message.str();
         }
     return testing::AssertionSuccess();
-}
-
-/// For EXPECT_TRUE: pictures in which every pixel is the same.
-inline testing::AssertionResult are_the_same(const Image<vec3>& actual,
-                                             const Image<vec3>& expected) {
-    if (actual.size() != expected.size())
-        return testing::AssertionFailure() << "the sizes of the pictures differ";
-    int differing = 0;
-    ivec2 first(-1);
-    for (ivec2 p(0); p.y < actual.size().y; ++p.y)
-        for (p.x = 0; p.x < actual.size().x; ++p.x)
-            if (actual[p] != expected[p] && differing++ == 0) first = p;
-    if (differing == 0) return testing::AssertionSuccess();
-    return testing::AssertionFailure()
-           << differing << " pixels differ, the first is (" << first.x << ", " << first.y
-           << "): " << shown(actual[first]) << " instead of " << shown(expected[first]);
 }
 
 }  // namespace rasterbook::test
