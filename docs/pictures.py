@@ -1,4 +1,5 @@
-"""Draws the pictures that no test draws: pictures.py strip BUILD_FOLDER | mistakes [PICTURE...].
+"""Draws the pictures that no test draws:
+pictures.py strip BUILD_FOLDER | mistakes [PICTURE...] | answers [NN [K]] | check-answers.
 
 `strip` puts README.md's picture together, a panel a lesson, each drawn by the lesson's own program
 with the options in its README's line "strip: OPTIONS".
@@ -7,8 +8,13 @@ with the options in its README's line "strip: OPTIONS".
 in the file that a section links to last before its diff, the right line (+) is replaced by the
 wrong one (-). The lesson is built and draws with the section's command. Where the right line is
 not found once, that is an error: the page is not up to date.
+
+`answers` does so with the answers to the exercises in lessons/NN_*/README.md. An answer's diff is a
+unified one whose lines "@@" have no numbers, the lesson then draws with its first command, and the
+picture is the one that the answer shows. `check-answers` draws all of them, and compares.
 """
 
+import fcntl
 import re
 import shlex
 import shutil
@@ -79,7 +85,7 @@ def write_png(file: Path, rows: Picture, channels: int = 3) -> None:
 
 
 def draw(program: Path, options: list[str], size: str) -> Picture:
-    """What a lesson draws, with smooth edges."""
+    """What a lesson draws; with smooth edges, if the options do not say otherwise."""
     if "--size" not in options:
         options = [*options, "--size", size]
     if "--samples" not in options:
@@ -176,15 +182,22 @@ def build(tree: Path, lesson: str) -> Path:
     return tree / "build" / lesson
 
 
-def draw_mistakes(only: list[str]) -> None:
+def copied_tree() -> Path:
+    """A copy of the code to change, configured in its folder build/."""
     tree = ROOT / "build/mistakes"
     tree.mkdir(parents=True, exist_ok=True)
+    copied_tree.lock = (tree / "lock").open("w")  # until the program ends
+    fcntl.flock(copied_tree.lock, fcntl.LOCK_EX)
     for name in ("CMakeLists.txt", "assets", "docs"):
         if not (tree / name).exists():
             (tree / name).symlink_to(ROOT / name)
+
+    def copy_if_other(source: str, copy: str) -> None:
+        if not Path(copy).exists() or Path(source).read_bytes() != Path(copy).read_bytes():
+            shutil.copy(source, copy)
+
     for name in ("common", "lessons"):
-        # As if written just now: what a run that was broken off has built is built again.
-        shutil.copytree(ROOT / name, tree / name, copy_function=shutil.copy, dirs_exist_ok=True)
+        shutil.copytree(ROOT / name, tree / name, copy_function=copy_if_other, dirs_exist_ok=True)
     # Optimised enough to draw, and quickly built; a mistake may break what an assertion expects.
     subprocess.run(
         ["cmake", "-S", tree, "-B", tree / "build", "-G", "Ninja", "-D", "BUILD_TESTING=OFF",
@@ -192,6 +205,11 @@ def draw_mistakes(only: list[str]) -> None:
         check=True,
         stdout=subprocess.DEVNULL,
     )  # fmt: skip
+    return tree
+
+
+def draw_mistakes(only: list[str]) -> None:
+    tree = copied_tree()
     drawn = set()
     for m in mistakes():
         if only and m.wrong_picture.stem not in only:
@@ -209,12 +227,97 @@ def draw_mistakes(only: list[str]) -> None:
         print(m.wrong_picture.relative_to(ROOT))
 
 
+# The answers to the exercises
+
+
+class Answer(NamedTuple):
+    name: str  # 06_1
+    lesson: str
+    options: list[str] | None  # of its first command for the lesson
+    picture: Path | None
+    diff: str
+
+
+def answers() -> list[Answer]:
+    found = []
+    for lesson in LESSONS:
+        readme = ROOT / "lessons" / lesson / "README.md"
+        for part in readme.read_text(encoding="utf-8").split("<summary>Answer ")[1:]:
+            number, _, text = part.partition("</summary>")
+            text = text.partition("</details>")[0]
+            command = re.search(rf"\./lessons/run {lesson[:2]}\b([^`\n#]*)", text)
+            picture = re.search(r"!\[[^\]]*\]\(([^)]+)\)", text)
+            found.append(
+                Answer(
+                    f"{lesson[:2]}_{number}",
+                    lesson,
+                    shlex.split(command[1]) if command else None,
+                    (readme.parent / picture[1]).resolve() if picture else None,
+                    text.partition("```diff\n")[2].partition("```")[0],
+                )
+            )
+    return found
+
+
+def changed(code: dict[str, str], diff: str) -> None:
+    """Makes the changes of a diff in the texts of files."""
+    for of_file in re.split(r"^--- ", diff, flags=re.MULTILINE)[1:]:
+        file, _, places = of_file.partition("\n")
+        for place in re.split(r"^(?:@@.*|\+\+\+ .*)\n", places, flags=re.MULTILINE):
+            lines = [line or " " for line in place.splitlines()]
+            before = "".join(line[1:] + "\n" for line in lines if line[0] != "+")
+            after = "".join(line[1:] + "\n" for line in lines if line[0] != "-")
+            count = ("\n" + code[file]).count("\n" + before)
+            if before and count != 1:
+                raise SystemExit(f"error: {count} times in {file}:\n{before}")
+            code[file] = ("\n" + code[file]).replace("\n" + before, "\n" + after, 1)[1:]
+
+
+def draw_answers(of_lesson: str = "", number: str = "", is_check: bool = False) -> None:
+    tree = copied_tree()
+    for answer in answers():
+        if of_lesson and answer.name.split("_")[0] != of_lesson.zfill(2):
+            continue
+        if number and answer.name.split("_")[1] != number:
+            continue
+        files = re.findall(r"^--- (.*)$", answer.diff, flags=re.MULTILINE)
+        code = {file: (tree / file).read_text(encoding="utf-8") for file in files}
+        new_code = dict(code)
+        changed(new_code, answer.diff)
+        try:
+            for file in code:
+                (tree / file).write_text(new_code[file], encoding="utf-8")
+            if answer.options is None:
+                raise SystemExit(f"error: answer {answer.name} has no command")
+            program = build(tree, answer.lesson)
+            with tempfile.TemporaryDirectory() as folder:
+                file = Path(folder) / "picture.png"
+                write_png(file, draw(program, answer.options, SIZE))
+                if answer.picture is None:
+                    print(f"{answer.name}: draws; it shows no picture")
+                elif not is_check:
+                    answer.picture.parent.mkdir(exist_ok=True)
+                    shutil.copy(file, answer.picture)
+                    print(f"{answer.name}: {answer.picture.relative_to(ROOT)}")
+                elif file.read_bytes() == answer.picture.read_bytes():
+                    print(f"{answer.name}: as shown")
+                else:
+                    raise SystemExit(f"error: answer {answer.name} draws another picture than it shows")
+        finally:
+            for file in code:
+                (tree / file).write_text(code[file], encoding="utf-8")
+
+
 def main() -> None:
     match sys.argv[1:]:
         case ["strip", folder]:
             draw_strip(Path(folder).resolve())
         case ["mistakes", *only]:
             draw_mistakes(only)
+        case ["answers", *which] if len(which) <= 2:
+            draw_answers(*which)
+        case ["check-answers"]:
+            draw_answers(is_check=True)
         case _:
             raise SystemExit(__doc__)
 

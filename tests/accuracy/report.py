@@ -220,7 +220,7 @@ def main():
             table(variants, unit, errors), "",
             f"Medians and quartiles of {variants[0]['repetitions']} repetitions, the variants by turns in random order, "
             f"on one thread ({machine(measured)}, {measured['context']['compiler']}). "
-            "*Front*: no other is more accurate and as fast, or as accurate and faster "
+            "*Front*, the Pareto front: no other is more accurate and as fast, or as accurate and faster "
             f"(by {TIME_TOLERANCE:.0%}).", "", "<!-- end -->"])
 
     text = page.read_text()

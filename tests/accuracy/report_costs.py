@@ -15,7 +15,7 @@ import sys
 from report import BOTTOM, HEIGHT, LEFT, RIGHT, TIME_TOLERANCE, TOP, WIDTH, Axis, axes, draw, label, machine, number
 from report import place_labels
 
-DIALS = ("samples a pixel", "textures", "depth maps", "texels a look-up")
+DIALS = ("samples per pixel", "texture filter", "shadow map", "PCF taps")
 
 
 def thousandths(value):
@@ -78,19 +78,19 @@ def block_front(measured, page):
     rows = [[*dials(f), number(f["ms"]), *errors(f), f"{100 * f['at edges']:.0f}",
              f"`{f['preset']}`" if "preset" in f else ""] for f in front]
     return "\n".join([
-        f"![Error over milliseconds a frame: {len(frames)} frames, and the line of those of which none is better]"
+        f"![Error over milliseconds per frame: {len(frames)} frames, and their Pareto front]"
         f"({picture.name})", "",
         table([*DIALS, "ms", "still", "moving", "error", "at edges, %", ""],
               ["---:"] * 9 + ["---"], rows), "",
-        "Medians of the processor's time in 7 rounds, in 3 with several samples; in each all frames are drawn in a "
+        "Medians of the processor's time in 7 rounds, in 3 with several samples; each draws all frames in a "
         "random order, on one thread "
-        f"({machine(measured)}, {measured['context']['compiler']}). No other of the {len(frames)} frames has a "
-        f"smaller error and is as fast (by {TIME_TOLERANCE:.0%})."])
+        f"({machine(measured)}, {measured['context']['compiler']}). The Pareto front of {len(frames)} frames: no "
+        f"other has a smaller error and is as fast (by {TIME_TOLERANCE:.0%})."])
 
 
 def block_horizon(measured, _):
-    return table(["samples a pixel", "textures", "ms", "still", "moving", "error"], ["---:"] * 6,
-                 [[f["samples a pixel"], f["textures"], number(f["ms"]), *errors(f)] for f in measured["horizon"]])
+    return table(["samples per pixel", "texture filter", "ms", "still", "moving", "error"], ["---:"] * 6,
+                 [[f["samples per pixel"], f["texture filter"], number(f["ms"]), *errors(f)] for f in measured["horizon"]])
 
 
 def block_edges(measured, _):
