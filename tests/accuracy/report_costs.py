@@ -109,11 +109,11 @@ def plot(frames, front, file):
     dots = [("", *at[id(f)]) for f in frames]  # no label lies on one
     places = place_labels([(f["preset"], *at[id(f)]) for f in presets] + dots, [at[id(f)] for f in front])
     y_ticks = [f'"{t:g}" {t:g}' for t in ticks]
-    script = axes(x, y, y_ticks, "ms a frame", "error", file)
+    script = axes(x, y, y_ticks, "ms per frame", "error", file)
     script += [label(f["preset"], place, "sans-serif:Bold,14") for f, place in zip(presets, places)]
     for samples in ("1", "4", "16"):  # above all of them
-        xs, ys = zip(*(at[id(f)] for f in frames if f["samples a pixel"] == samples))
-        name = f"{samples} sample{'' if samples == '1' else 's'} a pixel"
+        xs, ys = zip(*(at[id(f)] for f in frames if f["samples per pixel"] == samples))
+        name = f"{samples} sample{'' if samples == '1' else 's'} per pixel"
         script.append(label(name, ((min(xs) + max(xs)) / 2, min(ys) - 16, "center")))
     data = lambda fs: "\n".join(f"{f['ms']} {f['both']}" for f in fs) + "\ne"
     script.append(
