@@ -18,15 +18,15 @@ namespace rasterbook {
 /// Whether a line's last pixel is its own, or is left to the line that continues there.
 enum class LineEnd { included, excluded };
 
-/// A line prepared for stepping: along its longer ("major") axis, towards larger coordinates.
+/// A line prepared for stepping: along its major axis, the longer one, towards larger coordinates.
 ///
 /// Both orders of the ends prepare the same steps (Eq. 1.6); only `swapped` tells them apart.
 struct LineSteps {
     std::int64_t major_start, minor_start;  ///< The pixel of step 0.
     std::int64_t major_length;              ///< The number of the last step, 0 .. 2^32 - 1.
-    std::int64_t minor_length;              ///< Change along the shorter axis, 0 .. major_length.
+    std::int64_t minor_length;              ///< Change along the minor axis, 0 .. major_length.
     int minor_direction;                    ///< -1, or +1, also for a level line.
-    bool steep;                             ///< The longer axis is y.
+    bool steep;                             ///< The major axis is y; rows are then columns.
     bool swapped;                           ///< Step 0 is the line's second end.
 
     /// @param a,b  The ends, whole pixels, any int32 value; a == b is a line of one pixel.
@@ -49,8 +49,8 @@ struct LineSteps {
         minor_direction = by < ay ? -1 : 1;
     }
 
-    /// Rows moved along the shorter axis after `step` steps: the ideal rise (Eq. 1.1), rounded to
-    /// the nearest row (Eq. 1.2) by one whole division (Eq. 1.3).
+    /// Rows moved along the minor axis after `step` steps: the rise (Eq. 1.1), rounded to the
+    /// nearest row (Eq. 1.2) by one division of whole numbers (Eq. 1.3).
     std::int64_t rows_after(std::int64_t step) const {
         if (step == 0) return 0;
         const int128 doubled_rise = int128{2} * step * minor_length;  // reaches 2^65
@@ -72,7 +72,7 @@ struct StepRange {
     std::int64_t first, last;
 };
 
-/// The steps whose pixels lie in a picture of `size` pixels (Eq. 1.8), without that of the line's
+/// The steps whose pixels lie in an image of `size` pixels (Eq. 1.8), without that of the line's
 /// second end if it is excluded.
 inline StepRange steps_inside(const LineSteps& line, ivec2 size, LineEnd end) {
     const std::int64_t major_size = line.steep ? size.y : size.x;
@@ -88,11 +88,11 @@ inline StepRange steps_inside(const LineSteps& line, ivec2 size, LineEnd end) {
                       major_size - 1 - line.major_start, line.first_step_with(rows_to_leave) - 1})};
 }
 
-/// Visits each pixel of the line from a to b that lies in a picture of `size` pixels.
+/// Visits each pixel of the line from a to b that lies in an image of `size` pixels.
 ///
 /// These are exactly the pixels of the whole line that are inside, found in time proportional to
 /// their number, however far away the ends are. Every visited centre lies within half a pixel of
-/// the ideal line, measured along the shorter axis (Eq. 1.5), and b -> a visits the same pixels
+/// the line, measured along the minor axis (Eq. 1.5), and b -> a visits the same pixels
 /// (Eq. 1.6).
 ///
 /// @param a,b   Screen space, whole pixels, any int32 value.

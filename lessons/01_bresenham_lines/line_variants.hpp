@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other ways to draw the line of lesson 01, to be seen with `--line` and measured in
+/// Other ways to draw the line of lesson 01, shown by `--line` and measured in
 /// docs/accuracy/01_bresenham_lines.md.
 #pragma once
 
@@ -49,8 +49,8 @@ struct FixedRow {
     void step() { row += rows_a_step; }
 };
 
-/// Walks the steps of draw_line with another row, and asks for each pixel whether it is inside,
-/// since the rows are not exact.
+/// Walks the steps of draw_line with another row. Since rows are not exact here, each pixel is
+/// asked whether it is inside.
 ///
 /// @param visit  Called as visit(row, plot_inside), where plot_inside(minor, coverage) plots.
 template <typename Row, typename Visit, std::invocable<ivec2, float> Plot>
@@ -76,8 +76,8 @@ void walk_line(ivec2 a, ivec2 b, ivec2 size, LineEnd end, Visit&& visit, Plot&& 
 ///
 /// @param a,b   Screen space, whole pixels; for methods other than Bresenham's, smaller than 2^24
 /// in size.
-/// @param plot  Called as plot(ivec2 pixel, float coverage) for each pixel inside the picture.
-///              Coverage is 1 but for Wu's lines, where two neighbours share it.
+/// @param plot  Called as plot(ivec2 pixel, float coverage) for each pixel inside the image.
+///              The coverage is 1 but for Wu's lines, where two neighbours share it.
 /// @see Wu, "An efficient antialiasing technique", SIGGRAPH 1991
 template <std::invocable<ivec2, float> Plot>
 void draw_line_as(LineMethod method, ivec2 a, ivec2 b, ivec2 size, LineEnd end, Plot&& plot) {

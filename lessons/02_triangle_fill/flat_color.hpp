@@ -11,8 +11,8 @@
 
 namespace rasterbook {
 
-/// The material's diffuse colour under a warm light from the upper left and a cool one from the
-/// sky.
+/// The material's diffuse colour under a warm directional light from the upper left and a cool
+/// ambient light from above.
 ///
 /// @return  Linear colour. A triangle without area counts as facing up.
 inline vec3 flat_color(const Mesh& mesh, const Triangle& triangle, const Material& material) {

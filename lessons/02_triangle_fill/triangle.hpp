@@ -38,7 +38,7 @@ struct ScreenTriangle {
 /// @return       Exact, in 1/65536 square pixel.
 /// @see Pineda, "A parallel algorithm for polygon rasterization", 1988
 constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
-    // The side's normal, to its left (Eq. 2.1).
+    // The edge's normal, to its left (Eq. 2.1).
     const std::int64_t normal_x = std::int64_t{b.y} - a.y, normal_y = std::int64_t{a.x} - b.x;
     return normal_x * (std::int64_t{p.x} - a.x) + normal_y * (std::int64_t{p.y} - a.y);
 }
@@ -63,7 +63,7 @@ inline ScreenTriangle snap_triangle(vec2 a, vec2 b, vec2 c) {
 /// Whether the vertices are seen counter-clockwise. False for a triangle of no area.
 constexpr bool is_front_facing(const ScreenTriangle& triangle) { return triangle.twice_area > 0; }
 
-/// One side of a triangle, to be asked about one pixel centre after the other (Eq. 2.5).
+/// One edge of a triangle, evaluated at one pixel centre after the other (Eq. 2.5).
 struct EdgeWalk {
     std::int64_t value;           ///< Edge function, inside > 0, at the first column of the row.
     std::int64_t step_x, step_y;  ///< Change from a pixel to its right and lower neighbour.
@@ -94,11 +94,11 @@ struct EdgeWalk {
     }
 };
 
-/// Visits each pixel of a picture, or of a part of one, whose centre the triangle covers.
+/// Visits each pixel of an image, or of a part of one, whose centre the triangle covers.
 ///
-/// A centre on a side belongs to the triangle when the side is a left or a top one, so that
-/// triangles which share sides visit each pixel once (Eq. 2.7). The order of the vertices does not
-/// matter.
+/// A centre on an edge belongs to the triangle if the edge is a left or a top one, so that
+/// triangles which share an edge visit each pixel once (Eq. 2.7). The order of the vertices does
+/// not matter.
 ///
 /// @param triangle  A triangle of no area visits nothing.
 /// @param first     The part's upper left pixel, from 0 on.
@@ -117,7 +117,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
     if (first_pixel.x > last_pixel.x) return;
 
     const int winding = triangle.twice_area > 0 ? 1 : -1;
-    // Opposite to its vertex, a side's value is the vertex's share of the area (Eq. 2.3).
+    // Opposite to its vertex, an edge's value is the vertex's share of the area (Eq. 2.3).
     EdgeWalk edge_a(b, c, winding, first_pixel);
     EdgeWalk edge_b(c, a, winding, first_pixel);
     EdgeWalk edge_c(a, b, winding, first_pixel);
@@ -141,7 +141,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
     }
 }
 
-/// The same of a whole picture.
+/// The same of a whole image.
 ///
 /// @param size  Width and height in pixels, each 0 to 2^22.
 template <std::invocable<ivec2, Barycentrics> Emit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other ways to fill the triangle of lesson 02, to be seen with `--edges` and
-/// `--subpixel-bits`, and measured in docs/accuracy/02_triangle_fill.md.
+/// Other ways to fill the triangle of lesson 02, shown by `--edges` and `--subpixel-bits`, and
+/// measured in docs/accuracy/02_triangle_fill.md.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct FillVariant {
     }
 };
 
-/// Visits the pixels whose centres a triangle covers, as fill_triangle does, but asks every pixel
+/// Visits the pixels whose centres a triangle covers, as fill_triangle does, but tests every pixel
 /// of the bounding box, and computes in `Number`. Whole numbers that are too large wrap around.
 ///
 /// @param vertices  In pixels times `scale`, finite.
@@ -130,7 +130,7 @@ void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>
     }
 }
 
-/// fill_triangle, or when the variant asks for other numbers, fill_bounding_box_as.
+/// fill_triangle, or fill_bounding_box_as if the variant asks for other numbers.
 ///
 /// @param on_screen  The triangle as snap_triangle gives it, for fill_triangle.
 /// @param vertices    The same in pixels, not snapped.

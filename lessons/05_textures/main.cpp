@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 05: pictures on the surfaces.
+/// Lesson 05: textures on the surfaces.
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
@@ -23,7 +23,7 @@ struct Options : LessonOptions {
     void declare(Knobs& knobs) { texture.declare(knobs); }
 };
 
-/// What is made once, before the first picture.
+/// What is made once, before the first frame.
 struct Assets {
     Scene scene;
     MaterialTextures textures;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A picture on a surface: which of its texels a point sees. Introduced in lesson 05;
+/// Textures: which texels a point of a surface sees. Introduced in lesson 05;
 /// derivation: docs/derivations/05_textures.md.
 #pragma once
 
@@ -19,28 +19,28 @@
 
 namespace rasterbook {
 
-/// What lies beyond a picture's borders: the picture again, the picture mirrored, or its border.
+/// What lies beyond a texture's border: the texture again, mirrored, or its outermost texels.
 enum class Wrap { repeat, mirror, clamp };
 
 /// Which texels make a fragment's colour: the nearest one, the four around it, or four of each of
 /// two levels.
 enum class Filter { nearest, bilinear, trilinear };
 
-/// A picture of linear red, green and blue, and opacity, ready to be sampled.
+/// One level of a mip chain: linear red, green and blue, and alpha, ready to be sampled.
 struct TextureLevel {
     ivec2 size;          ///< In texels, without the border.
-    Image<vec4> texels;  ///< With a border of one texel that holds what lies beyond the picture.
+    Image<vec4> texels;  ///< With a border of one texel that holds what lies beyond.
 };
 
-/// A picture and smaller copies of it.
+/// A mip chain: an image and smaller copies of it.
 struct Texture {
     Wrap wrap;
     std::vector<TextureLevel>
         levels;  ///< Each half as wide and high as the one before; 1 x 1 last.
 };
 
-/// A texture coordinate brought into the picture, 0 to 1 (Eq. 5.4). What is not a number becomes 0,
-/// and so does infinity, but for Wrap::clamp.
+/// A texture coordinate wrapped to 0 to 1 (Eq. 5.4). NaN becomes 0, and so does infinity, but for
+/// Wrap::clamp.
 inline float wrapped(float coordinate, Wrap wrap) {
     // Written so that NaN loses each comparison.
     if (wrap == Wrap::repeat) return std::max(0.0f, coordinate - std::floor(coordinate));
@@ -49,7 +49,7 @@ inline float wrapped(float coordinate, Wrap wrap) {
     return std::max(0.0f, std::min(there_and_back, 2 - there_and_back));
 }
 
-/// A position in the picture: x from 0 at its left to 1 at its right, y from 0 at its upper border
+/// A position in the texture: x from 0 at its left to 1 at its right, y from 0 at its upper border
 /// to 1 at its lower one (Eq. 5.5).
 inline vec2 texture_position(vec2 uv, Wrap wrap) {
     return {wrapped(uv.x, wrap), 1 - wrapped(uv.y, wrap)};
@@ -82,8 +82,8 @@ inline vec4 sample_bilinear(const TextureLevel& level, vec2 position) {
 ///
 /// @param ddx,ddy  How fast uv changes here, a pixel to the right and a pixel down.
 /// @param size     Of level 0, in texels.
-/// @return               0 where the footprint is a texel or less, and where any of the four
-///                       numbers is NaN; else it may be infinite.
+/// @return  0 where the footprint is a texel or less, and where any of the four numbers is NaN;
+///          else it may be infinite.
 inline float level_of_detail(vec2 ddx, vec2 ddy, ivec2 size) {
     const vec2 across = ddx * vec2(size), down = ddy * vec2(size);
     const float across_squared = glm::dot(across, across), down_squared = glm::dot(down, down);
@@ -118,7 +118,7 @@ inline FragmentUv fragment_uv(const std::array<vec2, 3>& uvs, const FragmentBary
     return {interpolate(uvs, at.here), interpolate(uvs, at.ddx), interpolate(uvs, at.ddy)};
 }
 
-/// The texture's colour, linear, and opacity in a fragment.
+/// The texture's colour, linear, and alpha in a fragment.
 inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) {
     const vec2 position = texture_position(uv.here, texture.wrap);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], position);
@@ -127,12 +127,12 @@ inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) 
     return sample_trilinear(texture, position, level);
 }
 
-/// A picture half as wide and high, rounded down, but at least 1: each texel is the mean of what it
-/// covers (Eq. 5.9). A picture of one colour keeps it exactly: what double rounds is far below half
-/// a step of float.
+/// The next level: half as wide and high, rounded down, but at least 1; each texel is the mean of
+/// what it covers (Eq. 5.9). An image of one colour keeps it exactly: what double rounds is far
+/// below half a step of float.
 inline Image<vec4> downsampled(const Image<vec4>& picture) {
     using lengths = glm::vec<2, std::int64_t>;
-    // In whole numbers: a texel of the picture is `to` long, one of its half `from`.
+    // In whole numbers: a texel of the picture is `to` long, one of the next level `from`.
     const lengths from(picture.size()), to = glm::max(from / lengths(2), lengths(1));
     Image<vec4> half{ivec2(to)};
     for (int y = 0; y < half.size().y; ++y)
@@ -152,14 +152,14 @@ inline Image<vec4> downsampled(const Image<vec4>& picture) {
     return half;
 }
 
-/// The picture with a border of one texel, as bilinear filtering asks for.
+/// An image with a border of one texel, as bilinear filtering asks for.
 inline TextureLevel with_border(const Image<vec4>& picture, Wrap wrap) {
     const ivec2 size = picture.size();
     TextureLevel level{size, Image<vec4>(size + 2)};
     for (int y = 0; y < size.y + 2; ++y)
         for (int x = 0; x < size.x + 2; ++x) {
             const ivec2 texel = ivec2(x, y) - 1;
-            // A mirrored picture begins with its border once more.
+            // A mirror image begins with the outermost texel once more.
             level.texels[{x, y}] =
                 picture[wrap == Wrap::repeat ? (texel + size) % size
                                              : glm::clamp(texel, ivec2(0), size - 1)];
@@ -169,7 +169,7 @@ inline TextureLevel with_border(const Image<vec4>& picture, Wrap wrap) {
 
 /// A texture with all of its levels.
 ///
-/// @param picture  Linear colour and opacity; at least one texel.
+/// @param picture  Linear colour and alpha; at least one texel.
 inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
     Texture texture{wrap, {with_border(picture, wrap)}};
     while (picture.size() != ivec2(1)) {
@@ -179,7 +179,7 @@ inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
     return texture;
 }
 
-/// A picture's colours decoded from sRGB (Eq. 5.11); opacity is not encoded.
+/// An image's colours decoded from sRGB (Eq. 5.11); alpha is not encoded.
 inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
     std::array<float, 256> linear;
     for (std::size_t code = 0; code < linear.size(); ++code)
@@ -193,7 +193,7 @@ inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
     return decoded;
 }
 
-/// The same of a picture whose codes are plain numbers.
+/// The same of an image whose stored values are plain numbers (UNORM).
 inline Image<vec4> plain_numbers(const Image<u8vec4>& picture) {
     Image<vec4> numbers(picture.size());
     for (std::size_t i = 0; i < numbers.pixels().size(); ++i)

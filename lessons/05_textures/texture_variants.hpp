@@ -16,7 +16,7 @@
 
 namespace rasterbook {
 
-/// What the codes in a picture are taken for: sRGB, or amounts of light.
+/// What an image's stored values are taken for: sRGB, or amounts of light.
 enum class Decoding { srgb, ignored };
 
 /// How textures are read, in this lesson and all later ones.
@@ -24,7 +24,7 @@ struct TextureOptions {
     Filter filter = Filter::trilinear;
     Wrap wrap = Wrap::repeat;  ///< Of maps that do not ask for -clamp.
     Decoding decoding = Decoding::srgb;
-    bool keep_going = false;  ///< A picture that cannot be read is replaced.
+    bool keep_going = false;  ///< An image that cannot be read is replaced.
 
     void declare(Knobs& knobs) {
         knobs.choice("--filter", filter,
@@ -42,7 +42,7 @@ struct TextureOptions {
                    "A texture that cannot be read is a warning, and a chessboard takes its place");
     }
 
-    /// A picture's colours as the options have it.
+    /// An image's colours, decoded as the options say.
     Image<vec4> decoded(const Image<u8vec4>& picture) const {
         return decoding == Decoding::srgb ? linear_from_srgb8(picture) : plain_numbers(picture);
     }
@@ -158,7 +158,7 @@ class MappedBarycentrics {
     vec3 span_step_{0};
 };
 
-/// A picture whose texels stay the codes of its file: four bytes each, a quarter of TextureLevel's.
+/// A level whose texels stay the values of the file: four bytes each, a quarter of TextureLevel's.
 struct CodedLevel {
     ivec2 size;           ///< In texels, without the border.
     Image<u8vec4> codes;  ///< With a border, as TextureLevel has.
@@ -193,16 +193,16 @@ vec4 sample_bilinear(const CodedLevel& level, vec2 position, Read&& read) {
     return in_upper + share.y * (in_lower - in_upper);
 }
 
-/// A code taken for amounts of light.
+/// Stored values taken for amounts of light.
 inline vec4 undecoded(u8vec4 code) { return vec4(code) / 255.0f; }
 
-/// Colour decoded from sRGB (Eq. 5.11), each channel 0 to 1; opacity is not encoded.
+/// Colour decoded from sRGB (Eq. 5.11), each channel 0 to 1; alpha is not encoded.
 inline vec4 decoded_exactly(vec4 color) {
     return {linear_from_srgb(color.r), linear_from_srgb(color.g), linear_from_srgb(color.b),
             color.a};
 }
 
-/// The 256 amounts of light that a code may stand for, computed once.
+/// The 256 amounts of light that a stored value may stand for, computed once.
 class DecodingTable {
   public:
     DecodingTable() {
@@ -219,7 +219,7 @@ class DecodingTable {
     std::array<float, 256> linear_;
 };
 
-/// Each of the four texels is looked up in a table.
+/// Each of the four texels is decoded by a table.
 inline vec4 sample_by_table(const CodedLevel& level, vec2 position, const DecodingTable& table) {
     return sample_bilinear(level, position, table);
 }
@@ -229,7 +229,7 @@ inline vec4 sample_by_power(const CodedLevel& level, vec2 position) {
     return sample_bilinear(level, position, [](u8vec4 c) { return decoded_exactly(undecoded(c)); });
 }
 
-/// The codes' mean is decoded, which is not the mean of what they stand for.
+/// The mean of the stored values is decoded, which is not the mean of what they stand for.
 inline vec4 sample_then_decode(const CodedLevel& level, vec2 position) {
     return decoded_exactly(sample_bilinear(level, position, undecoded));
 }

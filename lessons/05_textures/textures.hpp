@@ -27,7 +27,7 @@ using MaterialTextures = std::vector<std::shared_ptr<const Texture>>;
 /// triangle has get none.
 ///
 /// @param scene      Takes warnings.
-/// @param decode     Makes texels of an image's codes.
+/// @param decode     Makes texels of an image's stored values.
 /// @param calls_for  Whether a material needs its texture.
 /// @throws InputError  As read_texture_file() has it.
 inline MaterialTextures load_textures(

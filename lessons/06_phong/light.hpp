@@ -11,7 +11,7 @@
 
 namespace rasterbook {
 
-/// Like the sun, like a bare bulb, or like a bulb with a shade.
+/// Far away as the sun, at a position as a bare bulb, or in a cone as a bulb with a shade.
 enum class LightKind { directional, point, spot };
 
 struct Light {
@@ -31,7 +31,7 @@ struct Incoming {
     Vec3<F> color;   ///< Linear.
 };
 
-/// The share of a point light's light that arrives over a distance: 1 at the light (Eq. 6.6).
+/// A point light's attenuation over a distance: 1 at the light (Eq. 6.6).
 ///
 /// @param in_half_distances  From the point to the light, in units of its half_distance.
 template <typename F>
@@ -39,7 +39,7 @@ F distance_attenuation(Vec3<F> in_half_distances) {
     return F(1.0f) / (F(1.0f) + glm::dot(in_half_distances, in_half_distances));
 }
 
-/// The share of a spotlight's light that it sends into a direction: 0 to 1 (Eq. 6.7).
+/// A spotlight's attenuation in a direction: 0 to 1 (Eq. 6.7).
 ///
 /// @param cosine  Of the angle to where it shines.
 template <typename F>
@@ -48,8 +48,8 @@ F spot_attenuation(F cosine, float cos_full, float cos_none) {
     return t * t * (F(3.0f) - F(2.0f) * t);
 }
 
-/// What arrives of a light at a point: all of a directional light's, a share of a point light's
-/// (Eq. 6.6) and of a spotlight's (Eq. 6.6 times Eq. 6.7).
+/// What arrives of a light at a point: all of a directional light's; a point light's is attenuated
+/// by Eq. 6.6, a spotlight's by Eq. 6.6 times Eq. 6.7.
 ///
 /// @param light           Finite numbers.
 /// @param position_world  Not NaN. Where a point light or spotlight stands at this very point, or

@@ -63,8 +63,8 @@ class SmoothNormals {
 
     /// The mean of the normals of the faces around a position, weighted by their angles there.
     ///
-    /// @param position        Index into the mesh's positions. A place that the file has twice is
-    ///                        two positions, whose faces do not meet.
+    /// @param position        Index into the mesh's positions. One that the file has twice is two
+    ///                        positions, whose faces do not meet.
     /// @param normal_of_face  Of the face whose vertex it is; what lies beyond a sharp edge, as
     ///                        seen from this face, does not count.
     vec3 at(std::uint32_t position, vec3 normal_of_face) const {
@@ -82,7 +82,7 @@ class SmoothNormals {
 };
 
 /// Gives each vertex a normal of length 1: the one of the file, or else the one that the faces
-/// around it have. Where there is no direction, it is that of the face.
+/// around it have. Where that is zero or not finite, it is that of the face.
 ///
 /// A triangle of no area faces up: without normals of the file, its vertices get the mean of what
 /// faces nearly up around them, or up.

@@ -37,7 +37,7 @@ F phong_cosine(const SurfacePoint<F>& point, Vec3<F> toward_light) {
     return clamp(glm::dot(mirrored, point.toward_eye), F(0.0f), F(1.0f));
 }
 
-/// A highlight darker than this is none. Nobody could see it, and its products with colours stay
+/// A highlight darker than this counts as 0. Nobody could see it, and products with colours stay
 /// far from subnormal numbers, with which processors are slow.
 constexpr float min_highlight = 0x1p-26f;
 
@@ -62,8 +62,8 @@ struct LightSum {
 };
 using ReflectedLight = LightSum<float>;
 
-/// Adds one light: evenly reflected (Eq. 6.1), and as a highlight (Eq. 6.3). A surface that is
-/// turned away, N.L <= 0, gets nothing.
+/// Adds one light: diffuse (Eq. 6.1), and as a highlight (Eq. 6.3). A surface that is turned away,
+/// N.L <= 0, gets nothing.
 ///
 /// @param visibility  0 to 1: how much of the light reaches the point.
 /// @param highlight   PhongHighlight, or another that is called as it is.
@@ -104,8 +104,7 @@ template <typename F>
 struct FragmentColor {
     Vec3<F> ambient, diffuse, specular, emission;
 
-    /// Colours what is reflected evenly: the same surface for light from lights and from all
-    /// around.
+    /// Tints diffuse and ambient light alike: it is the same surface for both.
     void tint(Vec3<F> color) { ambient *= color, diffuse *= color; }
 };
 using SurfaceColor = FragmentColor<float>;
@@ -126,7 +125,7 @@ Vec3<F> unlit(const FragmentColor<F>& color) {
 /// All the light that a fragment sends to the eye (Eq. 6.5); it may exceed 1.
 ///
 /// @param color     Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
-/// @param ambient   Light from all around, 0 to 1.
+/// @param ambient   Ambient light, 0 to 1.
 /// @param light     0 to 10.
 template <typename F>
 Vec3<F> phong(const FragmentColor<F>& color, vec3 ambient, const LightSum<F>& light) {

@@ -40,6 +40,6 @@ inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds,
     return {light, Light{LightKind::directional, vec3(0.6f, 0.82f, 1.15f), toward_rim}};
 }
 
-constexpr vec3 ambient_light(0.04f, 0.05f, 0.07f);  ///< From all around; linear.
+constexpr vec3 ambient_light(0.04f, 0.05f, 0.07f);  ///< Linear.
 
 }  // namespace rasterbook

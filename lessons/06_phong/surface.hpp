@@ -73,7 +73,7 @@ SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycen
 
 /// A point of a surface as light falls on it.
 ///
-/// @param normal_world  Of any length (Eq. 6.8); where it has none, the first vertex's counts.
+/// @param normal_world  Of any length (Eq. 6.8); the first vertex's where it is zero or not finite.
 template <typename CounterPolicy>
 SurfacePoint<float> surface_point(const TriangleSurface& surface, Barycentrics at,
                                   vec3 normal_world, vec3 eye_world, CounterPolicy& counters) {

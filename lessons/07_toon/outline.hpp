@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Outlines that need more than one fragment: the inverted hull, and edges found in depth and
-/// normals. Introduced in lesson 07; derivation: docs/derivations/07_toon.md.
+/// Outlines that need more than one fragment: the inverted hull, and screen-space edge detection in
+/// depth and normals. Introduced in lesson 07; derivation: docs/derivations/07_toon.md.
 #pragma once
 
 #include <algorithm>
@@ -27,11 +27,11 @@ namespace rasterbook {
 
 constexpr vec3 ink(0.006f, 0.005f, 0.009f);  ///< The colour of outlines; linear.
 
-/// For each position of a mesh the direction in which its hull grows: the mean of all faces around
-/// the place, weighted by their angles there (Eq. 7.8).
+/// For each position of a mesh the direction in which its hull grows: the mean of the normals of
+/// all faces that touch it, weighted by their angles there (Eq. 7.8).
 ///
-/// Positions at the same place get the same direction, also where the file has one for each face;
-/// so the hull has no gap at a sharp edge.
+/// Equal positions get the same direction, also where the file has one for each face; so the hull
+/// has no gap at a crease.
 ///
 /// @return  Of length 1; 0 where there is none, as on a sheet with two sides.
 inline std::vector<vec3> hull_normals(const Mesh& mesh) {
@@ -41,12 +41,12 @@ inline std::vector<vec3> hull_normals(const Mesh& mesh) {
             sums[triangle.vertices[i].position] +=
                 vertex_angle_radians(mesh, triangle, i) * face_normal(mesh, triangle);
 
-    const auto place = [&](std::size_t i) {  // its bits: NaN has a place in their order, too
+    const auto place = [&](std::size_t i) {  // its bits: their order has a place for NaN, too
         return std::bit_cast<std::array<std::uint32_t, 3>>(mesh.positions[i] + 0.0f);  // -0 is 0
     };
     std::vector<std::size_t> by_place(sums.size());
     std::iota(by_place.begin(), by_place.end(), std::size_t{0});
-    // Sums are rounded: those of one place are taken in their order in the mesh.
+    // Sums are rounded: those of one position are added in their order in the mesh.
     std::ranges::sort(by_place, {}, [&](std::size_t i) { return std::pair(place(i), i); });
     for (std::size_t begin = 0, end; begin < by_place.size(); begin = end) {
         vec3 sum(0);
@@ -58,11 +58,11 @@ inline std::vector<vec3> hull_normals(const Mesh& mesh) {
     return sums;
 }
 
-/// A point pushed on the screen by `width_px` pixels, in the direction in which it moves there when
-/// it moves along its normal (Eq. 7.9). Its depth and its w stay.
+/// A vertex pushed on the screen by `width_px` pixels, in the direction in which it moves there
+/// when it moves along its normal (Eq. 7.9). Its depth and its w stay.
 ///
-/// @param normal_clip  clip_from_world * vec4(normal, 0). A normal that leads straight to the eye
-///                     or away from it has no direction on the screen: the point stays.
+/// @param normal_clip  clip_from_world * vec4(normal, 0). A normal that points straight to the
+///                     eye or away from it has no direction on the screen: the vertex stays.
 inline vec4 pushed(vec4 position_clip, vec4 normal_clip, float width_px, ivec2 size) {
     const vec2 half_size = 0.5f * vec2(size);
     const vec2 way = vec2(normal_clip) * position_clip.w - vec2(position_clip) * normal_clip.w;
@@ -79,14 +79,14 @@ inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3
     return glm::dot(a - dvec3(eye_world), glm::cross(b - a, c - a)) > 0;
 }
 
-/// Draws the outline of a closed body: the faces on its far side, pushed outwards, in ink. What is
-/// in front hides all of them but for a rim of `width_px` pixels (Eq. 7.9).
+/// Draws the inverted hull of a closed body: the faces on its far side, pushed outwards, in ink.
+/// The body occludes all of them but a rim of `width_px` pixels (Eq. 7.9).
 ///
-/// The rim is as wide everywhere that the body is round; at the sides of a cube it is 0.577 to 1
-/// times as wide. A sheet that is not closed has no rim where it shows its front.
+/// The rim has that width wherever the body is round; at the sides of a cube it is 0.577 to 1 times
+/// as wide. A sheet that is not closed has no rim where it shows its front.
 ///
 /// @param normals  hull_normals() of the mesh.
-/// @param depth    All bodies are drawn already. Takes the hull's depths where it is seen.
+/// @param depth    All bodies are drawn already. Takes the hull's depths where it is visible.
 /// @param counters outline_tests: each fragment of the hull; outline_pixels: each one inked.
 template <typename CounterPolicy>
 void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
@@ -116,23 +116,23 @@ void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera&
 
 /// From where on a change counts as an edge.
 ///
-/// That of normals is none that an edge of a box, a common prism or a regular solid can have,
+/// That of normals is none that a crease of a box, a common prism or a regular solid can have,
 /// however it runs over the picture: rounding would decide what is inked there (Eq. 7.14).
 struct EdgeThresholds {
     float depth = 0.02f;    ///< In units of the distance to what is seen.
     float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
 };
 
-/// 1/w of what is seen in a pixel, which on a plane is linear on the screen (Eq. 7.11).
+/// 1/w of what is visible in a pixel, which on a plane is linear on the screen (Eq. 7.11).
 ///
-/// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, and nothing is as far.
+/// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, infinitely far: 0.
 inline float inverse_w(float depth, const Camera& camera) {
     if (depth == DepthBuffer::cleared) return 0;
     return 1 / camera.near - depth * (1 / camera.near - 1 / camera.far);
 }
 
-/// The second difference along x or y, the rows beside count half (Eq. 7.12): 0 for a plane,
-/// however steep, where the first one would grow with the slope.
+/// The second difference along x or y; the rows beside count half (Eq. 7.12). It is 0 for a plane,
+/// however steep; the first difference would grow with the slope.
 ///
 /// @param at  Called as at(ivec2 offset), in steps from -1 to 1.
 template <typename At>
@@ -142,8 +142,8 @@ float second_difference(At&& at, ivec2 along) {
     return 0.25f * (line(-across) + 2 * line(ivec2(0)) + line(across));
 }
 
-/// Sobel's first difference along x or y, the rows beside count half (Eq. 7.13): for an edge
-/// between two colours, their difference.
+/// Sobel's first difference along x or y; the rows beside count half (Eq. 7.13). At an edge between
+/// two values it is their difference.
 ///
 /// @param at  As for second_difference().
 template <typename At>
@@ -153,8 +153,8 @@ vec3 sobel(At&& at, ivec2 along) {
     return 0.25f * (line(-across) + 2.0f * line(ivec2(0)) + line(across));
 }
 
-/// Draws, in ink, the pixels in whose surroundings depth or normals change by more than a threshold
-/// (Eq. 7.14): silhouettes, sharp edges, and where one body touches another.
+/// Screen-space edge detection: inks the pixels around which depth or normals change by more than a
+/// threshold (Eq. 7.14): silhouettes, creases, and where one body touches another.
 ///
 /// @param normals   Of what is seen, length 1; 0 where nothing is.
 /// @param width_px  Of lines along rows and columns, rounded up to an even number; slanted ones are

@@ -12,10 +12,10 @@ namespace rasterbook {
 
 constexpr int max_tones = 255;
 
-/// From all around: the light of the darkest tone; linear.
+/// Ambient light: all that the darkest tone has; linear.
 constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
 
-/// How bright a coloured light is: its greatest number (Eq. 7.1).
+/// How bright a coloured light is: its largest component (Eq. 7.1).
 ///
 /// @return  0 for NaN and for negative numbers.
 inline float brightness(vec3 light) { return std::max({0.0f, light.r, light.g, light.b}); }
@@ -34,12 +34,12 @@ inline int tone_of(float brightness, int tones) {
     return steps < tones ? static_cast<int>(steps) : tones - 1;
 }
 
-/// The light that a tone stands for: 0, 1 / (tones - 1), ..., 1; for a single tone 1 (Eq. 7.3).
+/// The level of a tone's light: 0, 1 / (tones - 1), ..., 1; for a single tone 1 (Eq. 7.3).
 inline float level_of(int tone, int tones) {
     return tones == 1 ? 1.0f : static_cast<float>(tone) / static_cast<float>(tones - 1);
 }
 
-/// A brightness, snapped to the light of its tone.
+/// A brightness, quantised to the level of its tone.
 ///
 /// @param brightness,tones  As for tone_of().
 inline float quantised(float brightness, int tones) {
@@ -49,12 +49,12 @@ inline float quantised(float brightness, int tones) {
 /// From this brightness on a highlight is seen, and then it is white.
 constexpr float min_tone_highlight = 0.5f;
 
-/// The paint of a fragment whose light is known: white in a highlight, else the surface's own
-/// colours in the light of a level (Eq. 7.4). The colour of the lamps does not count, so that a
-/// tone has one colour.
+/// The colour of a fragment whose light is known: white in a highlight, else the surface's own
+/// colours in the light of a level (Eq. 7.4). The lights' colours do not count, so that a tone has
+/// one colour.
 ///
-/// @param color            Each number from -1e37 to 1e37; of greater ones the sum may be infinite.
-/// @param from_all_around  Light, 0 to 1.
+/// @param color            Components from -1e37 to 1e37; of greater ones the sum may be infinite.
+/// @param from_all_around  Ambient light, 0 to 1.
 /// @param level            Of the diffuse light, 0 to 1.
 /// @param is_highlight     Whether the fragment lies in a highlight.
 inline vec3 paint(const SurfaceColor& color, vec3 from_all_around, float level, bool is_highlight) {
@@ -67,7 +67,7 @@ inline bool is_highlight(const SurfaceColor& color, const ReflectedLight& light)
     return brightness(color.specular * light.specular) >= min_tone_highlight;
 }
 
-/// What a fragment sends to the eye: in place of phong() (Eq. 7.4).
+/// The colour of a fragment, in place of phong() (Eq. 7.4).
 ///
 /// @param tones  1 to max_tones.
 inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const ReflectedLight& light,
@@ -76,17 +76,17 @@ inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const Reflecte
                  is_highlight(color, light));
 }
 
-/// How much a surface faces the eye: 1 where it is seen from straight above, 0 at a silhouette.
+/// The facing ratio: 1 where a surface is seen from straight above, 0 at a silhouette (Eq. 7.6).
 ///
 /// @param normal,toward_eye  Length 1.
-/// @return  0 to 1, but for rounding; 0 for NaN, and for normals that lead away, as interpolated
+/// @return  0 to 1, but for rounding; 0 for NaN, and for normals that point away, as interpolated
 ///          ones may at a silhouette.
 inline float facing_ratio(vec3 normal, vec3 toward_eye) {
     return std::max(0.0f, glm::dot(normal, toward_eye));
 }
 
 /// The outline by the facing ratio: where it is below `least` (Eq. 7.6). On a sphere that is a ring
-/// whose width grows with the sphere (Eq. 7.7); of a flat face it is all or nothing.
+/// whose width grows with the sphere (Eq. 7.7); a flat face is ink as a whole, or not at all.
 ///
 /// @param least  0 to 1; 0: no outline.
 inline bool is_facing_outline(float ratio, float least) { return ratio < least; }

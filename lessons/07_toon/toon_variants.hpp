@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How tones end and which outline there is, to be seen with `--smooth` and `--outline`, and
+/// How tones end and which outline there is, to see with `--smooth` and `--outline`, and
 /// measured in docs/accuracy/07_toon.md.
 #pragma once
 
@@ -22,7 +22,7 @@ enum class Outline { none, facing, hull, edges };
 
 struct ToonVariant : LightOptions {
     int tones = 4;
-    bool smooth = false;  ///< Tones end over one pixel, not at once.
+    bool smooth = false;  ///< Borders of tones are one pixel wide, not hard.
     Outline outline = Outline::edges;
     float outline_width_px = 3;  ///< Of the picture as it is written; hull and edges.
     float min_facing = 0.35f;
@@ -45,7 +45,7 @@ struct ToonVariant : LightOptions {
     }
 };
 
-/// The mean light of the tones over a pixel in which the brightness runs evenly from half of
+/// The mean level of the tones over a pixel in which the brightness runs linearly from half of
 /// `change` below `brightness` to half of it above (Eq. 7.5).
 ///
 /// @param change  >= 0; for 0 and NaN there is nothing to smooth.
@@ -62,7 +62,7 @@ inline float smoothly_quantised(float brightness, float change, int tones) {
     return static_cast<float>((area(to) - area(from)) / (to - from));
 }
 
-/// The share of a pixel that lies in a highlight, in the same way.
+/// How much of a pixel lies in a highlight, 0 to 1, in the same way.
 inline float highlight_share(float brightness, float change) {
     if (!(change > 0)) return brightness >= min_tone_highlight ? 1.0f : 0.0f;
     const float share = (brightness - min_tone_highlight) / change + 0.5f;
@@ -88,7 +88,7 @@ inline vec3 smooth_toon(const SurfaceColor& color, vec3 from_all_around,
                     highlight_share(specular(light), change(specular)));
 }
 
-/// For each mesh its hull's normals; empty where there is no hull.
+/// For each mesh the directions of its hull; empty where there is no hull.
 using HullNormals = std::vector<std::vector<vec3>>;
 
 inline HullNormals make_hull_normals(const Scene& scene, Outline outline) {
@@ -98,8 +98,8 @@ inline HullNormals make_hull_normals(const Scene& scene, Outline outline) {
     return normals;
 }
 
-/// What outlines need of a fragment that is painted already: its normal for edges; and by the
-/// facing ratio, the outline itself.
+/// What outlines need of a fragment that has its colour already: edge detection its normal; and by
+/// the facing ratio, the outline itself.
 ///
 /// @param normals  Takes the normal; only with Outline::edges.
 template <typename CounterPolicy>
@@ -120,9 +120,9 @@ void add_to_outline(const ToonVariant& variant, const TriangleSurface& surface, 
     color[pixel] = ink;
 }
 
-/// Draws hulls and edges, when all else is drawn.
+/// Draws inverted hulls, or detects edges, when all else is drawn.
 ///
-/// @param normals           Of what is seen, from add_to_outline().
+/// @param normals           Of what is visible, from add_to_outline().
 /// @param samples_per_side  Of the picture in a pixel of that which is written.
 template <typename CounterPolicy>
 void draw_outlines(const ToonVariant& variant, const Scene& scene, const HullNormals& hull_normals,

@@ -38,7 +38,7 @@ struct ScreenTriangle {
 /// @return       Exact, in 1/65536 square pixel.
 /// @see Pineda, "A parallel algorithm for polygon rasterization", 1988
 constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
-    // TODO: Eq. 2.1 and 2.2; widen before you multiply.
+    // TODO, step 1: Eq. 2.1 and 2.2; widen before you multiply.
     return 0;
 }
 
@@ -48,17 +48,18 @@ constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
 ///               coordinate_limit in size, the triangle becomes one of no area, which covers
 ///               nothing.
 inline ScreenTriangle snap_triangle(vec2 a, vec2 b, vec2 c) {
-    // TODO: refuse what is not usable; Eq. 2.8; twice the area by Eq. 2.2.
+    // TODO, step 1: Eq. 2.8; twice the area by Eq. 2.2. Refuse what is not usable ("What is
+    // refused").
     return {};
 }
 
 /// Whether the vertices are seen counter-clockwise. False for a triangle of no area.
 constexpr bool is_front_facing(const ScreenTriangle& triangle) {
-    // TODO
+    // TODO, step 1: the sign of the area.
     return false;
 }
 
-/// One side of a triangle, to be asked about one pixel centre after the other (Eq. 2.5).
+/// One edge of a triangle, evaluated at one pixel centre after the other (Eq. 2.5).
 struct EdgeWalk {
     std::int64_t value;           ///< Edge function, inside > 0, at the first column of the row.
     std::int64_t step_x, step_y;  ///< Change from a pixel to its right and lower neighbour.
@@ -67,22 +68,23 @@ struct EdgeWalk {
     /// @param winding      1 for a triangle seen counter-clockwise, -1 for one seen clockwise.
     /// @param first_pixel  Column and row of the pixel at whose centre the walk begins.
     EdgeWalk(ivec2 a, ivec2 b, int winding, ivec2 first_pixel) {
-        // TODO: Eq. 2.1 times the winding; Eq. 2.5 in steps of a pixel; Eq. 2.7; Eq. 2.2 at a
-        // centre.
+        // TODO, step 1: Eq. 2.2 at the pixel's centre; Eq. 2.5 in steps of a pixel; all of it times
+        // the winding.
+        // TODO, step 3: Eq. 2.7.
         value = step_x = step_y = least = 0;
     }
 
     /// Cuts [first, last], columns counted from the first one, down to those inside (Eq. 2.6).
     void narrow(std::int64_t& first, std::int64_t& last) const {
-        // TODO: Eq. 2.6.
+        // TODO, step 3: Eq. 2.6.
     }
 };
 
-/// Visits each pixel of a picture, or of a part of one, whose centre the triangle covers.
+/// Visits each pixel of an image, or of a part of one, whose centre the triangle covers.
 ///
-/// A centre on a side belongs to the triangle when the side is a left or a top one, so that
-/// triangles which share sides visit each pixel once (Eq. 2.7). The order of the vertices does not
-/// matter.
+/// A centre on an edge belongs to the triangle if the edge is a left or a top one, so that
+/// triangles which share an edge visit each pixel once (Eq. 2.7). The order of the vertices does
+/// not matter.
 ///
 /// @param triangle  A triangle of no area visits nothing.
 /// @param first     The part's upper left pixel, from 0 on.
@@ -92,10 +94,12 @@ struct EdgeWalk {
 ///                  value (Eq. 2.4), and the same whatever the part.
 template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
-    // TODO: the five steps at the end of the derivation.
+    // TODO, step 1: emit the pixels of the bounding box at which no edge's value is negative.
+    // TODO, step 2: with their barycentric coordinates (Eq. 2.4).
+    // TODO, step 3: "All steps in their order" in the derivation.
 }
 
-/// The same of a whole picture.
+/// The same of a whole image.
 ///
 /// @param size  Width and height in pixels, each 0 to 2^22.
 template <std::invocable<ivec2, Barycentrics> Emit>

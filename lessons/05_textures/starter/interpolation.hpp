@@ -45,8 +45,7 @@ struct PerspectiveSetup {
 /// sum.
 constexpr float min_inverse_w = 0x1p-80f;
 
-/// @param clipped  With w > 0: a triangle with a w of 0 has no area on the screen, and so no
-///                 fragments.
+/// @param clipped  With w > 0: a piece with a w of 0 has no area on the screen, and no fragments.
 inline PerspectiveSetup perspective_setup(const ScreenTriangle& on_screen,
                                           const ClippedTriangle& clipped) {
     // TODO: the 1/w of Eq. 5.3, of which only the ratios count, none below min_inverse_w; the
@@ -62,8 +61,8 @@ inline PerspectiveSetup perspective_setup(const ProjectedTriangle& projected) {
 /// (Eq. 5.3).
 ///
 /// @param on_screen  Of the clipped piece, as fill_triangle gives them.
-/// @return           Coordinates >= 0, each within 16 ulp of its exact value; in a piece that was
-///                   cut within 22 ulp, taking its vertices' coordinates as they are.
+/// @return           Coordinates >= 0, each within 16 ulp of its exact value; 22 ulp in a piece
+///                   that was cut, taking its vertices' coordinates as they are.
 template <typename F>
 PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup, Vec3<F> on_screen) {
     // TODO: Eq. 5.2 and 5.3, and 5.7 for the derivatives.

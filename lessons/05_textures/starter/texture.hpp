@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A picture on a surface: which of its texels a point sees. Introduced in lesson 05;
+/// Textures: which texels a point of a surface sees. Introduced in lesson 05;
 /// derivation: docs/derivations/05_textures.md.
 #pragma once
 
@@ -19,34 +19,34 @@
 
 namespace rasterbook {
 
-/// What lies beyond a picture's borders: the picture again, the picture mirrored, or its border.
+/// What lies beyond a texture's border: the texture again, mirrored, or its outermost texels.
 enum class Wrap { repeat, mirror, clamp };
 
 /// Which texels make a fragment's colour: the nearest one, the four around it, or four of each of
 /// two levels.
 enum class Filter { nearest, bilinear, trilinear };
 
-/// A picture of linear red, green and blue, and opacity, ready to be sampled.
+/// One level of a mip chain: linear red, green and blue, and alpha, ready to be sampled.
 struct TextureLevel {
     ivec2 size;          ///< In texels, without the border.
-    Image<vec4> texels;  ///< With a border of one texel that holds what lies beyond the picture.
+    Image<vec4> texels;  ///< With a border of one texel that holds what lies beyond.
 };
 
-/// A picture and smaller copies of it.
+/// A mip chain: an image and smaller copies of it.
 struct Texture {
     Wrap wrap;
     std::vector<TextureLevel>
         levels;  ///< Each half as wide and high as the one before; 1 x 1 last.
 };
 
-/// A texture coordinate brought into the picture, 0 to 1 (Eq. 5.4). What is not a number becomes 0,
-/// and so does infinity, but for Wrap::clamp.
+/// A texture coordinate wrapped to 0 to 1 (Eq. 5.4). NaN becomes 0, and so does infinity, but for
+/// Wrap::clamp.
 inline float wrapped(float coordinate, Wrap wrap) {
-    // TODO: Eq. 5.4; mind what is not a number.
+    // TODO: Eq. 5.4; mind NaN and infinity.
     return 0;
 }
 
-/// A position in the picture: x from 0 at its left to 1 at its right, y from 0 at its upper border
+/// A position in the texture: x from 0 at its left to 1 at its right, y from 0 at its upper border
 /// to 1 at its lower one (Eq. 5.5).
 inline vec2 texture_position(vec2 uv, Wrap wrap) {
     // TODO: Eq. 5.5, up to the position.
@@ -57,7 +57,7 @@ inline vec2 texture_position(vec2 uv, Wrap wrap) {
 ///
 /// @param position  0 to 1.
 inline vec4 sample_nearest(const TextureLevel& level, vec2 position) {
-    // TODO: Eq. 5.5; the texels are stored with a border of one.
+    // TODO: Eq. 5.5; the texels are stored with a border of one texel.
     return vec4(0);
 }
 
@@ -73,10 +73,10 @@ inline vec4 sample_bilinear(const TextureLevel& level, vec2 position) {
 ///
 /// @param ddx,ddy  How fast uv changes here, a pixel to the right and a pixel down.
 /// @param size     Of level 0, in texels.
-/// @return               0 where the footprint is a texel or less, and where any of the four
-///                       numbers is NaN; else it may be infinite.
+/// @return  0 where the footprint is a texel or less, and where any of the four numbers is NaN;
+///          else it may be infinite.
 inline float level_of_detail(vec2 ddx, vec2 ddy, ivec2 size) {
-    // TODO: Eq. 5.8, with log2() of common/math/functions.hpp; mind what is not a number.
+    // TODO: Eq. 5.8, with log2() of common/math/functions.hpp; mind NaN.
     return 0;
 }
 
@@ -99,7 +99,7 @@ inline FragmentUv fragment_uv(const std::array<vec2, 3>& uvs, const FragmentBary
     return {interpolate(uvs, at.here), interpolate(uvs, at.ddx), interpolate(uvs, at.ddy)};
 }
 
-/// The texture's colour, linear, and opacity in a fragment.
+/// The texture's colour, linear, and alpha in a fragment.
 inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) {
     const vec2 position = texture_position(uv.here, texture.wrap);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], position);
@@ -108,36 +108,37 @@ inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) 
     return sample_trilinear(texture, position, level);
 }
 
-/// A picture half as wide and high, rounded down, but at least 1: each texel is the mean of what it
-/// covers (Eq. 5.9). A picture of one colour keeps it exactly: what double rounds is far below half
-/// a step of float.
+/// The next level: half as wide and high, rounded down, but at least 1; each texel is the mean of
+/// what it covers (Eq. 5.9). An image of one colour keeps it exactly: what double rounds is far
+/// below half a step of float.
 inline Image<vec4> downsampled(const Image<vec4>& picture) {
     // TODO: the size, and Eq. 5.9 in both directions: lengths in whole numbers (64 bits hold the
     // largest), the sum in double.
     return Image<vec4>(ivec2(1));
 }
 
-/// The picture with a border of one texel, as bilinear filtering asks for.
+/// An image with a border of one texel, as bilinear filtering asks for.
 inline TextureLevel with_border(const Image<vec4>& picture, Wrap wrap) {
-    // TODO: the picture, and around it what lies beyond (the border, after Eq. 5.6).
+    // TODO: the picture, and around it what lies beyond (the border, after Eq. 5.5).
     return {picture.size(), Image<vec4>(picture.size() + 2)};
 }
 
 /// A texture with all of its levels.
 ///
-/// @param picture  Linear colour and opacity; at least one texel.
+/// @param picture  Linear colour and alpha; at least one texel.
 inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
-    // TODO: the other levels, down to a single texel, each half of the one before (Eq. 5.9).
+    // TODO: the other levels, down to a single texel, each half as wide and high as the one before
+    // (Eq. 5.9).
     return {wrap, {with_border(picture, wrap)}};
 }
 
-/// A picture's colours decoded from sRGB (Eq. 5.11); opacity is not encoded.
+/// An image's colours decoded from sRGB (Eq. 5.11); alpha is not encoded.
 inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
-    // TODO: Eq. 5.11, which common/math/color.hpp has; opacity is not encoded.
+    // TODO: Eq. 5.11, which common/math/color.hpp has; alpha is not encoded.
     return Image<vec4>(picture.size());
 }
 
-/// The same of a picture whose codes are plain numbers.
+/// The same of an image whose stored values are plain numbers (UNORM).
 inline Image<vec4> plain_numbers(const Image<u8vec4>& picture) {
     Image<vec4> numbers(picture.size());
     for (std::size_t i = 0; i < numbers.pixels().size(); ++i)

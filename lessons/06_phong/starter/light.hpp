@@ -11,7 +11,7 @@
 
 namespace rasterbook {
 
-/// Like the sun, like a bare bulb, or like a bulb with a shade.
+/// Far away as the sun, at a position as a bare bulb, or in a cone as a bulb with a shade.
 enum class LightKind { directional, point, spot };
 
 struct Light {
@@ -31,7 +31,7 @@ struct Incoming {
     Vec3<F> color;   ///< Linear.
 };
 
-/// The share of a point light's light that arrives over a distance: 1 at the light (Eq. 6.6).
+/// A point light's attenuation over a distance: 1 at the light (Eq. 6.6).
 ///
 /// @param in_half_distances  From the point to the light, in units of its half_distance.
 template <typename F>
@@ -40,7 +40,7 @@ F distance_attenuation(Vec3<F> in_half_distances) {
     return F(0.0f);
 }
 
-/// The share of a spotlight's light that it sends into a direction: 0 to 1 (Eq. 6.7).
+/// A spotlight's attenuation in a direction: 0 to 1 (Eq. 6.7).
 ///
 /// @param cosine  Of the angle to where it shines.
 template <typename F>
@@ -49,8 +49,8 @@ F spot_attenuation(F cosine, float cos_full, float cos_none) {
     return F(0.0f);
 }
 
-/// What arrives of a light at a point: all of a directional light's, a share of a point light's
-/// (Eq. 6.6) and of a spotlight's (Eq. 6.6 times Eq. 6.7).
+/// What arrives of a light at a point: all of a directional light's; a point light's is attenuated
+/// by Eq. 6.6, a spotlight's by Eq. 6.6 times Eq. 6.7.
 ///
 /// @param light           Finite numbers.
 /// @param position_world  Not NaN. Where a point light or spotlight stands at this very point, or
@@ -58,8 +58,8 @@ F spot_attenuation(F cosine, float cos_full, float cos_none) {
 template <typename F>
 Incoming<F> incoming_light(const Light& light, Vec3<F> position_world) {
     // TODO: a directional light as it is; of a point light the vector to it in half distances, its
-    // direction by unit_or(), and the share by Eq. 6.6; of a spotlight also Eq. 6.7. The light's
-    // kind is the same for all numbers of F, and may be asked with `if`.
+    // direction by unit_or(), and the attenuation by Eq. 6.6; of a spotlight also Eq. 6.7. The
+    // light's kind is the same for all numbers of F: `if` may test it.
     return {Vec3<F>(vec3(0, 1, 0)), Vec3<F>(F(0.0f))};
 }
 
