@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other numbers to keep depths in, to be seen with `--format` and `--range`, and measured in
+/// Other formats to store depths in, to be seen with `--format` and `--range`, and measured in
 /// docs/accuracy/03_z_buffer.md.
 #pragma once
 
@@ -43,7 +43,7 @@ struct DepthVariant {
                      "a near plane much too near does");
     }
 
-    /// What the buffer keeps of a depth, as a float in the same order: less is nearer.
+    /// What the buffer stores of a depth, as a float in the same order: less is nearer.
     ///
     /// @param depth  Of the model: 0 for near to 1 for far.
     float kept(float depth) const {

@@ -82,7 +82,8 @@ inline PerspectiveSetup perspective_setup(const ProjectedTriangle& projected) {
 /// @return           Coordinates >= 0, each within 16 ulp of its exact value; 22 ulp in a piece
 ///                   that was cut, taking its vertices' coordinates as they are.
 template <typename F>
-inline PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup, Vec3<F> on_screen) {
+inline PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup,
+                                                      Vec3<F> on_screen) {
     const auto sum = [](Vec3<F> v) { return v.x + v.y + v.z; };
     const Vec3<F> numerators = setup.is_whole ? Vec3<F>(setup.inverse_w) * on_screen
                                               : on_screen.x * Vec3<F>(setup.numerators[0]) +

@@ -25,8 +25,8 @@ struct LightViews {
     bool is_perspective = false;
 };
 
-/// What lies from `low` to `high`, moved and stretched to the cube from -1 to 1 (Eq. 9.2). Without
-/// shear, so that a w stays what it was.
+/// The orthographic projection of the box from `low` to `high` onto the cube from -1 to 1
+/// (Eq. 9.2). It leaves w as it is, so that it can follow a perspective.
 ///
 ///     2/(h.x-l.x)  0            0            -(h.x+l.x)/(h.x-l.x)
 ///     0            2/(h.y-l.y)  0            -(h.y+l.y)/(h.y-l.y)
@@ -46,8 +46,7 @@ constexpr double min_near_share = 0.001;
 /// A spotlight whose light ends farther than this from its axis gets six maps, as a point light.
 constexpr float widest_spot_radians = 75 * std::numbers::pi_v<float> / 180;
 
-/// A box in the light's view: x right, y up, z the way from the light, w 1 (or the same after the
-/// division by w).
+/// A box in the light's view: x right, y up, z towards the light. (Or a spotlight's box in NDC.)
 struct LightBox {
     dvec3 low{std::numeric_limits<double>::infinity()};
     dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -105,16 +104,16 @@ inline LightBox widened(const LightBox& box, int size) {
     return {middle - wider, middle + wider};
 }
 
-/// view_from_world from a place into a direction. (In `eye + direction`, a far eye would swallow
-/// the direction's digits.)
+/// view_from_world of a camera at a position, looking along a direction. (In `eye + direction`, a
+/// far eye would swallow the direction's digits.)
 inline dmat4 looking(dvec3 eye, dvec3 direction) {
     return look_at(dvec3(0), direction, dvec3(0, 1, 0)) * translation(-eye);
 }
 
-/// A directional light's map: an orthographic projection along its light, fitted to what casts on
+/// A directional light's map: an orthographic projection along its rays, fitted to what casts on
 /// what receives (Eq. 9.1).
 ///
-/// @return  Of count 0 when no receiver lies behind a caster, as the light goes.
+/// @return  Of count 0 when no receiver lies behind a caster, as the light sees them.
 inline LightViews directional_light_views(const Light& light, const Bounds& casters,
                                           const Bounds& receivers, int size) {
     const dmat4 view = looking(casters.center(), -light.direction_world);
@@ -127,8 +126,9 @@ inline LightViews directional_light_views(const Light& light, const Bounds& cast
     return {{mat4(clip)}, 1, false};
 }
 
-/// From the nearest caster, or a thousandth of the way, to where casters or receivers end; both a
-/// little beyond, so that rounding puts nothing outside.
+/// Distances of the near and the far plane: from the nearest caster, or a thousandth of the far
+/// plane's distance, to where casters or receivers end. Both lie a little beyond, so that rounding
+/// puts nothing outside.
 struct DepthRange {
     double near, far;
 };
@@ -142,7 +142,7 @@ inline DepthRange depth_range(double nearest_caster, double farthest) {
     return {std::max(0.998 * nearest_caster, min_near_share * far), far};
 }
 
-/// A spotlight's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
+/// A spotlight's map: all that its cone lights, fitted to what casts on what receives (Eq. 9.4).
 ///
 /// @return  Of count 0 when in front of the light and in its cone no receiver lies behind a caster.
 inline LightViews spotlight_views(const Light& light, const Bounds& casters,
@@ -180,8 +180,8 @@ inline LightViews spotlight_views(const Light& light, const Bounds& casters,
     return {{mat4(crop(box.low, box.high) * clip)}, 1, true};
 }
 
-/// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5). A 0 of
-/// either sign is positive: no direction at all is +x.
+/// The face of a cube map that a vector from the light passes through: 0 to 5 for +x, -x, +y, -y,
+/// +z, -z (Eq. 9.5). A 0 of either sign counts as positive: a zero-length vector is +x.
 inline std::size_t cube_face(vec3 direction) {
     const vec3 size = glm::abs(direction);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -204,7 +204,7 @@ inline LightViews point_light_views(const Light& light, const Bounds& casters,
     constexpr double most = std::numeric_limits<float>::max();
     if (!(farthest > 0 && farthest < most && nearest_caster <= farthest)) return {};
     const double half_width = widened_by_margin(size);
-    // A way of length 1 to a map's corner leads so far along its axis: 1/sqrt(3) without a margin.
+    // What of a unit vector to a map's corner is along its axis: 1/sqrt(3) without a margin.
     const double axis_share = 1 / std::sqrt(1 + 2 * half_width * half_width);
     const auto [near, far] = depth_range(axis_share * nearest_caster, farthest);
     const dmat4 projection = perspective(2 * std::atan(half_width), 1.0, near, far);

@@ -24,18 +24,18 @@
 
 namespace rasterbook {
 
-/// A shadow test averages up to 2 * 3 + 1 texels a side.
+/// The PCF kernel of a shadow test has up to 2 * 3 + 1 taps a side.
 constexpr int max_pcf_radius = 3;
 
-/// By how much fill_triangle may see a vertex beside its place, in texels: half a snapping step.
+/// By how much snap_triangle may move a vertex, in texels: half a step.
 constexpr double snapping = 0.5 / subpixels;
 
 /// Roundings on the way from a vertex to a map's depth and to a fragment's: at most 64 of 2^-24,
 /// relative to the sizes of what is added up (Eq. 9.15).
 constexpr double rounding = 64 * 0x1p-24;
 
-/// Depths between 0 and 1 have 24 digits or more; the fill's barycentrics and the depth's sum round
-/// a few times.
+/// Depths between 0 and 1 have 24 binary digits or more; the barycentric coordinates and the
+/// depth's sum are rounded a few times.
 constexpr double depth_quanta = 8 * 0x1p-24;
 
 /// The depth of what a light sees first, for each texel; 1 where it sees nothing.
@@ -45,7 +45,7 @@ struct ShadowMap {
     mat4 texels_from_world;  ///< x right, y down in texels, depth 0 to 1, all times w (Eq. 9.6).
     dmat4 plane_from_world;  ///< Of texels_from_world, as it is in float (Eq. 9.8).
     bool is_perspective;     ///< Else w is 1.
-    double rounding_texels;  ///< By how much a place may be off, times w (Eq. 9.15).
+    double rounding_texels;  ///< By how much a position may be off, times w (Eq. 9.15).
     double rounding_depth;   ///< By how much a depth may be off, times w.
     double slope_in_middle;  ///< |dz/dx| + |dz/dy| of a surface tilted by arctan 2.
     DepthBuffer depths;      ///< With max_pcf_radius texels around it, in which nothing is seen.
@@ -93,7 +93,7 @@ struct ShadowMap {
     }
 };
 
-/// Draws the depth of a mesh as the light sees it, fronts and backs.
+/// Draws the depth of a mesh as the light sees it, front and back faces.
 ///
 /// Each texel of the map's own that a triangle covers counts as a Counter::shadow_fragments,
 /// written or not; nothing else is counted.
@@ -121,26 +121,27 @@ void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy
 /// What keeps a lit surface from shadowing itself.
 enum class Bias { none, constant, slope, plane, normal };
 
-/// What a shadow test has to know of the triangle on which a shadow falls.
+/// What a shadow test has to know of the triangle on which a shadow falls. A table in the text,
+/// "Five biases and what they return", says which Bias sets which field.
 struct Receiver {
     vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
-    float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.10); leaks: Eq. 9.14.
+    float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
     float bias_per_w = 0;  ///< To be divided by the moved point's w, and added to the bias.
     vec3 offset{0};        ///< World space: moves the point (Eq. 9.12).
     vec3 offset_times_w{0};  ///< To be multiplied by w of the point not yet moved, and added.
 };
 
-/// A plane's slopes beyond which a depth passes through all of the map within a texel. Such a
-/// surface is seen edge-on by the light, gets hardly any, and all of that. Bias::normal needs no
-/// such limit.
+/// The sum of a plane's slopes beyond which its depth passes through all of the map within a texel.
+/// The light sees such a surface edge-on, and gives it hardly anything: it is called lit.
+/// Bias::normal needs no such limit.
 constexpr double max_slope = 1;
 
 /// Fits the bias to a triangle.
 ///
 /// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
 /// lit of a triangle of no area, edge-on (with Bias::normal: only if it contains the light), not
-/// finite, or turned away from the light: that one gets no light anyway, or next to none by normals
-/// that are mixed between its vertices.
+/// finite, or turned away from the light: that one gets no light anyway, or next to none where its
+/// interpolated normals still face the light.
 ///
 /// @param radius   Of the PCF kernel: 0 to max_pcf_radius.
 /// @param vertices  World space.
@@ -148,7 +149,7 @@ constexpr double max_slope = 1;
 inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
                          const std::array<vec3, 3>& vertices, dvec3 outward) {
     Receiver result;
-    const double reach_texels = radius + 0.5;  // to the farthest texel's centre: Eq. 9.9
+    const double reach_texels = radius + 0.5;  // to the farthest tap's centre: Eq. 9.9
     if (bias == Bias::constant)
         result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
     if (bias == Bias::none || bias == Bias::constant) return result;
@@ -190,10 +191,10 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
     return result;
 }
 
-/// The share of a square of texels, around a point's place in the map, from which it is lit: 0 to 1
-/// (Eq. 9.7 and 9.13).
+/// The visibility of a light at a point: the share of the taps of a square of texels, around the
+/// point's position in the map, that say lit, 0 to 1 (Eq. 9.7 and 9.13).
 ///
-/// @tparam radius         0 to max_pcf_radius: 1, 9, 25 or 49 texels.
+/// @tparam radius         0 to max_pcf_radius: 1, 9, 25 or 49 taps.
 /// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
 ///                        lit.
 template <int radius>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How fine depth maps are and how they are tested, to be seen with `--shadow-size`, `--bias`
+/// The resolution of depth maps and how they are tested, to be seen with `--shadow-size`, `--bias`
 /// and `--pcf`, and measured in docs/accuracy/09_shadow_maps.md.
 #pragma once
 

@@ -32,7 +32,7 @@ inline bool casts_shadows(const Material& material) {
     return is_lit(material) && material.opacity >= 1 && material.alpha != AlphaMode::blend;
 }
 
-/// What of a scene casts shadows, and what gets them.
+/// What of a scene casts shadows, and what receives them.
 struct ShadowBounds {
     Bounds casters, receivers;  ///< World space, of their triangles; empty where there are none.
 };
@@ -176,7 +176,7 @@ ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, cons
 
 /// A triangle on which shadows fall, and the biases that have been fitted to it.
 ///
-/// A triangle has two sides. A point is on the one to which its normal leads, and the bias of that
+/// A triangle has two sides. A point is on the one to which its normal points, and the bias of that
 /// side in a map is fitted at the first test there. It is the same whichever point is the first.
 struct TriangleReceiver {
     std::array<vec3, 3> vertices;
@@ -191,7 +191,8 @@ inline TriangleReceiver triangle_receiver(const std::array<vec3, 3>& vertices) {
 }
 
 /// A surface gets all of a light from this cosine on; from there to 0, where it turns away, less
-/// and less (Eq. 9.16). A normal map may still lean it towards the light, but it is in shadow.
+/// and less (Eq. 9.16). A normal map may still tilt the normal towards the light, but the surface
+/// is in shadow.
 constexpr float full_cosine = 0.1f;
 
 /// How much of a light reaches a point of a triangle: 0 to 1.

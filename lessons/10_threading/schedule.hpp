@@ -22,7 +22,7 @@ constexpr double amdahl_speedup(double serial_share, std::size_t workers) {
     return 1 / (serial_share + (1 - serial_share) / static_cast<double>(workers));
 }
 
-/// What becomes of a job. Any unit of time.
+/// How a job goes. Any unit of time.
 struct Schedule {
     double work = 0;     ///< What all tasks take, one after the other (Eq. 10.1).
     double longest = 0;  ///< What the longest takes.

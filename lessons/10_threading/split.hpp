@@ -21,8 +21,8 @@ struct PixelBox {
     bool is_empty() const { return first.x > last.x || first.y > last.y; }
 };
 
-/// The pixels whose centres lie in the box around a triangle: all that it may cover, and some more
-/// (Eq. 10.6).
+/// The pixels whose centres lie in the bounding box of a triangle: all that it may cover, and some
+/// more (Eq. 10.6).
 inline PixelBox box_around(const ScreenTriangle& triangle) {
     const auto [a, b, c] = triangle.vertices;
     const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
@@ -106,7 +106,8 @@ class Tiling {
     int columns_ = 0, rows_ = 0;  ///< Of tiles.
 };
 
-/// Visits what of a tile lies in a box, as boxes of whole rows: of interleaved rows, each is one.
+/// Visits the pixels of a tile that lie in a box, as boxes of whole rows: of interleaved rows, each
+/// is one.
 ///
 /// @param visit  Called as visit(PixelBox), never with an empty one.
 template <typename Visit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 09's depth maps, drawn by several workers. Introduced in lesson 10.
+/// Lesson 09's shadow maps, drawn by several workers. Introduced in lesson 10.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ inline void clear_tile(Image<vec3>& color, DepthBuffer& depth, const Tile& tile)
     });
 }
 
-/// Clears what of a map's depths belongs to a tile of its texels. The border around the map belongs
-/// to the tiles that touch it.
+/// Clears those of a map's depths that belong to a tile of its texels. The border around the map
+/// belongs to the tiles that touch it.
 inline void clear_tile(ShadowMap& map, const Tile& tile) {
     const ivec2 last_texel(map.size - 1);
     for_each_strip(tile, [&](const PixelBox& strip) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Which of several surfaces is seen in a pixel. Introduced in lesson 03;
+/// Which of several surfaces is visible in a pixel. Introduced in lesson 03;
 /// derivation: docs/derivations/03_z_buffer.md.
 #pragma once
 
@@ -31,7 +31,8 @@ class DepthBuffer {
             for (int x = first.x; x <= last.x; ++x) depths_[{x, y}] = cleared;
     }
 
-    /// Whether `depth` is nearer than all before it in this pixel; if so, it is kept (Eq. 3.1).
+    /// The depth test: whether `depth` is nearer than all before it in this pixel; if so, it is
+    /// stored (Eq. 3.1).
     ///
     /// Of equal depths the first stays: -0 equals 0. NaN is never nearer.
     bool test_and_write(ivec2 pixel, float depth) {
@@ -45,7 +46,7 @@ class DepthBuffer {
     Image<float> depths_;
 };
 
-/// The depth inside a triangle: the vertices' depths, weighted (Eq. 3.2).
+/// The depth inside a triangle, interpolated from the vertices' depths (Eq. 3.2).
 ///
 /// Measured from the nearest vertex, so that the error is small where the triangle's depths differ
 /// little, a triangle of one depth has exactly that depth everywhere, and the order of the vertices
@@ -54,13 +55,14 @@ class TriangleDepth {
   public:
     /// @param depths  Of the three vertices, finite.
     explicit TriangleDepth(vec3 depths) : nearest_(0), beyond_nearest_(0) {
-        // TODO: the least depth, and how far the others lie behind it.
+        // TODO: in step 1, for Eq. 3.2, beyond_nearest_ is the depths themselves, and nearest_
+        // stays 0. In step 3, for Eq. 3.3, the smallest depth, and how far each lies behind it.
     }
 
-    /// @param barycentrics  The vertices' shares, >= 0, as fill_triangle gives them.
-    /// @return         Not nearer than the nearest vertex.
+    /// @param barycentrics  On the screen, >= 0, as fill_triangle gives them.
+    /// @return              Not nearer than the nearest vertex.
     float at(vec3 barycentrics) const {
-        // TODO: Eq. 3.3; mind the bracket.
+        // TODO: Eq. 3.3, which is Eq. 3.2 as long as nearest_ is 0; mind the bracket.
         return 0;
     }
 

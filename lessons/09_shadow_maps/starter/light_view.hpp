@@ -25,8 +25,8 @@ struct LightViews {
     bool is_perspective = false;
 };
 
-/// What lies from `low` to `high`, moved and stretched to the cube from -1 to 1 (Eq. 9.2). Without
-/// shear, so that a w stays what it was.
+/// The orthographic projection of the box from `low` to `high` onto the cube from -1 to 1
+/// (Eq. 9.2). It leaves w as it is, so that it can follow a perspective.
 ///
 ///     2/(h.x-l.x)  0            0            -(h.x+l.x)/(h.x-l.x)
 ///     0            2/(h.y-l.y)  0            -(h.y+l.y)/(h.y-l.y)
@@ -46,8 +46,7 @@ constexpr double min_near_share = 0.001;
 /// A spotlight whose light ends farther than this from its axis gets six maps, as a point light.
 constexpr float widest_spot_radians = 75 * std::numbers::pi_v<float> / 180;
 
-/// A box in the light's view: x right, y up, z the way from the light, w 1 (or the same after the
-/// division by w).
+/// A box in the light's view: x right, y up, z towards the light. (Or a spotlight's box in NDC.)
 struct LightBox {
     dvec3 low{std::numeric_limits<double>::infinity()};
     dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -78,7 +77,7 @@ inline LightBox box_in(const dmat4& view_from_world, const Bounds& bounds) {
 ///
 /// @return  Not usable, low above high, where there can be no shadow.
 inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers) {
-    // TODO: Eq. 9.3.
+    // TODO: step 1: from dvec3(-10) to dvec3(10). Step 5: Eq. 9.3.
     return casters;
 }
 
@@ -90,7 +89,7 @@ constexpr int margin_texels = 4;
 ///
 /// @param size  Of the map in texels, > 2 margin_texels.
 inline double widened_by_margin(int size) {
-    // TODO: what the text says below Eq. 9.3.
+    // TODO: step 4: t of Eq. 9.5.
     return 1;
 }
 
@@ -105,26 +104,27 @@ inline LightBox widened(const LightBox& box, int size) {
     return {middle - wider, middle + wider};
 }
 
-/// view_from_world from a place into a direction. (In `eye + direction`, a far eye would swallow
-/// the direction's digits.)
+/// view_from_world of a camera at a position, looking along a direction. (In `eye + direction`, a
+/// far eye would swallow the direction's digits.)
 inline dmat4 looking(dvec3 eye, dvec3 direction) {
     return look_at(dvec3(0), direction, dvec3(0, 1, 0)) * translation(-eye);
 }
 
-/// A directional light's map: an orthographic projection along its light, fitted to what casts on
+/// A directional light's map: an orthographic projection along its rays, fitted to what casts on
 /// what receives (Eq. 9.1).
 ///
-/// @return  Of count 0 when no receiver lies behind a caster, as the light goes.
+/// @return  Of count 0 when no receiver lies behind a caster, as the light sees them.
 inline LightViews directional_light_views(const Light& light, const Bounds& casters,
                                           const Bounds& receivers, int size) {
-    // TODO: Eq. 9.1 by looking(), the two boxes in this view by box_in(), and Eq. 9.3, widened();
-    // then crop() and S(1, 1, -1). Where one of the two boxes, or the region before it is widened,
-    // is not usable: {}.
+    // TODO: step 1: Eq. 9.1 by looking(), the two boxes in this view by box_in(), shadow_region()
+    // and widened(); then crop() and S(1, 1, -1). Step 5: where one of the two boxes, or the region
+    // before it is widened, is not usable: {}.
     return {{mat4(1)}, 1, false};
 }
 
-/// From the nearest caster, or a thousandth of the way, to where casters or receivers end; both a
-/// little beyond, so that rounding puts nothing outside.
+/// Distances of the near and the far plane: from the nearest caster, or a thousandth of the far
+/// plane's distance, to where casters or receivers end. Both lie a little beyond, so that rounding
+/// puts nothing outside.
 struct DepthRange {
     double near, far;
 };
@@ -134,35 +134,37 @@ struct DepthRange {
 /// @param nearest_caster  Along the map's axis; may be 0 or less.
 /// @param farthest        Where casters or receivers end, whichever comes first, > 0.
 inline DepthRange depth_range(double nearest_caster, double farthest) {
-    // TODO: the second line of Eq. 9.4.
+    // TODO: step 4: near 0.1 and far 30. Step 5: the second line of Eq. 9.4.
     return {min_near_share, 1};
 }
 
-/// A spotlight's map: all that its cone lights, cut down to what casts on what receives (Eq. 9.4).
+/// A spotlight's map: all that its cone lights, fitted to what casts on what receives (Eq. 9.4).
 ///
 /// @return  Of count 0 when in front of the light and in its cone no receiver lies behind a caster.
 inline LightViews spotlight_views(const Light& light, const Bounds& casters,
                                   const Bounds& receivers, int size) {
-    // TODO: Eq. 9.4. Find both boxes in the light's view and the depths first: z grows towards the
-    // light. Then the boxes' corners in NDC; a box that comes nearer than the near plane is taken
-    // to fill the cone. What both have in common, cut to -1 to 1; widened(), z being -1 to 1 before
-    // and after; and crop(). Where there can be no shadow, in depth or as shadow_region() says: {}.
+    // TODO: step 4: perspective() of depth_range()'s planes, and looking(). Step 5: Eq. 9.4. Find
+    // both boxes in the light's view and the depths first: z grows towards the light. Then the
+    // boxes' corners in NDC; a box that comes nearer than the near plane is taken to fill the cone.
+    // What both have in common, cut to -1 to 1; widened(), z being -1 to 1 before and after; and
+    // crop(). Where there can be no shadow, in depth or as shadow_region() says: {}.
     return {{mat4(1)}, 1, true};
 }
 
-/// The axis along which a way leads farthest: 0 to 5 for +x, -x, +y, -y, +z, -z (Eq. 9.5). A 0 of
-/// either sign is positive: no direction at all is +x.
+/// The face of a cube map that a vector from the light passes through: 0 to 5 for +x, -x, +y, -y,
+/// +z, -z (Eq. 9.5). A 0 of either sign counts as positive: a zero-length vector is +x.
 inline std::size_t cube_face(vec3 direction) {
-    // TODO: the left of Eq. 9.5.
+    // TODO: step 4: the left of Eq. 9.5.
     return 0;
 }
 
 /// A point light's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
 inline LightViews point_light_views(const Light& light, const Bounds& casters,
                                     const Bounds& receivers, int size) {
-    // TODO: the right of Eq. 9.5; the boxes' distances in any direction, and from them
-    // depth_range(), for which the nearest is divided by sqrt(1 + 2 t^2); a view along each axis by
-    // looking(). Where there can be no shadow in depth, or a distance is not finite: {}.
+    // TODO: step 4: the right of Eq. 9.5, depth_range(), and a view along each axis by looking().
+    // Step 5: the boxes' distances in any direction, and from them depth_range(), for which the
+    // nearest is divided by sqrt(1 + 2 t^2). Where there can be no shadow in depth, or a distance
+    // is not finite: {}.
     LightViews views{{}, 6, true};
     views.clip_from_world.fill(mat4(1));
     return views;

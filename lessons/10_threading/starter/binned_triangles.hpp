@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Triangles that are ready to be filled, and for each tile those that may reach into
-/// it. Introduced in lesson 10; derivation: docs/derivations/10_threading.md.
+/// Triangles that are set up, and for each tile those that may reach into it: binning. Introduced
+/// in lesson 10; derivation: docs/derivations/10_threading.md.
 #pragma once
 
 #include <algorithm>

@@ -21,10 +21,10 @@ struct PixelBox {
     bool is_empty() const { return first.x > last.x || first.y > last.y; }
 };
 
-/// The pixels whose centres lie in the box around a triangle: all that it may cover, and some more
-/// (Eq. 10.6).
+/// The pixels whose centres lie in the bounding box of a triangle: all that it may cover, and some
+/// more (Eq. 10.6).
 inline PixelBox box_around(const ScreenTriangle& triangle) {
-    // TODO: as fill_triangle finds its first and its last pixel.
+    // TODO: step 1; as fill_triangle finds its first and its last pixel.
     return {ivec2(0), ivec2(-1)};
 }
 
@@ -52,7 +52,8 @@ class Tiling {
     Tiling(Split split, ivec2 size, std::size_t workers, int tile_size)
         : split_(split), size_(size), tile_size_(tile_size) {
         assert(workers >= 1 && tile_size >= 1);
-        // TODO: how many columns and rows of tiles there are, after Eq. 10.3 to 10.5.
+        // TODO: how many columns and rows of tiles there are: step 1, Eq. 10.3 and 10.4; step 2,
+        // Eq. 10.5.
     }
 
     ivec2 size() const { return size_; }
@@ -62,14 +63,14 @@ class Tiling {
 
     /// @param tile  From 0 to count() - 1.
     Tile operator[](std::size_t tile) const {
-        // TODO: Eq. 10.3 to 10.5.
+        // TODO: step 1, Eq. 10.3 and 10.4; step 2, Eq. 10.5.
         return {{ivec2(0), size_ - 1}};
     }
 
     /// Calls take(tile) once for each tile that has a pixel in the box.
     template <typename Take>
     void for_each_in(const PixelBox& box, Take&& take) const {
-        // TODO: Eq. 10.6, the box cut to the picture.
+        // TODO: step 4, Eq. 10.6, the box cut to the picture.
     }
 
   private:
@@ -79,12 +80,13 @@ class Tiling {
     int columns_ = 0, rows_ = 0;  ///< Of tiles.
 };
 
-/// Visits what of a tile lies in a box, as boxes of whole rows: of interleaved rows, each is one.
+/// Visits the pixels of a tile that lie in a box, as boxes of whole rows: of interleaved rows, each
+/// is one.
 ///
 /// @param visit  Called as visit(PixelBox), never with an empty one.
 template <typename Visit>
 void for_each_strip(const Tile& tile, const PixelBox& box, Visit&& visit) {
-    // TODO: what the two boxes have in common; of that, all at once where row_step is 1, or else
+    // TODO: step 1; what the two boxes have in common: all at once where row_step is 1, otherwise
     // each of the tile's rows.
 }
 

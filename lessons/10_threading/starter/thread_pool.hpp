@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Threads that are started once and then share out one job after the other. Introduced in lesson
-/// 10; derivation: docs/derivations/10_threading.md.
+/// A pool of threads that are started once and then share out one job after the other. Introduced
+/// in lesson 10; derivation: docs/derivations/10_threading.md.
 #pragma once
 
 #include <atomic>
@@ -26,7 +26,7 @@ struct Job {
     std::exception_ptr error = nullptr;
 };
 
-/// Workers that wait for jobs. A job is a number of tasks, and whoever has nothing to do takes the
+/// Workers that wait for jobs. A job is a number of tasks, and each worker that is free takes the
 /// next one.
 class ThreadPool {
   public:
@@ -83,8 +83,8 @@ class ThreadPool {
     std::vector<std::jthread> workers_;  ///< Last: they end before what they use.
 };
 
-/// Bytes that processors hand to each other at once, at most: two threads that write within them
-/// wait for each other.
+/// Bytes that cores exchange at once, at most. Two threads that write within them wait for each
+/// other: false sharing.
 constexpr std::size_t cache_line = 128;
 
 /// Counters that share no cache line with others.
