@@ -3,7 +3,7 @@
 /// Makes every model, scene and texture of the course again: generate_assets [OUT_DIR].
 ///
 /// The same bytes on every machine: only + - * / and sqrt, whose results IEEE 754 fixes. (Another
-/// version of stb may compress a PNG otherwise.)
+/// encoder may compress a PNG otherwise.)
 #include <cstdint>
 #include <exception>
 #include <filesystem>

@@ -2,7 +2,7 @@
 # Installs what is missing on Debian and Ubuntu; sourced by lessons/run and tests/run.
 # Elsewhere the README names the packages, and the presets work by themselves.
 
-packages=(g++ cmake ninja-build libglm-dev libcli11-dev libstb-dev nlohmann-json3-dev libtinygltf-dev
+packages=(g++ cmake ninja-build libglm-dev libcli11-dev libpng-dev libstb-dev nlohmann-json3-dev libtinygltf-dev
           libgtest-dev libtinyobjloader-dev)
 
 set_up() {

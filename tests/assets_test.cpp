@@ -125,7 +125,7 @@ Seam seam_before(const Image<u8vec4>& image, int i, bool columns) {
 
 }  // namespace
 
-TEST(Assets, GeneratingGivesTheCommittedFilesByteForByte) {
+TEST(Assets, GeneratingGivesTheCommittedFiles) {
     const path folder = test::fresh_folder("generated_assets");
     const auto result = test::run_program("generate_assets", {folder.string()});
     ASSERT_EQ(result.exit_status, 0) << result.err;
@@ -133,7 +133,10 @@ TEST(Assets, GeneratingGivesTheCommittedFilesByteForByte) {
     const auto generated = generated_part_of(folder), committed = generated_part_of(assets);
     for (const auto& [name, content] : generated) {
         ASSERT_TRUE(committed.contains(name)) << name << " is generated but not committed";
-        EXPECT_TRUE(committed.at(name) == content) << name << " differs";
+        if (name.extension() == ".png")  // encoders compress differently
+            EXPECT_EQ(read_image(folder / name), read_image(assets / name)) << name;
+        else
+            EXPECT_TRUE(committed.at(name) == content) << name << " differs";
     }
     for (const auto& [name, content] : committed)
         EXPECT_TRUE(generated.contains(name)) << name << " is committed but not generated";

@@ -24,12 +24,15 @@
 #include "common/image/tga.hpp"
 #include "support/sanitizer.hpp"
 
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
 
 namespace rasterbook {
 namespace {
@@ -145,6 +148,18 @@ std::size_t position_in(const Bytes& bytes, const Bytes& wanted) {
     return static_cast<std::size_t>(found - bytes.begin());
 }
 
+/// PNG's check sum, of a chunk's name and content.
+Bytes crc_of(const Bytes& chunk) {
+    std::uint32_t crc = 0xffffffff;
+    for (const std::uint8_t byte : chunk) {
+        crc ^= byte;
+        for (int i = 0; i < 8; ++i) crc = (crc & 1) != 0 ? crc >> 1 ^ 0xedb88320 : crc >> 1;
+    }
+    crc = ~crc;
+    return {std::uint8_t(crc >> 24), std::uint8_t(crc >> 16), std::uint8_t(crc >> 8),
+            std::uint8_t(crc)};
+}
+
 class ImageIo : public testing::Test {
   protected:
     void SetUp() override {
@@ -253,6 +268,28 @@ TEST_F(ImageIo, OtherDecodersReadTheSamePixels) {
             EXPECT_EQ(std::memcmp(pixels, image.pixels().data(), image.pixels().size_bytes()), 0)
                 << name << " of " << size.x << " x " << size.y << ", seed " << seed;
             stbi_image_free(pixels);
+        }
+}
+
+TEST_F(ImageIo, ReadsWhatAnotherEncoderWrote) {
+    std::mt19937 random(seed);
+    for (const ivec2 size : {ivec2{1, 1}, {2, 3}, {5, 1}, {127, 2}, {130, 3}})
+        for (const int channels : {1, 2, 3, 4}) {
+            Bytes stored(static_cast<std::size_t>(size.x * size.y * channels));
+            for (std::uint8_t& byte : stored) byte = static_cast<std::uint8_t>(random());
+            ASSERT_NE(
+                stbi_write_png(path("a.png").c_str(), size.x, size.y, channels, stored.data(), 0),
+                0);
+            const Image<u8vec4> image = read_image(path("a.png"));
+            ASSERT_EQ(image.size(), size);
+            const std::uint8_t* s = stored.data();
+            for (const u8vec4 pixel : image.pixels()) {
+                const u8vec3 color = channels < 3 ? u8vec3(s[0]) : u8vec3(s[0], s[1], s[2]);
+                const std::uint8_t opacity = channels % 2 == 0 ? s[channels - 1] : 255;
+                ASSERT_EQ(pixel, u8vec4(color, opacity))
+                    << channels << " channels, " << size.x << " x " << size.y << ", seed " << seed;
+                s += channels;
+            }
         }
 }
 
@@ -398,10 +435,30 @@ TEST_F(ImageIo, HardCase_ColourBeyondAPngPaletteIsBlack) {
     const auto palette = bytes.begin() + std::ptrdiff_t(position_in(bytes, {'P', 'L', 'T', 'E'}));
     palette[-1] = 9;  // three colours instead of ten
     bytes.erase(palette + 4 + 9, palette + 4 + 30);
+    EXPECT_EQ(read_error(bytes), "damaged: PLTE: CRC error");
+    std::ranges::copy(crc_of(Bytes(palette, palette + 4 + 9)), palette + 4 + 9);
     const Image<u8vec4> image = read(bytes);
     EXPECT_EQ((image[{2, 0}]), u8vec4(50, 205, 20, 200));
     EXPECT_EQ((image[{3, 0}]), u8vec4(0, 0, 0, 255));
     EXPECT_EQ((image[{8, 1}]), u8vec4(0, 0, 0, 255));
+}
+
+TEST_F(ImageIo, OneColorOfAPngMayBeTransparent) {
+    Bytes bytes = bytes_of(data_folder / "rgb8.png");
+    const u8vec4 color = made_pixel({1, 0});
+    const Bytes key{'t', 'R', 'N', 'S', 0, color.r, 0, color.g, 0, color.b};
+    const Bytes chunk = Bytes{0, 0, 0, 6} + key + crc_of(key);
+    bytes.insert(bytes.begin() + 33, chunk.begin(), chunk.end());
+    const Image<u8vec4> image = read(bytes);
+    EXPECT_EQ((image[{1, 0}]), u8vec4(u8vec3(color), 0));
+    EXPECT_EQ((image[{2, 0}]), opaque(made_pixel({2, 0})));
+}
+
+TEST_F(ImageIo, HardCase_APngWhoseCheckSumsAreWrongIsDamaged) {
+    Bytes bytes = bytes_of(data_folder / "rgb8.png");
+    const std::size_t end = position_in(bytes, {0, 0, 0, 0, 'I', 'E', 'N', 'D'});
+    bytes[end - 1] ^= 1;  // the last byte before: of the pixels' check sum
+    EXPECT_EQ(read_error(bytes), "damaged: IDAT: CRC error");
 }
 
 TEST_F(ImageIo, ReadsJpegNearlyAsItWasMade) {

@@ -57,13 +57,15 @@ inline u8vec4 color_from_stored(ByteView stored, bool has_opacity) {
     return {stored[2], stored[1], stored[0], opaque ? std::uint8_t{255} : stored[3]};
 }
 
-/// The size of a picture whose header claims these sides. They are at most 2^24, so that no product
-/// of both with a few bytes a pixel overflows 64 bits.
+/// Of a picture that is read, so that no product of both sides with a few bytes a pixel overflows
+/// 64 bits.
+constexpr int max_side = 1 << 24;
+
+/// The size of a picture whose header claims these sides.
 ///
-/// @throws InputError  When a side is below 1 or above 2^24.
+/// @throws InputError  When a side is below 1 or above max_side.
 inline ivec2 checked_size(std::int64_t width, std::int64_t height,
                           const std::filesystem::path& file) {
-    constexpr std::int64_t max_side = 1 << 24;
     if (width < 1 || height < 1 || width > max_side || height > max_side)
         throw InputError(file, "a picture of " + std::to_string(width) + " x " +
                                    std::to_string(height) + " pixels: each side must lie in 1 to " +

@@ -6,11 +6,11 @@
 #include <cassert>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "common/image/bmp.hpp"
 #include "common/image/file.hpp"
-#include "common/image/png_jpeg.hpp"
+#include "common/image/jpeg.hpp"
+#include "common/image/png.hpp"
 #include "common/image/tga.hpp"
 
 namespace rasterbook {
@@ -24,17 +24,17 @@ bool begins_with(ByteView bytes, const std::array<std::uint8_t, N>& signature) {
 }  // namespace
 
 Image<u8vec4> read_image(const std::filesystem::path& file) {
-    constexpr auto max_bytes = std::numeric_limits<int>::max();  // stb counts in int
+    constexpr auto max_bytes = std::numeric_limits<int>::max();  // as stb counts
     return decode_image(read_whole_file(file, max_bytes), file);
 }
 
-Image<u8vec4> decode_image(Bytes bytes, const std::filesystem::path& name) {
+Image<u8vec4> decode_image(ByteView bytes, const std::filesystem::path& name) {
     constexpr auto png = std::to_array<std::uint8_t>({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
     constexpr auto jpeg = std::to_array<std::uint8_t>({0xff, 0xd8, 0xff});
     constexpr auto bmp = std::to_array<std::uint8_t>({'B', 'M'});
 
     if (bytes.empty()) throw InputError(name, "the file is empty");
-    if (begins_with(bytes, png)) return decode_png(std::move(bytes), name);
+    if (begins_with(bytes, png)) return decode_png(bytes, name);
     if (begins_with(bytes, jpeg)) return decode_jpeg(bytes, name);
     if (begins_with(bytes, bmp)) return decode_bmp(bytes, name);
     return decode_tga(bytes, name);

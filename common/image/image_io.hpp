@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Pictures in files: BMP and TGA by hand (bmp.hpp, tga.hpp; lesson 01 explains them), PNG and JPEG
-/// by stb.
+/// Pictures in files: BMP and TGA by hand (bmp.hpp, tga.hpp; lesson 01 explains them), PNG by
+/// libpng, JPEG by stb.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <vector>
+#include <span>
 
 #include "common/image/image.hpp"
 
@@ -28,7 +28,7 @@ Image<u8vec4> read_image(const std::filesystem::path& file);
 ///
 /// @param bytes  Fewer than 2^31.
 /// @param name   Named in errors.
-Image<u8vec4> decode_image(std::vector<std::uint8_t> bytes, const std::filesystem::path& name);
+Image<u8vec4> decode_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
 
 /// Writes a picture as PNG, BMP or TGA, by the ending of the name (in any case).
 ///
