@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Says what a reader's picture looks like beside the one that the course draws.
+/// Says what a reader's picture looks like beside the one that the course draws; or what the
+/// reader's own program draws, beside stored pictures.
+#include <algorithm>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,6 +17,8 @@
 #include "common/image/image_io.hpp"
 #include "support/image_doctor.hpp"
 #include "support/lesson_process.hpp"
+#include "support/picture_difference.hpp"
+#include "support/texts.hpp"
 
 using namespace rasterbook;
 using rasterbook::test::ProcessResult, rasterbook::test::diagnose;
@@ -66,6 +73,95 @@ OtherPicture recognised(const std::string& lesson, const std::vector<std::string
     return {};
 }
 
+/// The course's picture and one with a line wrong, of docs/troubleshooting.md.
+struct WrongPicture {
+    std::string title;
+    std::set<std::string> equations;  ///< Which say what is right.
+    std::vector<std::string> options;
+    std::filesystem::path right, wrong;
+};
+
+std::vector<WrongPicture> wrong_pictures(const std::string& lesson) {
+    const std::filesystem::path docs = course / "docs";
+    const std::string command = "| `./lessons/run " + lesson.substr(0, 2);
+    std::vector<WrongPicture> found;
+    for (const std::string& section :
+         test::parts_after(test::read_text(docs / "troubleshooting.md"), "\n## ")) {
+        const auto options = test::all_between(section, command, "`");
+        const auto pictures = test::all_between(section, "](troubleshooting/", ")");
+        if (options.size() != 1 || pictures.size() != 2) continue;
+        std::istringstream words(options[0]);
+        found.push_back({section.substr(0, section.find('\n')),
+                         test::cited_equations(section),
+                         {std::istream_iterator<std::string>(words), {}},
+                         docs / "troubleshooting" / pictures[0],
+                         docs / "troubleshooting" / pictures[1]});
+    }
+    return found;
+}
+
+std::size_t jumps_between(const Image<u8vec4>& a, const Image<u8vec4>& b) {
+    return a.size() == b.size() ? test::picture_difference(a, b).jumps : a.pixels().size();
+}
+
+/// What a program of this build draws beside the pictures of docs/troubleshooting.md.
+///
+/// @param is_right  Becomes false when one of the right ones is not drawn.
+/// @return  A line for each wrong one that is.
+std::string known_mistakes(const std::string& lesson, bool& is_right) {
+    constexpr std::size_t part_left = 10;  // a tenth of the wrong pixels may have another reason
+    std::map<std::vector<std::string>, Image<u8vec4>> drawn;
+    std::string lines;
+    for (const WrongPicture& known : wrong_pictures(lesson)) {
+        const Image<u8vec4> right = read_image(known.right), wrong = read_image(known.wrong);
+        std::vector<std::string> options = known.options;
+        if (std::ranges::count(options, "--samples") == 0)
+            options.insert(options.end(), {"--samples", "16"});
+        if (!drawn.contains(options)) drawn[options] = draw(lesson, options, right.size()).picture;
+        const Image<u8vec4>& own = drawn[options];
+        const std::size_t off = jumps_between(own, right);
+        if (off == 0) continue;
+        is_right = false;
+        if (jumps_between(own, wrong) * part_left > off) continue;
+        lines += "It looks as in docs/troubleshooting.md, \"" + known.title + "\"";
+        for (std::string number : known.equations) {
+            lines +=
+                "; Eq. " + number + ", ./tests/run --mine " + lesson.substr(0, 2) + " --test Eq";
+            std::ranges::replace(number, '.', '_');
+            lines += number + '_';
+        }
+        lines += '\n';
+    }
+    return lines;
+}
+
+/// Draws with the reader's own program, if this is built with the files in mine/.
+///
+/// @return  The exit status.
+int examine_own(const std::string& lesson) {
+    const Image<u8vec4> expected =
+        read_image(std::filesystem::path(RASTERBOOK_GOLDEN) / (lesson + ".png"));
+    const Drawn own = draw(lesson, {}, expected.size());
+    std::cerr << own.process.err;
+    if (own.picture.size() != expected.size()) return 1;
+    bool is_right = true;
+    const std::string known = known_mistakes(lesson, is_right);
+    const std::string found =
+        diagnose(own.picture, expected, test::picture_facts(lesson, {}, expected.size()));
+    if (is_right && found.empty()) {
+        std::cout << "It looks the same as the course's; the tests see more\n";
+        return 0;
+    }
+    const OtherPicture mistake = recognised(lesson, {}, "diagnose: ", own.picture);
+    if (!known.empty())
+        std::cout << known;
+    else if (!mistake.options.empty())
+        std::cout << "It looks as with " << mistake.options << ": " << mistake.meaning << '\n';
+    else
+        std::cout << "The picture: " << found << '\n';
+    return 1;
+}
+
 /// @return  The exit status.
 int examine(const std::string& file, const std::string& lesson,
             const std::vector<std::string>& options) {
@@ -100,16 +196,21 @@ int examine(const std::string& file, const std::string& lesson,
 
 int main(int argc, char** argv) {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    if (arguments.size() < 2) {
+    const auto is_lesson = [](const std::string& name) {
+        return std::filesystem::is_directory(course / "lessons" / name);
+    };
+    const bool is_own = arguments.size() == 1 && is_lesson(arguments[0]);
+    if (!is_own && arguments.size() < 2) {
         std::cerr << "error: a picture and its lesson are to be named: mine.png NN_name "
                      "[OPTION...]\n";
         return 2;
     }
-    if (!std::filesystem::is_directory(course / "lessons" / arguments[1])) {
+    if (!is_own && !is_lesson(arguments[1])) {
         std::cerr << "error: there is no lesson '" << arguments[1] << "'\n";
         return 2;
     }
     try {
+        if (is_own) return examine_own(arguments[0]);
         return examine(arguments[0], arguments[1], {arguments.begin() + 2, arguments.end()});
     } catch (const std::exception& error) {
         std::cerr << "error: " << error.what() << '\n';
