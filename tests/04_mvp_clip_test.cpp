@@ -20,7 +20,6 @@
 #include "common/app/counters.hpp"
 #include "support/ascii_picture.hpp"
 #include "support/first_difference.hpp"
-#include "support/golden.hpp"
 #include "support/look_up.hpp"
 #include "support/plane_names.hpp"
 #include "support/printers.hpp"
@@ -603,10 +602,4 @@ TEST(Mvp, EachVisibleTriangleIsVisitedInTheScenesOrder) {
     }
     EXPECT_EQ(count(all, Counter::triangles_culled_by_facing), 0u);
     EXPECT_EQ(count(culled, Counter::triangles_culled_by_facing), expected.size() - fronts.size());
-}
-
-TEST(Mvp, PictureOfTheLesson) { EXPECT_TRUE(test::equals_golden("04_mvp", "04_mvp")); }
-
-TEST(Mvp, PictureOfTheDepth) {
-    EXPECT_TRUE(test::equals_golden("04_mvp", "04_mvp_depth", {"--depth"}));
 }

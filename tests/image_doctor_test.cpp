@@ -182,8 +182,11 @@ TEST(ImageDoctor, TheModelIsWhereTheLessonDrawsIt) {
     for (const std::string& lesson : test::lessons()) {
         if (lesson < "04" || lesson >= "11") continue;
         ++lessons;
-        for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-                 {"--depth"}, {"--depth", "--model", "textured.gltf", "--yaw", "10"}}) {
+        std::vector<std::vector<std::string>> all_options = {
+            {"--depth"}, {"--depth", "--model", "textured.gltf", "--yaw", "10"}};
+        if (lesson.starts_with("04"))
+            all_options.push_back({"--depth", "--turn", "100", "--view", "orthographic"});
+        for (const std::vector<std::string>& options : all_options) {
             const Image<u8vec4> picture = drawn({lesson, options});
             Image<int> covered(size, 0);
             for (const auto& [a, b, c] : test::picture_facts(lesson, options, size).patches)

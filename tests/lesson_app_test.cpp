@@ -238,6 +238,7 @@ TEST(LessonApp, HardCase_BadKnobsOfTheCameraAreExitStatus2) {
     for (const char* word : {"x", "91", "-90.5", "inf", "20x"}) status_2("--pitch", word);
     for (const char* word : {"x", "1e9", "nan"}) status_2("--yaw", word);
     for (const char* word : {"0", "-1", "1e7", "x"}) status_2("--distance", word);
+    for (const char* word : {"x", "1e9", "nan", ""}) status_2("--turn", word);
     for (const char* word : {"0", "10000", "2.5", "x"}) status_2("--frames", word);
     expect_error(run_program("04_mvp", {"--frames", "2", "--size", "8x8", "--out", out}), 2,
                  "--out");

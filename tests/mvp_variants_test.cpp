@@ -269,5 +269,10 @@ TEST(MvpVariants, EveryKnobDraws) {
                   snapped_pixels);
     }
     EXPECT_EQ(differing_pixels(usual, picture({"--clip", "six", "--precision", "float"})), 0);
+    EXPECT_GT(differing_pixels(usual, picture({"--turn", "-39"})), 100) << "by one degree";
+    const Image<u8vec4> orthographic = picture({"--view", "orthographic"});
+    EXPECT_GT(differing_pixels(usual, orthographic), 1000);
+    EXPECT_EQ(differing_pixels(orthographic, picture({"--view", "orthographic", "--yaw", "60"})), 0)
+        << "it stands still";
     EXPECT_GT(differing_pixels(usual, close), 1000);
 }

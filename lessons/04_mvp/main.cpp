@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 04: the scene through a camera, in perspective.
+/// Lesson 04: models put into the world, through a camera, in perspective.
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
+#include "04_mvp/instance.hpp"
 #include "04_mvp/mvp_variants.hpp"
 #include "04_mvp/projection.hpp"
 #include "common/app/lesson_app.hpp"
@@ -17,32 +18,46 @@ namespace {
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
+    float turn_degrees = -40;
     MvpVariant mvp;
 
     Options() { model = "scene.obj"; }
-    void declare(Knobs& knobs) { mvp.declare(knobs); }
+    void declare(Knobs& knobs) {
+        knobs.number("--turn", turn_degrees, -36000, 36000,
+                     "The coffee pot's rotation, in degrees, counter-clockwise from above");
+        mvp.declare(knobs);
+    }
 };
 
 template <typename CounterPolicy>
 Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+    // The teapot again, as a coffee pot on the crate: scaled, then rotated, then moved.
+    const mat4 world_from_pot = translation(vec3(-3.7f, 2.4f, -2.6f)) *
+                                rotation_y(glm::radians(options.turn_degrees)) *
+                                scaling(vec3(0.4f, 0.75f, 0.3f));
+    const std::vector<Instance> instances = instances_of(scene, world_from_pot);
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
-    if (options.mvp.clipping == Clipping::pixels)
-        return render_by_pixels(options, scene, camera, counters);
+    if (options.mvp.asks_pixels())
+        return render_by_pixels(options, scene, instances, camera, counters);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
-    const auto draw = [&](const ProjectedTriangle& projected) {
-        const Material& material = scene.materials[projected.triangle.material];
-        const vec3 face_color = flat_color(projected.mesh, projected.triangle, material);
+    for (const Instance& instance : instances) {
+        const mat3 normal_from_model = normal_matrix(mat3(instance.world_from_model));
+        const auto draw = [&](const ProjectedTriangle& projected) {
+            const Material& material = scene.materials[projected.triangle.material];
+            const vec3 normal = normal_from_model * flat_normal(projected.mesh, projected.triangle);
+            const vec3 face_color = flat_color(normalize_or(normal, vec3(0, 1, 0)), material);
 
-        fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_tested);
-            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-            counters.add(Counter::fragments_shaded);
-            color[pixel] = face_color;
-        });
-    };
-    for_each_visible_triangle(options.mvp, scene, camera, options.size, counters, draw);
+            fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, vec3 on_screen) {
+                counters.add(Counter::fragments_tested);
+                if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+                counters.add(Counter::fragments_shaded);
+                color[pixel] = face_color;
+            });
+        };
+        for_each_visible_triangle(options.mvp, instance, camera, options.size, counters, draw);
+    }
     if (options.show_depth) return depth_picture(depth);
     return color;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Other numbers to compute places in, and other ways to clip, to be seen with `--precision`,
-/// `--offset` and `--clip`, and measured in docs/accuracy/04_mvp.md.
+/// `--offset` and `--clip`, and measured in docs/accuracy/04_mvp.md; and the scene without a
+/// camera, by `--view orthographic`.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +16,10 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "04_mvp/instance.hpp"
 #include "04_mvp/projection.hpp"
 #include "common/app/lesson_app.hpp"
+#include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
 
 namespace rasterbook {
@@ -27,10 +30,17 @@ enum class Precision { float32, relative, float64 };
 /// What is cut off: all outside six planes, all before the near plane, or nothing.
 enum class Clipping { six_planes, near_plane, pixels };
 
+/// What takes the world to the screen: the lesson's camera, or what lessons 01 to 03 have.
+enum class View { camera, orthographic };
+
 struct MvpVariant {
     Precision precision = Precision::float32;
     double offset = 0;  ///< Of scene and camera in the world, along each axis.
     Clipping clipping = Clipping::six_planes;
+    View view = View::camera;
+
+    /// Whether nothing is clipped, and each pixel is asked.
+    bool asks_pixels() const { return clipping == Clipping::pixels || view == View::orthographic; }
 
     void declare(Knobs& knobs) {
         knobs.choice("--precision", precision,
@@ -48,6 +58,10 @@ struct MvpVariant {
                       {"near", Clipping::near_plane},
                       {"pixel", Clipping::pixels}},
                      "Cut triangles at all planes, at the near one, or ask each pixel instead");
+        knobs.choice("--view", view,
+                     {{"camera", View::camera}, {"orthographic", View::orthographic}},
+                     "By the camera, or by the orthographic projection of lesson 03, which stands "
+                     "still and has no use for other knobs of the camera");
     }
 };
 
@@ -118,6 +132,27 @@ inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& came
     return transform_double(clip_from_world_in(camera, eye, center_moved, size), positions_world);
 }
 
+/// The same of an instance: by one matrix where nothing else is asked for.
+inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& camera, ivec2 size,
+                                   const Instance& instance) {
+    if (variant.precision == Precision::float32 && variant.offset == 0)
+        return transform(camera.clip_from_world(size) * instance.world_from_model,
+                         instance.mesh.positions);
+    return transform(variant, camera, size, positions_world(instance));
+}
+
+/// The points as lesson 03 has them on the screen, in clip space with a w of 1.
+inline std::vector<vec4> transform(const OrthographicView& view, ivec2 size,
+                                   const std::vector<vec3>& positions) {
+    std::vector<vec4> transformed;
+    transformed.reserve(positions.size());
+    for (const vec3 screen : view.screen_from_model(positions))
+        transformed.emplace_back(2 * screen.x / static_cast<float>(size.x) - 1,
+                                 1 - 2 * screen.y / static_cast<float>(size.y), 2 * screen.z - 1,
+                                 1);
+    return transformed;
+}
+
 /// Nothing is cut off.
 inline ClippedTriangle whole_triangle(const std::array<vec4, 3>& vertices) {
     return {{{vertices[0], {1, 0, 0}}, {vertices[1], {0, 1, 0}}, {vertices[2], {0, 0, 1}}}};
@@ -165,15 +200,16 @@ inline ClippedTriangles clip(const MvpVariant& variant, const std::array<vec4, 3
                                                     : clip_triangle(vertices);
 }
 
-/// for_each_visible_triangle, transformed and clipped as the variant has it; backs are culled.
+/// for_each_visible_triangle of an instance, transformed and clipped as the variant has it; backs
+/// are culled.
 template <typename CounterPolicy, typename Visit>
-void for_each_visible_triangle(const MvpVariant& variant, const Scene& scene, const Camera& camera,
-                               ivec2 size, CounterPolicy& counters, Visit&& visit) {
+void for_each_visible_triangle(const MvpVariant& variant, const Instance& instance,
+                               const Camera& camera, ivec2 size, CounterPolicy& counters,
+                               Visit&& visit) {
+    const mat4 clip_from_model = camera.clip_from_world(size) * instance.world_from_model;
     for_each_visible_triangle(
-        scene, camera.clip_from_world(size), size, Culling::back_faces, counters, visit,
-        [&](const std::vector<vec3>& positions) {
-            return transform(variant, camera, size, positions);
-        },
+        instance.mesh, clip_from_model, size, Culling::back_faces, counters, visit,
+        [&](const std::vector<vec3>&) { return transform(variant, camera, size, instance); },
         [&](const std::array<vec4, 3>& vertices) { return clip(variant, vertices, size); });
 }
 
@@ -253,14 +289,22 @@ void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) 
 
 /// The picture of a scene of which nothing is cut off: every pixel is asked.
 template <typename Options, typename CounterPolicy>
-Image<vec3> render_by_pixels(const Options& options, const Scene& scene, const Camera& camera,
+Image<vec3> render_by_pixels(const Options& options, const Scene& scene,
+                             const std::vector<Instance>& instances, const Camera& camera,
                              CounterPolicy& counters) {
+    const OrthographicView orthographic(scene, options.size);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
-    for (const Mesh& mesh : scene.meshes) {
-        const auto positions_clip = transform(options.mvp, camera, options.size, mesh.positions);
-        for (const Triangle& triangle : mesh.triangles) {
-            const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
+    for (const Instance& instance : instances) {
+        const auto positions_clip =
+            options.mvp.view == View::orthographic
+                ? transform(orthographic, options.size, positions_world(instance))
+                : transform(options.mvp, camera, options.size, instance);
+        const mat3 normal_from_model = normal_matrix(mat3(instance.world_from_model));
+        for (const Triangle& triangle : instance.mesh.triangles) {
+            const vec3 normal = normal_from_model * flat_normal(instance.mesh, triangle);
+            const vec3 face_color =
+                flat_color(normalize_or(normal, vec3(0, 1, 0)), scene.materials[triangle.material]);
             fill_homogeneous(whole_triangle(vertices_of(triangle, positions_clip)), options.size,
                              [&](ivec2 pixel, float z) {
                                  counters.add(Counter::fragments_tested);

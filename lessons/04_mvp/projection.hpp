@@ -43,47 +43,47 @@ inline ProjectedTriangle project(const Mesh& mesh, const Triangle& triangle,
 /// Which triangles are not drawn because of the side that they show.
 enum class Culling { back_faces, none };
 
-/// Visits what can be seen of a scene, in its order.
+/// Visits what can be seen of a mesh, in its order.
 ///
-/// Counts meshes and triangles, and those of each that are culled.
+/// Counts the mesh and its triangles, and what of them is culled.
 ///
 /// @param size       Of the picture, in pixels.
 /// @param visit      Called as visit(const ProjectedTriangle&).
-/// @param transform  Called as transform(positions): takes a mesh's positions to clip space.
+/// @param transform  Called as transform(positions): takes the mesh's positions to clip space.
 /// @param clip       Called as clip(vertices_clip): gives the ClippedTriangles of one triangle.
 template <typename CounterPolicy, typename Visit, typename Transform, typename Clip>
-void for_each_visible_triangle(const Scene& scene, const mat4& clip_from_world, ivec2 size,
+void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, ivec2 size,
                                Culling culling, CounterPolicy& counters, Visit&& visit,
                                Transform&& transform, Clip&& clip) {
-    for (const Mesh& mesh : scene.meshes) {
-        counters.add(Counter::meshes_in);
-        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
-            counters.add(Counter::meshes_culled_by_frustum);
-            continue;
-        }
-        if (!mesh.tangents.empty()) counters.add(Counter::meshes_with_tangents);
-        const std::vector<vec4> positions_clip = transform(mesh.positions);
-        for (const Triangle& triangle : mesh.triangles) {
-            counters.add(Counter::triangles_in);
-            for (const ClippedTriangle& clipped : clip(vertices_of(triangle, positions_clip))) {
-                const ProjectedTriangle projected = project(mesh, triangle, clipped, size);
-                if (projected.is_back_facing && culling == Culling::back_faces)
-                    counters.add(Counter::triangles_culled_by_facing);
-                else
-                    visit(projected);
-            }
+    counters.add(Counter::meshes_in);
+    if (is_outside_frustum(mesh.bounds, clip_from_model)) {
+        counters.add(Counter::meshes_culled_by_frustum);
+        return;
+    }
+    if (!mesh.tangents.empty()) counters.add(Counter::meshes_with_tangents);
+    const std::vector<vec4> positions_clip = transform(mesh.positions);
+    for (const Triangle& triangle : mesh.triangles) {
+        counters.add(Counter::triangles_in);
+        for (const ClippedTriangle& clipped : clip(vertices_of(triangle, positions_clip))) {
+            const ProjectedTriangle projected = project(mesh, triangle, clipped, size);
+            if (projected.is_back_facing && culling == Culling::back_faces)
+                counters.add(Counter::triangles_culled_by_facing);
+            else
+                visit(projected);
         }
     }
 }
 
-/// The same, transformed in float and clipped by all six planes.
+/// The same of all meshes of a scene, transformed in float and clipped by all six planes.
 template <typename CounterPolicy, typename Visit>
 void for_each_visible_triangle(const Scene& scene, const mat4& clip_from_world, ivec2 size,
                                Culling culling, CounterPolicy& counters, Visit&& visit) {
-    for_each_visible_triangle(
-        scene, clip_from_world, size, culling, counters, visit,
-        [&](const std::vector<vec3>& positions) { return transform(clip_from_world, positions); },
-        clip_triangle);
+    const auto to_clip_space = [&](const std::vector<vec3>& positions) {
+        return transform(clip_from_world, positions);
+    };
+    for (const Mesh& mesh : scene.meshes)
+        for_each_visible_triangle(mesh, clip_from_world, size, culling, counters, visit,
+                                  to_clip_space, clip_triangle);
 }
 
 }  // namespace rasterbook

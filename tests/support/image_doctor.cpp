@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "common/app/orthographic_view.hpp"
 #include "common/model/model_file.hpp"
+#include "support/coffee_pot.hpp"
 #include "support/image_mistakes.hpp"
 #include "support/picture_difference.hpp"
 
@@ -69,8 +70,7 @@ std::string unexplained(const Image<u8vec4>& actual, const Image<u8vec4>& expect
 
 }  // namespace
 
-std::vector<ScreenPatch> parallel_patches(const Scene& scene, ivec2 size) {
-    const OrthographicView view(scene, size);
+std::vector<ScreenPatch> parallel_patches(const Scene& scene, const OrthographicView& view) {
     std::vector<ScreenPatch> patches;
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
@@ -82,8 +82,8 @@ std::vector<ScreenPatch> parallel_patches(const Scene& scene, ivec2 size) {
     return patches;
 }
 
-std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Orbit& orbit, ivec2 size) {
-    const Bounds bounds = scene.bounds();
+std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Bounds& bounds,
+                                             const Orbit& orbit, ivec2 size) {
     const dvec3 center = 0.5 * (dvec3(bounds.min) + dvec3(bounds.max));
     const double radius = glm::length(dvec3(bounds.max) - center);
     const double yaw_radians = glm::radians(double{orbit.yaw_degrees});
@@ -127,10 +127,8 @@ PictureFacts picture_facts(const std::string& lesson, const std::vector<std::str
     }
     if (!std::filesystem::exists(model))
         model = std::filesystem::path(RASTERBOOK_ASSETS) / "models" / model;
-    if (lesson < "04") {
-        facts.patches = parallel_patches(load_model(model), size);
-        return facts;
-    }
+    const Scene scene = load_model(model);
+    Scene pot;
     const auto take = [&](const char* option, float& value) {
         const std::string word = option_value(arguments, option);
         if (!word.empty()) value = std::strtof(word.c_str(), nullptr);
@@ -139,7 +137,18 @@ PictureFacts picture_facts(const std::string& lesson, const std::vector<std::str
     take("--pitch", orbit.pitch_degrees);
     take("--distance", orbit.distance);
     take("--fov", orbit.fov_degrees);
-    facts.patches = perspective_patches(load_model(model), orbit, size);
+    if (lesson.starts_with("04")) {
+        float turn_degrees = pot_turn_degrees;
+        take("--turn", turn_degrees);
+        pot = pot_of(scene, world_from_pot(turn_degrees));
+    }
+    const bool is_parallel = lesson < "04" || option_value(arguments, "--view") == "orthographic";
+    for (const Scene& part : {std::cref(scene), std::cref(pot)}) {
+        const std::vector<ScreenPatch> patches =
+            is_parallel ? parallel_patches(part, OrthographicView(scene, size))
+                        : perspective_patches(part, scene.bounds(), orbit, size);
+        facts.patches.insert(facts.patches.end(), patches.begin(), patches.end());
+    }
     return facts;
 }
 

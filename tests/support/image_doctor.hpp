@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/app/lesson_app.hpp"
+#include "common/app/orthographic_view.hpp"
 #include "common/image/image.hpp"
 #include "common/model/mesh.hpp"
 #include "support/visibility.hpp"
@@ -30,12 +31,15 @@ struct PictureFacts {
 PictureFacts picture_facts(const std::string& lesson, const std::vector<std::string>& arguments,
                            ivec2 size);
 
-/// The scene's triangles as the camera of lessons 01 to 03 sees them.
-std::vector<ScreenPatch> parallel_patches(const Scene& scene, ivec2 size);
+/// The scene's triangles as the orthographic projection of lessons 01 to 03 shows them.
+std::vector<ScreenPatch> parallel_patches(const Scene& scene, const OrthographicView& view);
 
 /// The same as the camera of lesson 04 sees them, by GLM's matrices. Of a triangle that reaches
 /// behind the camera nothing is seen.
-std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Orbit& orbit, ivec2 size);
+///
+/// @param bounds  What the camera goes around.
+std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Bounds& bounds,
+                                             const Orbit& orbit, ivec2 size);
 
 /// One line for each mistake that explains the picture, at most two: what it looks like, a colon,
 /// the usual cause.
