@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The camera: where it stands, where it looks, and how wide. Introduced in lesson 04;
+/// The camera: its position, its direction and its field of view. Introduced in lesson 04;
 /// derivation: docs/derivations/04_mvp.md.
 #pragma once
 
@@ -29,7 +29,7 @@ struct Camera {
     }
 };
 
-/// The way from a sphere's centre to a place on it, of length 1 (Eq. 4.6).
+/// The direction from a sphere's centre to a point of it, length 1 (Eq. 4.6).
 ///
 /// @param yaw_radians    Around the y axis, from +z towards +x.
 /// @param pitch_radians  Up from the horizon.
@@ -39,11 +39,11 @@ inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
             horizontal * std::cos(yaw_radians)};
 }
 
-/// A camera on a sphere around a scene's centre, that looks at the centre.
+/// A camera on a sphere around a scene's centre. It looks at the centre.
 ///
 /// @param orbit   orbit.distance is in radii of the scene: half of its box's diagonal.
-/// @param bounds  Of the scene, world space. Of no size: as if its radius were 1; empty: the same,
-///                around the origin.
+/// @param bounds  Of the scene, world space. If it has no size, its radius counts as 1; if it is
+///                empty, the same, around the origin.
 inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     const bool is_empty = !(bounds.min.x <= bounds.max.x);
     const vec3 center = is_empty ? vec3(0) : bounds.center();

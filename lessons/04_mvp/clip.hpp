@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What of a triangle lies in front of the camera and inside the picture. Introduced in lesson 04;
+/// Clipping and culling: what of a triangle the camera sees. Introduced in lesson 04;
 /// derivation: docs/derivations/04_mvp.md.
 #pragma once
 
@@ -33,11 +33,12 @@ constexpr float plane_distance(int plane, vec4 position_clip) {
     return position_clip.w + (plane % 2 == 0 ? coordinate : -coordinate);
 }
 
-/// Where the way from a to b crosses the plane of which they are inside by `a_by` and `b_by`, one
-/// of them negative (Eq. 4.11 and 4.12).
+/// Where the side from a to b crosses a plane (Eq. 4.11 and 4.12).
 ///
-/// The way from b to a crosses it in the same point, bit for bit: triangles that share a side still
-/// share it when both are cut.
+/// The side from b to a crosses it in the same point, bit for bit: triangles that share a side
+/// still share it when both are cut.
+///
+/// @param a_by,b_by  The plane_distance of each; one of them is negative.
 inline ClippedVertex crossing(const ClippedVertex& a, float a_by, const ClippedVertex& b,
                               float b_by) {
     // Eq. 4.12: products of what is large or tiny would leave the range of float.
@@ -46,7 +47,7 @@ inline ClippedVertex crossing(const ClippedVertex& a, float a_by, const ClippedV
             share_of_a * a.barycentrics + share_of_b * b.barycentrics};
 }
 
-/// The vertices that cutting by six planes may leave: 9 of a convex polygon, but rounding may dent
+/// The vertices that clipping at six planes may leave: 9 of a convex polygon, but rounding may dent
 /// it a little, and then a plane may cut off every second vertex and add two for each.
 constexpr std::size_t max_clipped_vertices = 28;
 
@@ -65,9 +66,8 @@ class ClippedTriangles {
 /// Coordinates in clip space stay below this: then no difference in Eq. 4.12 overflows.
 constexpr float clip_limit = 0x1p125f;
 
-/// The nearest point of the frustum to one that rounding has left a little outside of it: on the
-/// screen it then lies inside the picture and its depth between 0 and 1, or, with a w of 0,
-/// nowhere.
+/// A point that rounding has left a little outside of the frustum, moved onto its border. On the
+/// screen it lies inside the picture, and its depth between 0 and 1; with a w of 0 it lies nowhere.
 inline vec4 clamped_to_frustum(vec4 position_clip) {
     const float w = std::max(position_clip.w, 0.0f);
     return {glm::clamp(vec3(position_clip), -w, w), w};
@@ -75,10 +75,10 @@ inline vec4 clamped_to_frustum(vec4 position_clip) {
 
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.13).
 ///
-/// @param vertices  Clip space. When a coordinate is not a number or is not below clip_limit in
-///                 size, nothing is left.
-/// @return         The triangle itself, when it is all inside; nothing, when it is all outside of
-///                 one plane. No vertex has a coordinate beyond its w, and no w is negative.
+/// @param vertices  Clip space. If a coordinate is not a number, or not below clip_limit in size,
+///                  nothing is left.
+/// @return          The triangle itself, if it is all inside; nothing, if it is all outside of one
+///                  plane. No vertex has a coordinate beyond its w, and no w is negative.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
 inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& vertices) {
     ClippedTriangles clipped;
@@ -131,10 +131,12 @@ inline std::array<vec4, 3> vertices_of(const Triangle& triangle,
             positions_clip[triangle.vertices[2].position]};
 }
 
-/// Whether nothing inside the box can be seen: all of its corners are outside of one plane
+/// Whether nothing inside the box is visible, because all of its corners are outside of one plane
 /// (Eq. 4.14).
 ///
-/// False for some boxes of which nothing is seen either, beside an edge of the frustum.
+/// False also for some boxes beside an edge of the frustum of which nothing is visible.
+///
+/// @param bounds  World space; or model space, with a matrix from there.
 inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world) {
     unsigned outside_all = ~0u;
     for (int i = 0; i < 8; ++i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other numbers to compute places in, and other ways to clip, to be seen with `--precision`,
-/// `--offset` and `--clip`, and measured in docs/accuracy/04_mvp.md; and the scene without a
-/// camera, by `--view orthographic`.
+/// Other number types to compute positions in, and other ways to clip, to be seen with
+/// `--precision`, `--offset` and `--clip`, and measured in docs/accuracy/04_mvp.md; and the scene
+/// without a camera, by `--view orthographic`.
 #pragma once
 
 #include <algorithm>
@@ -24,10 +24,10 @@
 
 namespace rasterbook {
 
-/// What the way from the world to clip space is computed in.
+/// What positions are computed in, from world space to clip space.
 enum class Precision { float32, relative, float64 };
 
-/// What is cut off: all outside six planes, all before the near plane, or nothing.
+/// What is clipped: all outside of six planes, all before the near plane, or nothing.
 enum class Clipping { six_planes, near_plane, pixels };
 
 /// What takes the world to the screen: the lesson's camera, or what lessons 01 to 03 have.
@@ -47,8 +47,8 @@ struct MvpVariant {
                      {{"float", Precision::float32},
                       {"relative", Precision::relative},
                       {"double", Precision::float64}},
-                     "What places in the world are computed in; relative subtracts the camera's "
-                     "place in double and goes on in float");
+                     "What positions in the world are computed in; relative subtracts the camera's "
+                     "position in double and goes on in float");
         knobs.choice(
             "--offset", offset,
             {{"0", 0.0}, {"1000", 1e3}, {"100000", 1e5}, {"1000000", 1e6}, {"10000000", 1e7}},
@@ -57,7 +57,7 @@ struct MvpVariant {
                      {{"six", Clipping::six_planes},
                       {"near", Clipping::near_plane},
                       {"pixel", Clipping::pixels}},
-                     "Cut triangles at all planes, at the near one, or ask each pixel instead");
+                     "Clip triangles at all planes, at the near one, or ask each pixel instead");
         knobs.choice("--view", view,
                      {{"camera", View::camera}, {"orthographic", View::orthographic}},
                      "By the camera, or by the orthographic projection of lesson 03, which stands "
@@ -65,7 +65,7 @@ struct MvpVariant {
     }
 };
 
-/// Points of a world too large for float, in clip space: the camera's place is subtracted in
+/// Points of a world too large for float, in clip space: the camera's position is subtracted in
 /// double, the rest is float.
 ///
 /// @param clip_from_relative  For a camera at the origin.
@@ -159,7 +159,7 @@ inline ClippedTriangle whole_triangle(const std::array<vec4, 3>& vertices) {
 }
 
 /// The part of a triangle beyond the near plane: of that, fill_triangle draws what lies in the
-/// picture. A triangle that reaches too far for fill_triangle is cut by all six planes.
+/// picture. A triangle that reaches too far for fill_triangle is clipped at all six planes.
 ///
 /// @param vertices  Clip space of a perspective.
 /// @param size     Of the picture, in pixels.
@@ -214,7 +214,7 @@ void for_each_visible_triangle(const MvpVariant& variant, const Instance& instan
 }
 
 /// A triangle in clip space with vertices anywhere, also behind the camera: the planes through the
-/// camera and its sides.
+/// eye and its sides.
 ///
 /// @see Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997
 struct HomogeneousTriangle {
@@ -244,7 +244,7 @@ template <std::invocable<ivec2, float> Emit>
 void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) {
     const HomogeneousTriangle of(triangle);
     if (!(of.volume > 0)) return;
-    // The box around the corners, or the whole picture if one of them is not in front.
+    // The box around the vertices, or the whole picture if one of them is not in front.
     dvec2 low(size), high(0);
     bool all_in_front = true, all_behind = true;
     for (const ClippedVertex& vertex : triangle) {
@@ -287,7 +287,7 @@ void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) 
     }
 }
 
-/// The picture of a scene of which nothing is cut off: every pixel is asked.
+/// The picture of a scene of which nothing is clipped: every pixel is asked.
 template <typename Options, typename CounterPolicy>
 Image<vec3> render_by_pixels(const Options& options, const Scene& scene,
                              const std::vector<Instance>& instances, const Camera& camera,

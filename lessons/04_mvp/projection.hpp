@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// From triangles in the world to triangles on the screen: culled, transformed, clipped, projected,
+/// From triangles of a mesh to triangles on the screen: culled, transformed, clipped, projected,
 /// snapped. Introduced in lesson 04; derivation: docs/derivations/04_mvp.md.
 #pragma once
 
@@ -43,7 +43,7 @@ inline ProjectedTriangle project(const Mesh& mesh, const Triangle& triangle,
 /// Which triangles are not drawn because of the side that they show.
 enum class Culling { back_faces, none };
 
-/// Visits what can be seen of a mesh, in its order.
+/// Visits what may be visible of a mesh, in its order.
 ///
 /// Counts the mesh and its triangles, and what of them is culled.
 ///

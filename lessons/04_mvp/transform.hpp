@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The matrices that take a point from its model to the screen. Introduced in lesson 04;
+/// The matrices that take a point from model space to the screen. Introduced in lesson 04;
 /// derivation: docs/derivations/04_mvp.md.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace rasterbook {
 
-/// Moves by t (Eq. 4.3).
+/// Translation by t (Eq. 4.3).
 ///
 ///     1  0  0  t.x
 ///     0  1  0  t.y
@@ -25,13 +25,13 @@ constexpr glm::mat<4, 4, T> translation(glm::vec<3, T> t) {
     return matrix_from_rows<T>({1, 0, 0, t.x}, {0, 1, 0, t.y}, {0, 0, 1, t.z}, {0, 0, 0, 1});
 }
 
-/// Stretches along the axes by the factors s (Eq. 4.3); negative ones mirror.
+/// Scaling along the axes by the factors s (Eq. 4.3); negative ones mirror.
 template <std::floating_point T>
 constexpr glm::mat<4, 4, T> scaling(glm::vec<3, T> s) {
     return matrix_from_rows<T>({s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1});
 }
 
-/// Turns around the x axis, y towards z (Eq. 4.2).
+/// Rotation around the x axis, y towards z (Eq. 4.2).
 ///
 ///     1  0   0  0
 ///     0  c  -s  0
@@ -43,7 +43,7 @@ glm::mat<4, 4, T> rotation_x(T angle_radians) {
     return matrix_from_rows<T>({1, 0, 0, 0}, {0, c, -s, 0}, {0, s, c, 0}, {0, 0, 0, 1});
 }
 
-/// Turns around the y axis, z towards x (Eq. 4.2).
+/// Rotation around the y axis, z towards x (Eq. 4.2).
 ///
 ///      c  0  s  0
 ///      0  1  0  0
@@ -55,7 +55,7 @@ glm::mat<4, 4, T> rotation_y(T angle_radians) {
     return matrix_from_rows<T>({c, 0, s, 0}, {0, 1, 0, 0}, {-s, 0, c, 0}, {0, 0, 0, 1});
 }
 
-/// Turns around the z axis, x towards y (Eq. 4.1).
+/// Rotation around the z axis, x towards y (Eq. 4.1).
 ///
 ///     c  -s  0  0
 ///     s   c  0  0
@@ -67,12 +67,12 @@ glm::mat<4, 4, T> rotation_z(T angle_radians) {
     return matrix_from_rows<T>({c, -s, 0, 0}, {s, c, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1});
 }
 
-/// The camera's view: its place becomes the origin, what it looks at lies on -z (Eq. 4.5).
+/// The view matrix: the eye becomes the origin, and what it looks at lies on -z (Eq. 4.5).
 ///
-/// @param eye,center  World space. When they are the same point, the camera looks along -z.
-/// @param up          What shall point up in the picture, of any length. When it is parallel to
-///                    the view or has no direction, the axis that is least parallel takes its
-///                    place; of equals, y first.
+/// @param eye,center  World space. If they are the same point, the camera looks along -z.
+/// @param up          What shall point up in the picture, of any length. If it is parallel to the
+///                    view, zero or not finite, the axis that is least parallel takes its place; of
+///                    equals, y first.
 /// @return            view_from_world: its upper 3x3 part is a rotation within 4 eps.
 template <std::floating_point T>
 glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3, T> up) {
@@ -93,7 +93,7 @@ glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3,
     return matrix_from_rows<T>(row(right), row(new_up), row(back), {0, 0, 0, 1});
 }
 
-/// Perspective, from view space to clip space (Eq. 4.7 and 4.8).
+/// The projection matrix of a perspective, from view space to clip space (Eq. 4.7 and 4.8).
 ///
 ///     f/aspect  0   0  0
 ///     0         f   0  0         f = 1 / tan(fov_y / 2)
@@ -128,18 +128,19 @@ constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
     return matrix_from_rows<T>({w, 0, 0, w}, {0, -h, 0, h}, {0, 0, half, half}, {0, 0, 0, 1});
 }
 
-/// What normals have to be multiplied with where points are multiplied with `m`: the matrix of
-/// cofactors (Eq. 4.15). There is one also where m is singular.
+/// The normal matrix: what normals are multiplied by where points are multiplied by `m`. It is the
+/// matrix of cofactors (Eq. 4.15), and there is one also where m is singular.
 ///
-/// @param m  Finite; products of two elements neither overflow nor underflow.
-/// @return  Takes u x v to mu x mv, so where m mirrors, the way out of a body becomes the way in.
-///          The length of a normal is lost. Each element is within 1.5 ulp.
+/// @param m  Model space to world space, its upper left part. Finite; products of two elements
+///           neither overflow nor underflow.
+/// @return   Takes u x v to mu x mv, so where m mirrors, a normal that points out of a body points
+///           into it. The length of a normal is lost. Each element is within 1.5 ulp.
 template <std::floating_point T>
 glm::mat<3, 3, T> normal_matrix(const glm::mat<3, 3, T>& m) {
     return {cross_product(m[1], m[2]), cross_product(m[2], m[0]), cross_product(m[0], m[1])};
 }
 
-/// Points of one space in the clip space of `m`, as homogeneous coordinates.
+/// Points multiplied by `m`, as homogeneous coordinates.
 inline std::vector<vec4> transform(const mat4& m, const std::vector<vec3>& points) {
     std::vector<vec4> transformed;
     transformed.reserve(points.size());
