@@ -272,18 +272,18 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
         ->type_name("WIDTHxHEIGHT");
     line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
     Knobs knobs(line);
-    knobs.choice("--samples", options.samples_per_side, {{"1", 1}, {"4", 2}, {"16", 4}, {"64", 8}},
-                 "Samples a pixel, averaged: smoother, and that many times the time and memory");
+    knobs.choice(
+        "--samples", options.samples_per_side, {{"1", 1}, {"4", 2}, {"16", 4}, {"64", 8}},
+        "Samples per pixel (supersampling): smoother, and that many times the time and memory");
     if (program.orbit) {
         Orbit& orbit = *program.orbit;
         knobs.number("--yaw", orbit.yaw_degrees, -36000, 36000,
-                     "The camera's way around the scene, in degrees");
+                     "The camera's azimuth around the scene, in degrees");
         knobs.number("--pitch", orbit.pitch_degrees, -90, 90,
-                     "Its height over the horizon, in degrees");
+                     "Its elevation above the horizon, in degrees");
         knobs.number("--distance", orbit.distance, 0.01f, 1e6f,
                      "Its distance from the scene's centre, in radii of the scene");
-        knobs.number("--fov", orbit.fov_degrees, 1, 170,
-                     "What it sees from the lower to the upper border, in degrees");
+        knobs.number("--fov", orbit.fov_degrees, 1, 170, "Its vertical field of view, in degrees");
         line.add_option_function<std::string>(
                 "--frames", [&](const std::string& text) { options.frames = parse_frames(text); },
                 "Pictures of one turn around the scene, or of a part of it; --out then takes "

@@ -31,13 +31,13 @@ struct TextureOptions {
                      {{"nearest", Filter::nearest},
                       {"bilinear", Filter::bilinear},
                       {"trilinear", Filter::trilinear}},
-                     "The nearest texel, a mean of four, or of four in each of two sizes");
+                     "The nearest texel, the mean of four, or of four in each of two mip levels");
         knobs.choice("--wrap", wrap,
                      {{"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}, {"clamp", Wrap::clamp}},
                      "What lies beyond a texture's border");
         knobs.choice("--srgb", decoding,
                      {{"decoded", Decoding::srgb}, {"ignored", Decoding::ignored}},
-                     "What the codes in a picture are taken for: sRGB, or amounts of light");
+                     "Whether a texture's sRGB-encoded values are decoded to linear");
         knobs.flag("--keep-going", keep_going,
                    "A texture that cannot be read is a warning, and a chessboard takes its place");
     }
@@ -63,7 +63,8 @@ struct TextureVariant : TextureOptions {
                       {"8", 8},
                       {"4", 4},
                       {"perspective", 1}},
-                     "Textures in perspective: not at all, every so many pixels, or everywhere");
+                     "Perspective-correct texture coordinates: nowhere, every so many pixels, or "
+                     "everywhere");
     }
 };
 

@@ -73,7 +73,7 @@ Image<vec3> render(const Options& options, const PhongAssets& assets, CounterPol
 }  // namespace
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "06_phong", "Draws a scene in the light of lamps.",
+    return run_lesson<Options>(argc, argv, "06_phong", "Draws a scene with Phong lighting.",
                                make_phong_assets<Options>,
                                [](auto&... arguments) { return render(arguments...); });
 }

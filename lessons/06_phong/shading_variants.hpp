@@ -62,10 +62,10 @@ struct ShadingVariant : LightOptions {
         knobs.choice(
             "--shading", shading,
             {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}},
-            "Light is computed once for a face, for its vertices, or for each pixel");
+            "Lighting per face, per vertex, or per pixel");
         knobs.choice("--highlight", highlight,
                      {{"phong", Highlight::phong}, {"blinn", Highlight::blinn}},
-                     "Highlights by the mirror direction, or by the halfway one");
+                     "Highlights by the mirrored direction, or by the halfway vector");
         knobs.choice("--power", power,
                      {{"polynomial", Power::polynomial},
                       {"double", Power::in_double},

@@ -30,14 +30,16 @@ struct ToonVariant : LightOptions {
     ToonVariant() { key_light = LightKind::directional; }
 
     void declare(Knobs& knobs) {
-        knobs.number("--tones", tones, 1, max_tones, "Levels of light");
+        knobs.number("--tones", tones, 1, max_tones,
+                     "Tones: the levels that light is quantised to");
         knobs.flag("--smooth", smooth, "Smooth the borders of tones over one pixel");
         knobs.choice("--outline", outline,
                      {{"none", Outline::none},
                       {"facing", Outline::facing},
                       {"hull", Outline::hull},
                       {"edges", Outline::edges}},
-                     "Outlines by the facing ratio, by a hull, or by edges in depth and normals");
+                     "Outlines by the facing ratio, an inverted hull, or edge detection in depth "
+                     "and normals");
         knobs.number("--outline-width", outline_width_px, 0, 64,
                      "Of hull and edges, in pixels; of edges, rounded up to an even number");
         knobs.number("--facing", min_facing, 0, 1, "The facing ratio below which outline is");
