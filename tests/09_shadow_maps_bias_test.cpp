@@ -116,7 +116,7 @@ TEST(ShadowMaps, Eq9_8_SlopesOfAKnownPlane) {
     EXPECT_NEAR(slope.y, 1.0 / 512, 1e-9) << where << " below";
 }
 
-TEST(ShadowMaps, Eq9_8_SlopesOfAPlaneInAPerspective) {
+TEST(ShadowMaps, Eq9_4_SlopesOfAPlaneInAPerspective) {
     std::mt19937 random(1);
     for (int i = 0; i < 200; ++i) {
         const TiltedPlane plane(random, i % 2 == 0 ? LightKind::spot : LightKind::directional,
@@ -232,7 +232,7 @@ TEST(ShadowMaps, Eq9_10_LessThanTheDerivedBiasIsTooLittle) {
         less_than_the_derived_bias_is_too_little(kind, 0);
 }
 
-TEST(ShadowMaps, Eq9_13_LessThanTheDerivedBiasIsTooLittleForPcf) {
+TEST(ShadowMaps, Eq9_10_LessThanTheDerivedBiasIsTooLittleForPcf) {
     for (const LightKind kind : {LightKind::directional, LightKind::spot})
         for (const int radius : {1, 3}) less_than_the_derived_bias_is_too_little(kind, radius);
 }

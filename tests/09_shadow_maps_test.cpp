@@ -493,7 +493,7 @@ TEST(ShadowMaps, Eq9_7_UnderALargeRoofAllOfASmallFloorIsDark) {
             ASSERT_TRUE(is_dark_under_a_large_roof<0>(directional_light(toward), size));
 }
 
-TEST(ShadowMaps, Eq9_13_UnderALargeRoofAllOfASmallFloorIsDarkInAnyLight) {
+TEST(ShadowMaps, Eq9_4_UnderALargeRoofAllOfASmallFloorIsDarkInAnyLight) {
     const Light lights[] = {directional_light({0, 1, 0}), directional_light({0.3f, 1, -0.5f}),
                             spotlight({0.2f, 4, 0.1f}, {0, 0, 0}, 60),
                             spotlight({0.2f, 4, 0.1f}, {0, 0, 0}, 10)};  // less than the floor

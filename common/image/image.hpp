@@ -103,6 +103,7 @@ class Image {
 ///
 /// @param picture  Linear colour; its sides are multiples of per_side.
 inline Image<vec3> averaged(Image<vec3> picture, int per_side) {
+    assert(picture.size() % per_side == ivec2(0) && "a pixel's samples are all there");
     if (per_side == 1) return picture;
     Image<vec3> means(picture.size() / per_side, vec3(0.0f));
     const float share = 1.0f / static_cast<float>(per_side * per_side);
