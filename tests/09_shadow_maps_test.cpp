@@ -360,6 +360,23 @@ TEST(ShadowMaps, Eq9_5_EachDirectionLiesWellInsideOfItsFace) {
     EXPECT_GT(greatest, most - 0.01);  // and no wider than that
 }
 
+TEST(ShadowMaps, Eq9_5_APointLightsMapsReachToTheFarthestCorner) {
+    const Bounds around = box(vec3(-1, -2, -3), vec3(3, 2, 1));
+    for (const vec3 position : {vec3(-10, 0, 0), vec3(10, 0, 0), vec3(0, -10, 0), vec3(0, 10, 0),
+                                vec3(0, 0, -10), vec3(0, 0, 10), vec3(0)}) {
+        const LightViews views = light_views(point_light(position), around, around, 64);
+        ASSERT_EQ(views.count, 6u);
+        for (int i = 0; i < 8; ++i) {
+            const vec3 corner(i & 1 ? 3 : -1, i & 2 ? 2 : -2, i & 4 ? 1 : -3);
+            const dvec3 in_ndc =
+                ndc(views.clip_from_world[cube_face(corner - position)], dvec3(corner));
+            EXPECT_LE(std::abs(in_ndc.z), 1)
+                << "depth of the box's corner " << testing::PrintToString(corner)
+                << " as a point light at " << testing::PrintToString(position) << " sees it";
+        }
+    }
+}
+
 TEST(ShadowMaps, HardCase_ASmallMapSeesTheNearestCasterInItsCorners) {
     look_up("Eq. 9.5");
     // In the smallest map, half of the texels are margin. A plate across the line to a corner has
