@@ -12,7 +12,7 @@ namespace rasterbook {
 
 namespace {
 
-/// Whether all that is seen of a scene has a comic's paint, and some of it an outline.
+/// Whether all that is seen of a scene has toon materials, and some of it an outline.
 bool is_comic(const Scene& scene) {
     bool has_outlines = false;
     for (const Mesh& mesh : scene.meshes)
@@ -24,8 +24,8 @@ bool is_comic(const Scene& scene) {
     return has_outlines;
 }
 
-/// For --all-effects, beside what lesson 06 adds: unlit materials get a comic's paint of one
-/// colour, and vertices white colours.
+/// For --all-effects, beside what lesson 06 adds: unlit materials become toon materials of one
+/// colour, and vertices get white colours.
 void add_neutral_inputs(Scene& scene) {
     for (Mesh& mesh : scene.meshes) {
         for (const Triangle& triangle : mesh.triangles) {

@@ -34,7 +34,7 @@ struct SceneAssets {
     SceneLights lit_by;
     ScenePlan plan;
     std::vector<OutlineHull> hulls;
-    bool is_on_paper;  ///< All of it is a comic, with dark outlines: paper lies behind.
+    bool is_on_paper;  ///< All materials are toon ones, some with outlines: paper lies behind.
 };
 
 /// Makes of a scene, as its file has it, all that is drawn.

@@ -23,15 +23,15 @@ namespace rasterbook {
 /// Light of colour 1 makes a white surface white: so many lux.
 constexpr float lux_of_white = std::numbers::pi_v<float>;
 
-/// A lamp of a file is a point, and at a point its light would be infinite: here it is as large as
-/// this share of the scene's radius.
+/// A file's point light has no size, and at its position its light would be infinite: here it is
+/// as large as this share of the scene's radius. A spotlight is, too.
 constexpr float lamp_size = 1.0f / 128;
 
 /// A file's light in units of the lessons' (Eq. 11.1 and 11.2).
 ///
 /// @param scene_radius  World space, > 0; any float. Farther from a point light than 10 times its
-///                      lamp_size, less than 1% of its light is missing.
-/// @return  Its range is not minded: glTF calls it a hint.
+///                      size, less than 1% of its light is missing.
+/// @return  The range is ignored: glTF calls it a hint.
 inline Light light_of(const SceneLight& from, float scene_radius) {
     const bool is_sun = from.kind == SceneLight::Kind::directional;
     Light light{is_sun                                 ? LightKind::directional
@@ -52,8 +52,8 @@ inline Light light_of(const SceneLight& from, float scene_radius) {
 
 /// What a file's lights are multiplied by before they are drawn with (Eq. 11.12): 1, if none of
 /// them is more than twice as bright as white at the scene's middle; else so much that the
-/// brightest is white there. A lamp is looked at from one radius of the scene away, if it is nearer
-/// than that.
+/// brightest is white there. A point light or spotlight nearer than one radius of the scene counts
+/// as one radius away.
 ///
 /// @param bounds  Of the scene, world space.
 /// @return  > 0, at most 1.
@@ -76,7 +76,7 @@ inline float exposure_of(std::span<const SceneLight> lights, const Bounds& bound
 struct SceneLights {
     std::vector<Light> lights;  ///< At most max_lights.
     std::vector<std::string> names;
-    std::array<bool, max_lights> casts{};  ///< Whether each throws shadows.
+    std::array<bool, max_lights> casts{};  ///< Whether each casts shadows.
     bool are_of_file = false;              ///< Else those of lesson 09.
     float exposure = 1;                    ///< By which the file's have been multiplied.
 };

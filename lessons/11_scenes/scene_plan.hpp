@@ -26,7 +26,7 @@ struct MaterialPlan {
     EffectMask effects;
     std::array<std::string, effect_count> why_not;
     bool is_seen = false;   ///< A triangle has it.
-    bool is_glass = false;  ///< What lies behind shines through, whatever is forced.
+    bool is_glass = false;  ///< It is blended, whatever is forced.
     bool two_sided = false;
 
     bool operator[](Effect effect) const { return effects[effect]; }
@@ -69,7 +69,7 @@ struct PlanInputs {
 ///
 /// With all effects forced, each one runs that can be given inputs which change nothing: a white
 /// texture, a black highlight, white vertices, a flat normal map, empty shadow maps, an opacity of
-/// 1; and for unlit materials the two colours of a comic, both the same.
+/// 1; and for unlit materials the two colours of a toon material, both the same.
 ///
 /// @param scene,textures,normal_maps  With those inputs already.
 ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Shader permutations: the pipeline of a triangle, compiled for one set of effects after the
-/// other, and chosen once for a material. Introduced in lesson 11; derivation:
+/// Shader permutations: the pipeline of a triangle, compiled once for each of six sets of effects,
+/// and chosen once for a material. Introduced in lesson 11; derivation:
 /// docs/derivations/11_scenes.md.
 #pragma once
 
@@ -36,15 +36,15 @@ struct Permutation {
     bool operator==(const Permutation&) const = default;
 };
 
-/// All permutations. A comic's paint has one alone, since few materials have it: whether there is a
-/// normal map is asked at run time (Eq. 11.3).
+/// All permutations. Toon materials share one, since they are few: whether there is a normal map is
+/// asked at run time (Eq. 11.3).
 constexpr std::array all_permutations = {
     Permutation{ShadingModel::unlit, false, false}, Permutation{ShadingModel::phong, false, false},
     Permutation{ShadingModel::phong, false, true},  Permutation{ShadingModel::phong, true, false},
     Permutation{ShadingModel::phong, true, true},   Permutation{ShadingModel::toon, true, true}};
 
-/// The permutation that is compiled with what a material's plan has, and as little beyond it as
-/// there is.
+/// The permutation that is compiled with all that a material's plan has, and with as little beyond
+/// it as possible.
 inline std::size_t permutation_of(const MaterialPlan& plan) {
     Permutation effects{plan[Effect::toon]    ? ShadingModel::toon
                         : plan[Effect::light] ? ShadingModel::phong
@@ -105,7 +105,7 @@ float opacity_at(const TriangleSurface& surface, const VertexColors& colors,
 
 /// Draws what of a triangle lies in a tile.
 ///
-/// @param transparent  Takes the fragments through which one sees what lies behind.
+/// @param transparent  Takes the transparent fragments.
 template <Permutation with, typename CounterPolicy>
 void draw_triangle(const Frame& frame, const ProjectedTriangle& projected, const Tile& tile,
                    TransparentFragments& transparent, CounterPolicy& counters) {
@@ -165,7 +165,7 @@ void draw_triangle(const Frame& frame, const ProjectedTriangle& projected, const
         const float depth = projected.depth.at(on_screen);
         if (!(depth < frame.depth.depths()[pixel])) return;
         const FragmentBarycentrics at = perspective_correct(setup, on_screen);
-        float opacity = 1;  // also of what is neither glass nor has holes
+        float opacity = 1;  // of all that is neither glass nor has holes
         if (is_masked || plan.is_glass)
             opacity = opacity_at(surface, colors, at, frame.filter, counters);
         if (is_masked) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Surfaces that are there in part: those with holes, and those that one sees through. Introduced
-/// in lesson 11; derivation: docs/derivations/11_scenes.md.
+/// Alpha: surfaces with holes, and transparent ones. Introduced in lesson 11; derivation:
+/// docs/derivations/11_scenes.md.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace rasterbook {
 
-/// Whether a surface with holes is there (Eq. 11.7).
+/// The alpha test: whether a surface with holes is there (Eq. 11.7).
 ///
 /// @param opacity  Any number; of NaN, there is a hole.
 inline bool passes_alpha_test(float opacity, float cutoff) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Surfaces of a file that want to be drawn as in a comic: light in two colours, and an outline of
-/// their own. Introduced in lesson 11; derivation: docs/derivations/11_scenes.md.
+/// Toon materials of a file: a lit colour and a shade, and an outline of their own. Introduced in
+/// lesson 11; derivation: docs/derivations/11_scenes.md.
 #pragma once
 
 #include <algorithm>
@@ -37,8 +37,8 @@ inline float toon_step(float cosine, const ToonMaterial& look) {
 ///
 /// @param normal_world  Of any length. Without a direction, all lights graze it: the cosine is 0.
 /// @return  0 to 1; 0 where no light arrives.
-/// @param share         Called as share(l): how much of light l reaches the point. Half of it is
-///                      all: a comic's shadows have edges.
+/// @param share         Called as share(l): the visibility of light l, 0 to 1. From a half on it is
+///                      taken for 1, else for 0: a drawing's shadows have edges.
 template <typename Share>
 float toon_level(std::span<const Light> lights, vec3 position_world, vec3 normal_world,
                  const ToonMaterial& look, Share&& share) {
