@@ -69,14 +69,14 @@ void compile(GLuint program, GLenum kind, const std::string& source) {
     glDeleteShader(shader);  // when the program goes
 }
 
-GLuint link(const std::string& statements) {
+GLuint link(const OpenGlShaders& shaders) {
     const GLuint program = glCreateProgram();
-    compile(program, GL_VERTEX_SHADER, vertex_shader);
-    compile(program, GL_FRAGMENT_SHADER, fragment_shader + statements + " }\n");
+    compile(program, GL_VERTEX_SHADER, shaders.vertex);
+    compile(program, GL_FRAGMENT_SHADER, shaders.fragment);
     glLinkProgram(program);
     GLint good = 0;
     glGetProgramiv(program, GL_LINK_STATUS, &good);
-    if (!good) throw std::runtime_error("OpenGL does not link\n" + statements);
+    if (!good) throw std::runtime_error("OpenGL does not link\n" + shaders.fragment);
     return program;
 }
 
@@ -107,6 +107,142 @@ Image<T> layer_of(const std::vector<T>& pixels, ivec2 size, int layer) {
     const auto count = static_cast<std::ptrdiff_t>(image.pixels().size());
     std::copy_n(pixels.begin() + layer * count, count, image.pixels().begin());
     return image;
+}
+
+/// Pictures of floats that OpenGL draws into, cleared.
+class Frame {
+  public:
+    Frame(const OpenGlView& view, int layers) : size_(view.size), layers_(layers) {
+        glGenFramebuffers(1, &frame_);
+        glBindFramebuffer(GL_FRAMEBUFFER, frame_);
+        color_ = attach(GL_COLOR_ATTACHMENT0, GL_RGBA32F, GL_RGBA, size_, layers);
+        depth_ =
+            attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, size_, layers);
+        if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+            throw std::runtime_error("OpenGL does not draw into pictures of floats");
+        glViewport(view.viewport_low.x, view.viewport_low.y, view.viewport_size.x,
+                   view.viewport_size.y);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    }
+    ~Frame() {
+        glDeleteTextures(1, &color_);
+        glDeleteTextures(1, &depth_);
+        glDeleteFramebuffers(1, &frame_);
+    }
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
+
+    std::vector<OpenGlPicture> pictures() const {
+        std::vector<OpenGlPicture> pictures;
+        const auto colors = read_back<vec4>(color_, GL_RGBA, size_, layers_);
+        const auto depths = read_back<float>(depth_, GL_DEPTH_COMPONENT, size_, layers_);
+        for (int i = 0; i < layers_; ++i)
+            pictures.push_back({layer_of(colors, size_, i), layer_of(depths, size_, i)});
+        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+            throw std::runtime_error("OpenGL's error " + std::to_string(error));
+        return pictures;
+    }
+
+  private:
+    ivec2 size_;
+    int layers_;
+    GLuint frame_ = 0, color_ = 0, depth_ = 0;
+};
+
+/// A vertex buffer, bound, and what its vertices consist of.
+template <typename Vertex>
+class VertexBuffer {
+  public:
+    explicit VertexBuffer(std::span<const Vertex> vertices) {
+        glGenVertexArrays(1, &array_);
+        glBindVertexArray(array_);
+        glGenBuffers(1, &buffer_);
+        glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size_bytes()),
+                     vertices.data(), GL_STATIC_DRAW);
+    }
+    ~VertexBuffer() {
+        glDeleteBuffers(1, &buffer_);
+        glDeleteVertexArrays(1, &array_);
+    }
+    VertexBuffer(const VertexBuffer&) = delete;
+    VertexBuffer& operator=(const VertexBuffer&) = delete;
+
+    void add_attribute(GLuint index, GLint numbers, std::size_t offset) {
+        glEnableVertexAttribArray(index);
+        glVertexAttribPointer(index, numbers, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                              reinterpret_cast<const void*>(offset));
+    }
+
+  private:
+    GLuint array_ = 0, buffer_ = 0;
+};
+
+/// A texture, bound; the caller deletes it.
+///
+/// @param levels  So many of them, the first ones.
+GLuint upload(const Texture& texture, std::size_t levels, GLint min_filter) {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    glBindTexture(GL_TEXTURE_2D, name);
+    for (std::size_t i = 0; i < levels; ++i) {
+        const ivec2 size = texture.levels[i].size;
+        Image<vec4> bottom_first(size);  // as v goes
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                bottom_first[{x, size.y - 1 - y}] = texture.levels[i].texels[ivec2(x, y) + 1];
+        glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA32F, size.x, size.y, 0, GL_RGBA,
+                     GL_FLOAT, bottom_first.pixels().data());
+    }
+    const GLint wrap = texture.wrap == Wrap::repeat   ? GL_REPEAT
+                       : texture.wrap == Wrap::mirror ? GL_MIRRORED_REPEAT
+                                                      : GL_CLAMP_TO_EDGE;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, min_filter);
+    return name;
+}
+
+GLuint upload(const Image<float>& numbers) {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, numbers.size().x, numbers.size().y, 0, GL_RED, GL_FLOAT,
+                 numbers.pixels().data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    return name;
+}
+
+void set_uniform(GLint place, float value) { glUniform1f(place, value); }
+void set_uniform(GLint place, const vec3& value) { glUniform3fv(place, 1, &value[0]); }
+void set_uniform(GLint place, const mat3& value) {
+    glUniformMatrix3fv(place, 1, GL_FALSE, &value[0][0]);
+}
+void set_uniform(GLint place, const mat4& value) {
+    glUniformMatrix4fv(place, 1, GL_FALSE, &value[0][0]);
+}
+
+/// Gives a program in use its inputs.
+///
+/// @param textures  Takes those that are bound, the first to unit 0; the caller deletes them.
+void set_inputs(GLuint program, const OpenGlInputs& inputs, std::vector<GLuint>& textures) {
+    for (const auto& [name, value] : inputs.uniforms)
+        std::visit(
+            [&](const auto& number) {
+                set_uniform(glGetUniformLocation(program, name.c_str()), number);
+            },
+            value);
+    for (const auto& [name, picture] : inputs.textures) {
+        glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(textures.size()));
+        glUniform1i(glGetUniformLocation(program, name.c_str()),
+                    static_cast<GLint>(textures.size()));
+        const auto* const texture = std::get_if<const Texture*>(&picture);
+        textures.push_back(texture ? upload(**texture, 1, GL_LINEAR)
+                                   : upload(*std::get<const Image<float>*>(picture)));
+    }
+    glActiveTexture(GL_TEXTURE0);
 }
 
 }  // namespace
@@ -142,24 +278,7 @@ OpenGl::~OpenGl() {
 
 void OpenGl::set_texture(const Texture& texture) {
     glDeleteTextures(1, &texture_);
-    glGenTextures(1, &texture_);
-    glBindTexture(GL_TEXTURE_2D, texture_);
-    for (std::size_t i = 0; i < texture.levels.size(); ++i) {
-        const ivec2 size = texture.levels[i].size;
-        Image<vec4> bottom_first(size);  // as v goes
-        for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x)
-                bottom_first[{x, size.y - 1 - y}] = texture.levels[i].texels[ivec2(x, y) + 1];
-        glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA32F, size.x, size.y, 0, GL_RGBA,
-                     GL_FLOAT, bottom_first.pixels().data());
-    }
-    const GLint wrap = texture.wrap == Wrap::repeat   ? GL_REPEAT
-                       : texture.wrap == Wrap::mirror ? GL_MIRRORED_REPEAT
-                                                      : GL_CLAMP_TO_EDGE;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    texture_ = upload(texture, texture.levels.size(), GL_LINEAR_MIPMAP_LINEAR);
 }
 
 OpenGlPicture OpenGl::draw(std::span<const OpenGlTriangle> triangles, const OpenGlView& view,
@@ -192,51 +311,41 @@ std::vector<OpenGlPicture> OpenGl::draw_layers(std::span<const OpenGlTriangle> t
         for (std::size_t i = 0; i < 3; ++i)
             vertices.push_back({triangle.vertices_clip[i], triangle.uv[i]});
 
-    GLuint vertex_array = 0, buffer = 0, frame = 0;
-    glGenVertexArrays(1, &vertex_array);
-    glBindVertexArray(vertex_array);
-    glGenBuffers(1, &buffer);
-    glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
-                 vertices.data(), GL_STATIC_DRAW);
-    glEnableVertexAttribArray(0);
-    glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
-    glEnableVertexAttribArray(1);
-    glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                          reinterpret_cast<const void*>(offsetof(Vertex, uv)));
-
-    glGenFramebuffers(1, &frame);
-    glBindFramebuffer(GL_FRAMEBUFFER, frame);
-    const GLuint color = attach(GL_COLOR_ATTACHMENT0, GL_RGBA32F, GL_RGBA, view.size, layers);
-    const GLuint depth =
-        attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, view.size, layers);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw std::runtime_error("OpenGL does not draw into pictures of floats");
-    glViewport(view.viewport_low.x, view.viewport_low.y, view.viewport_size.x,
-               view.viewport_size.y);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-
-    const GLuint program = link(shader);
+    VertexBuffer<Vertex> buffer(vertices);
+    buffer.add_attribute(0, 4, offsetof(Vertex, position_clip));
+    buffer.add_attribute(1, 2, offsetof(Vertex, uv));
+    const Frame frame(view, layers);
+    const GLuint program = link({vertex_shader, fragment_shader + shader + " }\n"});
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "each_its_own"), each_its_own);
     glBindTexture(GL_TEXTURE_2D, texture_);
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+    glDeleteProgram(program);  // when another one is used
+    return frame.pictures();
+}
 
-    std::vector<OpenGlPicture> pictures;
-    const auto colors = read_back<vec4>(color, GL_RGBA, view.size, layers);
-    const auto depths = read_back<float>(depth, GL_DEPTH_COMPONENT, view.size, layers);
-    for (int i = 0; i < layers; ++i)
-        pictures.push_back({layer_of(colors, view.size, i), layer_of(depths, view.size, i)});
-    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-        throw std::runtime_error("OpenGL's error " + std::to_string(error));
-
+OpenGlPicture OpenGl::draw(std::span<const OpenGlPart> parts, ivec2 size,
+                           const OpenGlShaders& shaders, const OpenGlInputs& inputs) {
+    const Frame frame{OpenGlView(size), 1};
+    const GLuint program = link(shaders);
+    glUseProgram(program);
+    std::vector<GLuint> textures;
+    set_inputs(program, inputs, textures);
+    const std::size_t of_all = textures.size();
+    for (const OpenGlPart& part : parts) {
+        VertexBuffer<OpenGlVertex> buffer(part.vertices);
+        buffer.add_attribute(0, 3, offsetof(OpenGlVertex, position_world));
+        buffer.add_attribute(1, 3, offsetof(OpenGlVertex, normal_world));
+        buffer.add_attribute(2, 4, offsetof(OpenGlVertex, tangent_world));
+        buffer.add_attribute(3, 2, offsetof(OpenGlVertex, uv));
+        set_inputs(program, part.inputs, textures);
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(part.vertices.size()));
+        glDeleteTextures(static_cast<GLsizei>(textures.size() - of_all), textures.data() + of_all);
+        textures.resize(of_all);
+    }
+    glDeleteTextures(static_cast<GLsizei>(textures.size()), textures.data());
     glDeleteProgram(program);
-    glDeleteTextures(1, &color);
-    glDeleteTextures(1, &depth);
-    glDeleteFramebuffers(1, &frame);
-    glDeleteBuffers(1, &buffer);
-    glDeleteVertexArrays(1, &vertex_array);
-    return pictures;
+    return frame.pictures().front();
 }
 
 }  // namespace rasterbook::test

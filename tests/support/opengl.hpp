@@ -5,11 +5,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -40,13 +43,39 @@ struct OpenGlPicture {
     Image<float> depth;  ///< 0 to 1, which is also where nothing was drawn.
 };
 
+/// What shaders from files are given of a vertex: their attributes 0 to 3.
+struct OpenGlVertex {
+    vec3 position_world, normal_world;
+    vec4 tangent_world;  ///< With handedness.
+    vec2 uv;
+};
+
+/// What shaders are given by name.
+struct OpenGlInputs {
+    std::map<std::string, std::variant<float, vec3, mat3, mat4>> uniforms;
+    /// Level 0 of textures, filtered linearly; or floats as they are, the first row as row 0.
+    std::map<std::string, std::variant<const Texture*, const Image<float>*>> textures;
+};
+
+/// Triangles of one material.
+struct OpenGlPart {
+    std::uint32_t material;
+    std::vector<OpenGlVertex> vertices{};  ///< Three for each triangle.
+    OpenGlInputs inputs{};
+};
+
+/// The texts of a vertex shader and a fragment shader.
+struct OpenGlShaders {
+    std::string vertex, fragment;
+};
+
 /// A context without a display, made current.
 ///
 /// Front faces alone are drawn, nearer ones over farther ones. Pictures have their first row at
 /// the top. That is not a matter of turning them round after they are drawn: their rows would then
 /// be right, but a pixel's centre on a horizontal side would belong to the triangle above it. So
-/// the vertex shader negates y, and what OpenGL takes for the bottom row is our top one. (Seen that
-/// way round, front faces are clockwise.)
+/// the vertex shader or its matrix negates y, and what OpenGL takes for the bottom row is our top
+/// one. (Seen that way round, front faces are clockwise.)
 class OpenGl {
   public:
     // Shaders: a fragment's statements, from `vec2 uv` and `sampler2D levels` to `vec4 color`.
@@ -75,6 +104,13 @@ class OpenGl {
     std::vector<OpenGlPicture> draw_each(std::span<const OpenGlTriangle> triangles,
                                          const OpenGlView& view,
                                          const std::string& shader = coverage_and_uv);
+
+    /// Draws parts of a scene, one after the other, into one picture.
+    ///
+    /// @param shaders  That y is to be negated is not for them but for a matrix of the inputs.
+    /// @param inputs   Of all parts.
+    OpenGlPicture draw(std::span<const OpenGlPart> parts, ivec2 size, const OpenGlShaders& shaders,
+                       const OpenGlInputs& inputs);
 
   private:
     std::vector<OpenGlPicture> draw_layers(std::span<const OpenGlTriangle> triangles,
