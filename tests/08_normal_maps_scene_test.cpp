@@ -175,6 +175,7 @@ TEST(NormalMaps, HardCase_AFlatMapChangesNothing) {
             lesson_08::Options options = before_the_square();
             options.texture.filter = filter;
             options.normal_map.frame = frame;
+            options.normal_map.format = NormalFormat::snorm;  // no UNORM value is exactly 0
             options.shading.two_sided = true;
             for (const float yaw : {-20.0f, 160.0f}) {
                 options.orbit.yaw_degrees = yaw;
@@ -213,7 +214,8 @@ TEST(NormalMaps, HardCase_AMapOfOneNormalIsASlantedSurface) {
     look_up("Eq. 8.7");
     // The whole map has one normal, that points to the right, or up. Without highlights, the square
     // looks like one whose vertices have that normal.
-    const float c = component_from_code(222), s = component_from_code(213);  // .74 and .67
+    const float c = component_from_unorm(222), s = component_from_unorm(213);  // .74 and .67
+    const float o = component_from_unorm(128);                                 // .004
     const std::string right = "norm " + plain_picture("right.png", {213, 128, 222}) + "\n";
     const std::string up = "norm " + plain_picture("up.png", {128, 213, 222}) + "\n";
     const auto slanted_square = [&](vec3 normal) {
@@ -230,35 +232,36 @@ TEST(NormalMaps, HardCase_AMapOfOneNormalIsASlantedSurface) {
                 options.normal_map.frame = frame;
                 options.texture.filter = filter;
                 EXPECT_EQ(share_that_differs(picture_of(square_of(right), options),
-                                             picture_of(slanted_square({s, 0, c}), options)),
+                                             picture_of(slanted_square({s, o, c}), options)),
                           0);
                 EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
-                                             picture_of(slanted_square({0, s, c}), options)),
+                                             picture_of(slanted_square({o, s, c}), options)),
                           0);
                 EXPECT_GT(share_that_differs(picture_of(square_of(up), options),
-                                             picture_of(slanted_square({0, -s, c}), options)),
+                                             picture_of(slanted_square({o, -s, c}), options)),
                           0.1);
                 // Green down, and a map that is mirrored by its -s.
                 options.normal_map.green = Green::down;
                 EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
-                                             picture_of(slanted_square({0, -s, c}), options)),
+                                             picture_of(slanted_square({o, -s, c}), options)),
                           0);
                 options.normal_map.green = Green::up;
                 std::string mirrored = right;
                 mirrored.insert(5, "-s -1 1 1 ");
                 EXPECT_EQ(share_that_differs(picture_of(square_of(mirrored), options),
-                                             picture_of(slanted_square({-s, 0, c}), options)),
+                                             picture_of(slanted_square({-s, o, c}), options)),
                           0);
                 // Twice as steep.
                 std::string steep = right;
                 steep.insert(5, "-bm 2 ");
-                EXPECT_EQ(share_that_differs(picture_of(square_of(steep), options),
-                                             picture_of(slanted_square({2 * s, 0, c}), options)),
-                          0);
+                EXPECT_EQ(
+                    share_that_differs(picture_of(square_of(steep), options),
+                                       picture_of(slanted_square({2 * s, 2 * o, c}), options)),
+                    0);
                 // In object space the components are along the axes.
                 options.normal_map.space = MapSpace::object;
                 EXPECT_EQ(share_that_differs(picture_of(square_of(up), options),
-                                             picture_of(slanted_square({0, s, c}), options)),
+                                             picture_of(slanted_square({o, s, c}), options)),
                           0);
             }
 }
@@ -272,6 +275,7 @@ TEST(NormalMaps, HardCase_ObjectSpaceMapsNeedNoFrame) {
     const std::string flat = "norm " + plain_picture("flat_up.png", {128, 255, 128}) + "\n";
     lesson_08::Options options = before_the_square();
     options.normal_map.space = MapSpace::object;
+    options.normal_map.format = NormalFormat::snorm;  // (128, 255, 128) is exactly (0, 1, 0)
     const Image<vec3> plain = picture_of(square_of("", floor), options);
     EXPECT_EQ(share_that_differs(picture_of(square_of(flat, floor), options), plain), 0);
     EXPECT_EQ(drawn_scene(square_of(flat, floor), options).count(Counter::meshes_with_tangents),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals in textures: UNORM codes, heights, channels, and the surface normals they perturb.
+// Normals in textures: UNORM values, heights, channels, and the surface normals they perturb.
 #include <algorithm>
 #include <array>
 #include <cfloat>
@@ -54,37 +54,74 @@ Image<u8vec4> heights(ivec2 size, Height&& height) {
 
 }  // namespace
 
-TEST(NormalMaps, Eq8_1_CodesInTheMiddleAndAtTheEnds) {
-    EXPECT_EQ(component_from_code(128), 0.0f);
-    EXPECT_EQ(component_from_code(255), 1.0f);
-    EXPECT_EQ(component_from_code(1), -1.0f);
-    EXPECT_EQ(component_from_code(0), -1.0f);
-    EXPECT_NEAR(component_from_code(64), -0.504f, 0.0005f);  // the worked example
-    EXPECT_NEAR(component_from_code(192), 64 / 127.0f, one_rounding);
-    EXPECT_NEAR(component_from_code(64), -64 / 127.0f, one_rounding);
+TEST(NormalMaps, Eq8_1_AWorkedExample) {
+    EXPECT_NEAR(component_from_unorm(64), -0.498f, 0.0005f) << "the value 64 of 255";
+    EXPECT_NEAR(component_from_unorm(128), 0.0039f, 0.00005f)
+        << "the value 128 of 255; exactly 0 would be (c - 128) / 127, for which normal maps are "
+           "not made";
+    EXPECT_NEAR(component_from_unorm(127), -0.0039f, 0.00005f) << "the value 127 of 255";
+    EXPECT_NEAR(component_from_unorm(192), 129 / 255.0f, one_rounding) << "the value 192 of 255";
+}
+
+TEST(NormalMaps, Eq8_1_ValuesAtTheEndsAndOnEitherSideOfTheMiddle) {
     for (int bits = 2; bits <= 16; ++bits) {
-        const std::uint32_t middle = 1u << (bits - 1);
-        ASSERT_EQ(component_from_code(middle, bits), 0.0f) << "the middle code of " << bits;
-        ASSERT_EQ(component_from_code(2 * middle - 1, bits), 1.0f) << "the last of " << bits;
-        ASSERT_EQ(component_from_code(1, bits), -1.0f) << bits << " bits";
-        ASSERT_EQ(component_from_code(0, bits), -1.0f) << bits << " bits";
-        for (std::uint32_t k = 1; k < middle && k < 500; ++k)  // the same on either side
-            ASSERT_EQ(component_from_code(middle + k, bits), -component_from_code(middle - k, bits))
-                << bits << " bits, the codes " << middle + k << " and " << middle - k;
+        const std::uint32_t greatest = (1u << bits) - 1;
+        ASSERT_EQ(component_from_unorm(0, bits), -1.0f) << "the least of " << bits << " bits";
+        ASSERT_EQ(component_from_unorm(greatest, bits), 1.0f) << "the greatest of " << bits;
+        const float step = 2 / static_cast<float>(greatest);
+        for (std::uint32_t k = 0; k <= greatest; k += 1 + greatest / 500) {
+            ASSERT_NEAR(component_from_unorm(k, bits), static_cast<float>(k) * step - 1,
+                        2 * one_rounding)
+                << "the value " << k << " of " << bits << " bits";
+            // The same on either side, so that no direction is preferred.
+            ASSERT_NEAR(component_from_unorm(greatest - k, bits), -component_from_unorm(k, bits),
+                        one_rounding)
+                << bits << " bits, the values " << greatest - k << " and " << k;
+        }
     }
 }
 
+TEST(NormalMaps, Eq8_1_WhatAnEncoderRoundsIsDecodedWithinHalfAStep) {
+    // As tools store a normal: 255 (n + 1) / 2, rounded.
+    std::mt19937 random(4);
+    std::normal_distribution<double> any;
+    double greatest_degrees = 0, sum_of_squares = 0;
+    dvec3 sum(0);
+    constexpr int count = 100'000;
+    for (int i = 0; i < count; ++i) {
+        const dvec3 n = glm::normalize(dvec3(any(random), any(random), any(random)));
+        vec3 decoded;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto value = static_cast<std::uint32_t>(255 * (n[axis] + 1) / 2 + 0.5);
+            decoded[axis] = component_from_unorm(value);
+            ASSERT_NEAR(decoded[axis], n[axis], 1 / 255.0 + one_rounding)
+                << "the value " << value << ", which a tool stores for " << n[axis]
+                << " (seed 4, case " << i << ")";
+        }
+        const double degrees = degrees_between(decoded, vec3(n));
+        greatest_degrees = std::max(greatest_degrees, degrees);
+        sum_of_squares += degrees * degrees;
+        sum += dvec3(decoded) - n;
+    }
+    // Half a step in each of three components: sqrt(3)/2 times 2/255, as an angle.
+    EXPECT_LT(greatest_degrees, 0.3892);
+    EXPECT_NEAR(std::sqrt(sum_of_squares / count), 0.184, 0.001) << "degrees, RMS";
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(sum[axis] / count, 0, 0.0001)
+            << "the mean error; (c - 128) / 127 has -0.0039, half a step";
+}
+
 TEST(NormalMaps, Eq8_1_GreenUpAndGreenDown) {
-    Image<u8vec4> picture({2, 1}, {192, 160, 240, 255});
-    picture[{1, 0}] = {10, 20, 30, 40};
-    const Image<vec4> up = normals_from_codes(picture, Green::up);
-    const Image<vec4> down = normals_from_codes(picture, Green::down);
-    EXPECT_EQ(up[ivec2(0)],
-              vec4(component_from_code(192), component_from_code(160), component_from_code(240), 1))
-        << "the codes (192, 160, 240), green up";
+    Image<u8vec4> image({2, 1}, {192, 160, 240, 255});
+    image[{1, 0}] = {10, 20, 30, 40};
+    const Image<vec4> up = normals_from_unorm(image, Green::up);
+    const Image<vec4> down = normals_from_unorm(image, Green::down);
+    EXPECT_EQ(up[ivec2(0)], vec4(component_from_unorm(192), component_from_unorm(160),
+                                 component_from_unorm(240), 1))
+        << "the texel (192, 160, 240), green up";
     for (const ivec2 texel : {ivec2(0), ivec2(1, 0)}) {
         EXPECT_EQ(down[texel], up[texel] * vec4(1, -1, 1, 1))
-            << "green down, beside green up of the same codes";
+            << "green down, beside green up of the same texel";
         EXPECT_EQ(up[texel].w, 1);
     }
 }
@@ -134,28 +171,34 @@ TEST(NormalMaps, Eq8_7_TheMapsNormalInTheFrame) {
     }
 }
 
-TEST(NormalMaps, HardCase_TheFlatTexelPerturbsNothing) {
-    look_up("Eq. 8.1, the flat texel");
-    const Image<u8vec4> codes({4, 4}, {128, 128, 255, 255});
+TEST(NormalMaps, HardCase_AFlatNormalPerturbsNothing) {
+    look_up("Eq. 8.7, where x = y = 0");
+    const Image<vec4> flat({4, 4}, vec4(out_of_the_surface, 1));
     const TangentFrame frame = some_frame();
     const vec3 interpolated = 0.97f * frame.normal;  // not of length 1
-    for (const Green green : {Green::up, Green::down})
-        for (const Wrap wrap : all_wraps) {
-            const Texture texture = make_texture(normals_from_codes(codes, green), wrap);
-            for (const Filter filter : all_filters)
-                for (const vec2 uv : {vec2(0), vec2(0.3f, 0.7f), vec2(-3.3f, 7.9f)}) {
-                    const FragmentUv at{uv, vec2(0.9f, 0.1f), vec2(0.2f, 0.3f)};
-                    const vec3 normal = sample_normal(texture, filter, at);
-                    ASSERT_EQ(normal, out_of_the_surface)
-                        << "the codes (128, 128, 255) at uv " << testing::PrintToString(uv);
-                    ASSERT_EQ(perturbed(frame, normal, interpolated), interpolated)
-                        << "to the last bit: a map's (0, 0, 1) leaves the normal as it is, even if "
-                           "that is not of length 1";
-                }
-        }
-    // What the usual decoding makes of it.
-    const vec3 usual = 2.0f * vec3(128, 128, 255) / 255.0f - 1.0f;
-    EXPECT_NEAR(degrees_between(usual, out_of_the_surface), 0.318, 0.001);
+    for (const Wrap wrap : all_wraps) {
+        const Texture texture = make_texture(flat, wrap);
+        for (const Filter filter : all_filters)
+            for (const vec2 uv : {vec2(0), vec2(0.3f, 0.7f), vec2(-3.3f, 7.9f)}) {
+                const FragmentUv at{uv, vec2(0.9f, 0.1f), vec2(0.2f, 0.3f)};
+                const vec3 normal = sample_normal(texture, filter, at);
+                ASSERT_EQ(normal, out_of_the_surface)
+                    << "a map of (0, 0, 1) at uv " << testing::PrintToString(uv);
+                ASSERT_EQ(perturbed(frame, normal, interpolated), interpolated)
+                    << "to the last bit: a map's (0, 0, 1) leaves the normal as it is, even if "
+                       "that is not of length 1";
+            }
+    }
+}
+
+TEST(NormalMaps, HardCase_TheFlatTexelIsAThirdOfADegreeOff) {
+    look_up("Eq. 8.1, the flat texel");
+    const vec3 flat(
+        normals_from_unorm(Image<u8vec4>({1, 1}, {128, 128, 255, 255}), Green::up)[{0, 0}]);
+    EXPECT_NEAR(degrees_between(flat, out_of_the_surface), 0.318, 0.001)
+        << "degrees between the texel (128, 128, 255) and (0, 0, 1)";
+    EXPECT_EQ(flat.x, flat.y) << "as much to the right as up";
+    EXPECT_EQ(flat.z, 1);
 }
 
 TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
@@ -164,13 +207,19 @@ TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
     const Image<u8vec4> up =
         read_image(std::filesystem::path(RASTERBOOK_ASSETS) / "textures/hammered_normal.png");
     Image<u8vec4> down = up;
-    for (u8vec4& code : down.pixels())
-        if (code.g != 0) code.g = static_cast<std::uint8_t>(256 - code.g);
-    const Image<vec4> a = normals_from_codes(up, Green::up);
-    const Image<vec4> b = normals_from_codes(down, Green::down);
-    const Image<vec4> wrong = normals_from_codes(up, Green::down);
-    EXPECT_TRUE(are_equal(b, a)) << "green down, beside the same surface with green up";
-    EXPECT_FALSE(are_equal(wrong, a)) << "green down makes no difference";
+    for (u8vec4& texel : down.pixels()) texel.g = static_cast<std::uint8_t>(255 - texel.g);
+    const Image<vec4> a = normals_from_unorm(up, Green::up);
+    const Image<vec4> b = normals_from_unorm(down, Green::down);
+    const Image<vec4> wrong = normals_from_unorm(up, Green::down);
+    double greatest = 0, greatest_of_wrong = 0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+        const vec3 normal(a.pixels()[i]);
+        greatest = std::max(greatest, degrees_between(vec3(b.pixels()[i]), normal));
+        greatest_of_wrong =
+            std::max(greatest_of_wrong, degrees_between(vec3(wrong.pixels()[i]), normal));
+    }
+    EXPECT_LT(greatest, 1e-4) << "degrees: green down, beside the same surface with green up";
+    EXPECT_GT(greatest_of_wrong, 10) << "green down makes no difference";
 }
 
 TEST(NormalMaps, Eq8_8_TheThirdComponentFromTwo) {
@@ -267,7 +316,7 @@ TEST(NormalMaps, Eq8_9_HeightMapsAndNormalMapsAgree) {
     // The generator made both maps from the same surface, the heights rounded to 255 steps.
     const std::filesystem::path textures = std::filesystem::path(RASTERBOOK_ASSETS) / "textures";
     const Image<vec4> normals =
-        normals_from_codes(read_image(textures / "brick_normal.png"), Green::up);
+        normals_from_unorm(read_image(textures / "brick_normal.png"), Green::up);
     const Image<vec4> from_heights =
         normals_from_heights(read_image(textures / "brick_height.png"), Wrap::repeat);
     constexpr float bump_multiplier = 0.014f;  // as crate_bump.mtl says: -bm

@@ -189,14 +189,14 @@ TEST(AssetTextures, TheSeamBetweenTwoCopiesIsNoWorseThanTheWorstInside) {
 }
 
 TEST(AssetTextures, NormalsAreOfUnitLengthAndPointOutwards) {
-    // Each coordinate is off by at most half a step of 1/127; in length sqrt(3) times as much.
-    constexpr double quantisation = 0.5 / 127 * 1.7321;
+    // Each coordinate is off by at most half a step of 2/255; in length sqrt(3) times as much.
+    constexpr double quantisation = 1.0 / 255 * 1.7321;
     for (const char* name : {"brick", "tiles", "hammered"}) {
         const Image<u8vec4> image =
             read_image(assets / "textures" / (std::string(name) + "_normal.png"));
         double error = 0, lowest_z = 1;
         for (const u8vec4 pixel : image.pixels()) {
-            const dvec3 normal = (dvec3(pixel) - 128.0) / 127.0;
+            const dvec3 normal = dvec3(pixel) * (2 / 255.0) - 1.0;
             error = std::max(error, std::abs(glm::length(normal) - 1));
             lowest_z = std::min(lowest_z, normal.z);
         }
@@ -213,7 +213,7 @@ TEST(AssetTextures, NormalsLeanAwayFromTheHeightsWithGreenUp) {
         for (int x = 1; x + 1 < height.size().x; ++x) {
             const ivec2 slope(height[{x + 1, y}].r - height[{x - 1, y}].r,
                               height[{x, y - 1}].r - height[{x, y + 1}].r);
-            const ivec2 lean = ivec2(normal[{x, y}]) - 128;
+            const ivec2 lean = 2 * ivec2(normal[{x, y}]) - 255;
             for (int axis = 0; axis < 2; ++axis)
                 if (std::abs(slope[axis]) > 2) ++(slope[axis] * lean[axis] < 0 ? agree : differ);
         }

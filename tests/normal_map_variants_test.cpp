@@ -84,45 +84,121 @@ TEST(NormalMapVariants, VertexTangentsAreTheMostAccurate) {
     EXPECT_LT(errors_of(16, 8, vertex).rms, errors_of(16, 8, interpolated).rms);
 }
 
-TEST(NormalMapVariants, CodesAreTheNearest) {
-    EXPECT_EQ(code_from_component(-0.504f, 8), 64u);  // the worked example
-    for (const int bits : {4, 5, 6, 8, 10, 16}) {
+TEST(NormalMapVariants, SnormHasItsZeroInTheMiddle) {
+    EXPECT_EQ(component_from_snorm(128), 0.0f);
+    EXPECT_EQ(component_from_snorm(255), 1.0f);
+    EXPECT_EQ(component_from_snorm(1), -1.0f);
+    EXPECT_EQ(component_from_snorm(0), -1.0f) << "one value more below the middle than above";
+    EXPECT_NEAR(component_from_snorm(64), -64 / 127.0f, 1e-7f);
+    for (int bits = 2; bits <= 16; ++bits) {
         const std::uint32_t middle = 1u << (bits - 1);
-        EXPECT_EQ(code_from_component(0, bits), middle);
-        EXPECT_EQ(code_from_component(1, bits), 2 * middle - 1);
-        EXPECT_EQ(code_from_component(-1, bits), 1u);
+        ASSERT_EQ(component_from_snorm(middle, bits), 0.0f) << "the middle value of " << bits;
+        ASSERT_EQ(component_from_snorm(2 * middle - 1, bits), 1.0f) << "the greatest of " << bits;
+        ASSERT_EQ(component_from_snorm(0, bits), -1.0f) << "the least of " << bits;
+        for (std::uint32_t k = 1; k < middle && k < 500; ++k)  // the same on either side
+            ASSERT_EQ(component_from_snorm(middle + k, bits),
+                      -component_from_snorm(middle - k, bits))
+                << bits << " bits, the values " << middle + k << " and " << middle - k;
+    }
+    const Image<u8vec4> flat({2, 2}, {128, 128, 255, 7});
+    for (const Green green : {Green::up, Green::down})
+        EXPECT_EQ(normals_from_snorm(flat, green)[ivec2(1)], vec4(0, 0, 1, 1));
+    const Image<u8vec4> slanted({1, 1}, {192, 160, 240, 255});
+    EXPECT_EQ(normals_from_snorm(slanted, Green::down)[ivec2(0)], vec4(64, -32, 112, 127) / 127.0f);
+}
+
+TEST(NormalMapVariants, FilesAreReadAsUnormUnlessAskedOtherwise) {
+    const Image<u8vec4> image({1, 1}, {64, 128, 192, 255});
+    const vec4 unorm(component_from_unorm(64), component_from_unorm(128), component_from_unorm(192),
+                     1);
+    const vec4 snorm(component_from_snorm(64), 0, component_from_snorm(192), 1);
+    EXPECT_EQ(NormalMapVariant{}.normals(image)[ivec2(0)], unorm);
+    EXPECT_EQ(NormalMapVariant{}.normals_of_bumps(image, Wrap::repeat)[ivec2(0)], unorm)
+        << "coloured";
+    EXPECT_EQ(NormalMapVariant{.format = NormalFormat::snorm}.normals(image)[ivec2(0)], snorm);
+}
+
+TEST(NormalMapVariants, EncodersFindTheNearestValue) {
+    EXPECT_EQ(unorm_from_component(-0.498f, 8), 64u);  // the worked example
+    EXPECT_EQ(unorm_from_component(0, 8), 128u) << "halves upwards";
+    EXPECT_EQ(snorm_from_component(-0.504f, 8), 64u);
+    for (const int bits : {4, 5, 6, 8, 10, 16}) {
+        const std::uint32_t greatest = (1u << bits) - 1, middle = 1u << (bits - 1);
+        EXPECT_EQ(unorm_from_component(1, bits), greatest);
+        EXPECT_EQ(unorm_from_component(-1, bits), 0u);
+        EXPECT_EQ(snorm_from_component(0, bits), middle);
+        EXPECT_EQ(snorm_from_component(1, bits), greatest);
+        EXPECT_EQ(snorm_from_component(-1, bits), 1u);
         std::mt19937 random(2);
         std::uniform_real_distribution<float> any(-1, 1);
         // Half a step; and what floats round on the way there and back.
-        const float half_step = 0.5f / static_cast<float>(middle - 1) + 4e-7f;
+        const float half_step = 1 / static_cast<float>(greatest) + 4e-7f;
+        const float half_step_of_snorm = 0.5f / static_cast<float>(middle - 1) + 4e-7f;
         for (int i = 0; i < 10'000; ++i) {
             const float x = any(random);
-            EXPECT_NEAR(component_from_code(code_from_component(x, bits), bits), x, half_step);
+            EXPECT_NEAR(component_from_unorm(unorm_from_component(x, bits), bits), x, half_step);
+            EXPECT_NEAR(component_from_snorm(snorm_from_component(x, bits), bits), x,
+                        half_step_of_snorm);
         }
-        for (std::uint32_t code = 1; code < 2 * middle; code += 1 + middle / 64)
-            EXPECT_EQ(code_from_component(component_from_code(code, bits), bits), code);
+        for (std::uint32_t value = 1; value <= greatest; value += 1 + middle / 64) {
+            EXPECT_EQ(unorm_from_component(component_from_unorm(value, bits), bits), value);
+            EXPECT_EQ(snorm_from_component(component_from_snorm(value, bits), bits), value);
+        }
     }
 }
 
-TEST(NormalMapVariants, TheLargestAnglesAreThoseOfThePage) {
-    // Half a step in each of three directions, across the normal at most: sqrt(3)/2 of a step.
-    std::mt19937 random(3);
-    std::normal_distribution<double> any;
-    for (const int bits : {8, 10, 16}) {
-        const double step = 1.0 / ((1 << (bits - 1)) - 1);
-        const double bound = std::asin(std::sqrt(0.75) * step) * 180 / std::numbers::pi + 1e-5;
-        long double greatest = 0;
-        for (int i = 0; i < 200'000; ++i) {
+/// @param encode  Called as encode(component, bits).
+/// @param decode  Called as decode(value, bits).
+struct StorageErrors {
+    double greatest = 0, rms = 0;  ///< Degrees.
+    dvec3 mean{0};                 ///< Of the components' errors.
+
+    template <typename Encode, typename Decode>
+    StorageErrors(int bits, Encode encode, Decode decode) {
+        std::mt19937 random(3);
+        std::normal_distribution<double> any;
+        constexpr int count = 200'000;
+        for (int i = 0; i < count; ++i) {
             const dvec3 n = glm::normalize(dvec3(any(random), any(random), std::abs(any(random))));
             vec3 decoded;
             for (int axis = 0; axis < 3; ++axis)
-                decoded[axis] = component_from_code(
-                    code_from_component(static_cast<float>(n[axis]), bits), bits);
-            greatest = std::max(greatest, degrees_off(decoded, TrueTorus::lvec3(n.x, n.y, n.z)));
+                decoded[axis] = decode(encode(static_cast<float>(n[axis]), bits), bits);
+            const auto off =
+                static_cast<double>(degrees_off(decoded, TrueTorus::lvec3(n.x, n.y, n.z)));
+            greatest = std::max(greatest, off), rms += off * off, mean += dvec3(decoded) - n;
         }
-        EXPECT_LE(greatest, bound) << bits;
-        EXPECT_GT(greatest, 0.9 * bound) << bits;
+        rms = std::sqrt(rms / count), mean /= count;
     }
+};
+
+TEST(NormalMapVariants, TheLargestAnglesAreThoseOfThePage) {
+    // Half a step in each of three directions, across the normal at most: sqrt(3)/2 of a step.
+    for (const int bits : {8, 10, 16}) {
+        const auto bound = [](double step) {
+            return std::asin(std::sqrt(0.75) * step) * 180 / std::numbers::pi + 1e-5;
+        };
+        const double of_unorm = bound(2.0 / ((1 << bits) - 1));
+        const double of_snorm = bound(1.0 / ((1 << (bits - 1)) - 1));
+        const StorageErrors unorm(bits, unorm_from_component, component_from_unorm);
+        const StorageErrors snorm(bits, snorm_from_component, component_from_snorm);
+        EXPECT_LE(unorm.greatest, of_unorm) << bits;
+        EXPECT_GT(unorm.greatest, 0.9 * of_unorm) << bits;
+        EXPECT_LE(snorm.greatest, of_snorm) << bits;
+        EXPECT_GT(snorm.greatest, 0.9 * of_snorm) << bits;
+    }
+}
+
+TEST(NormalMapVariants, ADecodingThatIsNotTheEncodersDoublesTheError) {
+    const StorageErrors pair(8, unorm_from_component, component_from_unorm);
+    EXPECT_NEAR(pair.rms, 0.184, 0.001);
+    EXPECT_NEAR(pair.mean.x, 0, 0.0001);
+    const StorageErrors as_snorm(8, unorm_from_component, component_from_snorm);
+    EXPECT_NEAR(as_snorm.rms, 0.37, 0.005);
+    EXPECT_NEAR(as_snorm.greatest, 0.76, 0.01);
+    EXPECT_NEAR(as_snorm.mean.x, -0.0039, 0.0001) << "half a step, in each direction alike";
+    EXPECT_NEAR(as_snorm.mean.y, -0.0039, 0.0001);
+    const StorageErrors as_unorm(8, snorm_from_component, component_from_unorm);
+    EXPECT_NEAR(as_unorm.mean.x, 0.0039, 0.0001);
 }
 
 TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
@@ -131,6 +207,7 @@ TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
                                                  {"--orthonormal", "pixels"},
                                                  {"--normal-map", "tangent"},
                                                  {"--green", "up"},
+                                                 {"--normal-format", "unorm"},
                                                  {"--channels", "xyz"},
                                                  {"--bits", "file"}})
         EXPECT_EQ(drawn(same), plain) << same[0];
@@ -140,6 +217,7 @@ TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
                                                   {"--normal-map", "object"},
                                                   {"--normal-map", "none"},
                                                   {"--green", "down"},
+                                                  {"--normal-format", "snorm"},
                                                   {"--channels", "xy"},
                                                   {"--bits", "4"},
                                                   {"--bits", "5"},
@@ -148,19 +226,21 @@ TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
 }
 
 TEST(NormalMapVariants, FewerBitsAreLessAccurate) {
-    const NormalMapVariant as_file{};
-    const Image<u8vec4> picture =
+    const Image<u8vec4> image =
         read_image(std::filesystem::path(RASTERBOOK_ASSETS) / "textures/hammered_normal.png");
-    const Image<vec4> exact = as_file.normals(picture);
-    double last = 0;
-    for (const int bits : {8, 6, 5, 4}) {
-        const Image<vec4> stored = NormalMapVariant{.bits = bits}.normals(picture);
-        double squares = 0;
-        for (std::size_t i = 0; i < exact.pixels().size(); ++i) {
-            const vec4 off = stored.pixels()[i] - exact.pixels()[i];
-            squares += glm::dot(off, off);
+    for (const NormalFormat format : {NormalFormat::unorm, NormalFormat::snorm}) {
+        const Image<vec4> exact = NormalMapVariant{.format = format}.normals(image);
+        double last = 0;
+        for (const int bits : {8, 6, 5, 4}) {
+            const Image<vec4> stored =
+                NormalMapVariant{.format = format, .bits = bits}.normals(image);
+            double squares = 0;
+            for (std::size_t i = 0; i < exact.pixels().size(); ++i) {
+                const vec4 off = stored.pixels()[i] - exact.pixels()[i];
+                squares += glm::dot(off, off);
+            }
+            EXPECT_GT(squares, last) << bits;
+            last = squares;
         }
-        EXPECT_GT(squares, last) << bits;
-        last = squares;
     }
 }

@@ -42,11 +42,8 @@ inline std::uint8_t encode(double value) {
 
 inline u8vec3 encode(dvec3 color) { return {encode(color.x), encode(color.y), encode(color.z)}; }
 
-/// A unit vector in bytes: 128 is 0, 255 is 1. The flat normal is (128, 128, 255), without error.
-inline u8vec3 encode_normal(dvec3 n) {
-    const auto byte = [](double c) { return std::uint8_t(std::floor(128.5 + 127 * c)); };
-    return {byte(n.x), byte(n.y), byte(n.z)};
-}
+/// A unit vector in bytes, the nearest UNORM values. Of the flat normal: (128, 128, 255).
+inline u8vec3 encode_normal(dvec3 n) { return encode((n + 1.0) / 2.0); }
 
 inline Image<u8vec3> color_image(const Image<Texel>& texels) {
     return paint([&](dvec2 p) { return encode(texels[ivec2(p)].color); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Normals in a picture, as codes or as heights, and the surface normals that they perturb.
+/// Normals in a texture, as UNORM values or as heights, and the surface normals that they perturb.
 /// Introduced in lesson 08; derivation: docs/derivations/08_normal_maps.md.
 #pragma once
 
@@ -17,25 +17,25 @@ namespace rasterbook {
 /// Which way green leads in a normal map: up in the picture as in OpenGL, or down as in Direct3D.
 enum class Green { up, down };
 
-/// A component of a normal, -1 to 1 (Eq. 8.1). The code in the middle is exactly 0, the greatest
-/// exactly 1; with 8 bits those are 128 and 255.
+/// A component of a normal, -1 to 1, as glTF prescribes it (Eq. 8.1): of a UNORM value, 0 to 1,
+/// twice that less 1. The least value is exactly -1 and the greatest exactly 1; none is exactly 0.
 ///
-/// @param code  0 to 2^bits - 1.
-/// @param bits  2 to 16.
-constexpr float component_from_code(std::uint32_t code, int bits = 8) {
-    const float middle = static_cast<float>(1u << (bits - 1));
-    return std::max(-1.0f, (static_cast<float>(code) - middle) / (middle - 1));  // code 0, too
+/// @param value  As the image has it: 0 to 2^bits - 1.
+/// @param bits   2 to 16.
+constexpr float component_from_unorm(std::uint32_t value, int bits = 8) {
+    const float greatest = static_cast<float>((1u << bits) - 1);
+    return (2 * static_cast<float>(value) - greatest) / greatest;  // one rounding
 }
 
-/// The normals of a map, of 8 bits a component, x right, y up and z out of the surface; w is 1.
-/// (128, 128, 255) is (0, 0, 1) without error; other lengths are 1 but for the codes' steps.
-inline Image<vec4> normals_from_codes(const Image<u8vec4>& picture, Green green) {
+/// The normals of a map of 8 bits a component, x right, y up and z out of the surface; w is 1.
+/// Lengths are 1 but for the values' steps. The flat texel (128, 128, 255) is 0.318 degrees off.
+inline Image<vec4> normals_from_unorm(const Image<u8vec4>& image, Green green) {
     const float up = green == Green::up ? 1.0f : -1.0f;
-    Image<vec4> normals(picture.size());
+    Image<vec4> normals(image.size());
     for (std::size_t i = 0; i < normals.pixels().size(); ++i) {
-        const u8vec4 code = picture.pixels()[i];
-        normals.pixels()[i] = {component_from_code(code.r), up * component_from_code(code.g),
-                               component_from_code(code.b), 1};
+        const u8vec4 texel = image.pixels()[i];
+        normals.pixels()[i] = {component_from_unorm(texel.r), up * component_from_unorm(texel.g),
+                               component_from_unorm(texel.b), 1};
     }
     return normals;
 }

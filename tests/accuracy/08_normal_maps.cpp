@@ -60,25 +60,25 @@ std::vector<dvec3> directions(int count) {
     return drawn;
 }
 
-using Codes = glm::vec<3, std::uint16_t>;
+using Texel = glm::vec<3, std::uint16_t>;
 
-/// @param code    Called as code(component, -1 to 1): the nearest code.
-/// @param decode  Called as decode(codes): the normal, of any length.
-template <typename Code, typename Decode>
-void add_storage(const char* name, Code code, Decode decode) {
-    const auto codes_of = [&](dvec3 n) { return Codes(code(n.x), code(n.y), code(n.z)); };
+/// @param encode  Called as encode(component, -1 to 1): the value that is stored.
+/// @param decode  Called as decode(texel): the normal, of any length.
+template <typename Encode, typename Decode>
+void add_storage(const char* name, Encode encode, Decode decode) {
+    const auto texel_of = [&](dvec3 n) { return Texel(encode(n.x), encode(n.y), encode(n.z)); };
     double greatest = 0, greatest_to_60 = 0, squares = 0;
     const std::vector<dvec3> all = directions(1'000'000);
     for (const dvec3 n : all) {
         const auto off =
-            static_cast<double>(degrees_off(decode(codes_of(n)), TrueTorus::lvec3(n.x, n.y, n.z)));
+            static_cast<double>(degrees_off(decode(texel_of(n)), TrueTorus::lvec3(n.x, n.y, n.z)));
         greatest = std::max(greatest, off), squares += off * off;
         if (n.z >= 0.5) greatest_to_60 = std::max(greatest_to_60, off);
     }
     const double flat =
-        static_cast<double>(degrees_off(decode(codes_of({0, 0, 1})), TrueTorus::lvec3(0, 0, 1)));
-    std::vector<Codes> some;
-    for (const dvec3 n : directions(4096)) some.push_back(codes_of(n));
+        static_cast<double>(degrees_off(decode(texel_of({0, 0, 1})), TrueTorus::lvec3(0, 0, 1)));
+    std::vector<Texel> some;
+    for (const dvec3 n : directions(4096)) some.push_back(texel_of(n));
     add_variant("storage", name, static_cast<double>(some.size()),
                 {{"greatest error, degrees", greatest},
                  {"greatest up to 60", greatest_to_60},
@@ -86,24 +86,53 @@ void add_storage(const char* name, Code code, Decode decode) {
                  {"flat", flat}},
                 [=] {
                     [[maybe_unused]] volatile float sink;
-                    for (const Codes& codes : some) {
-                        const vec3 n = decode(codes);
+                    for (const Texel& texel : some) {
+                        const vec3 n = decode(texel);
                         sink = n.x + n.y + n.z;
                     }
                 });
 }
 
+/// What an encoder stores, and what a decoder makes of it, with so many bits a component.
+template <int bits>
+struct Stored {
+    static std::uint16_t unorm(double component) {
+        return static_cast<std::uint16_t>(
+            std::floor((component + 1) / 2 * ((1 << bits) - 1) + 0.5));
+    }
+    static std::uint16_t snorm(double component) {
+        return static_cast<std::uint16_t>(
+            snorm_from_component(static_cast<float>(component), bits));
+    }
+    static vec3 as_unorm(Texel t) {
+        return {component_from_unorm(t.x, bits), component_from_unorm(t.y, bits),
+                component_from_unorm(t.z, bits)};
+    }
+    static vec3 as_snorm(Texel t) {
+        return {component_from_snorm(t.x, bits), component_from_snorm(t.y, bits),
+                component_from_snorm(t.z, bits)};
+    }
+};
+
 template <int bits>
 void add_bits(const char* name, const char* name_of_two) {
-    const auto code = [](double component) {
-        return static_cast<std::uint16_t>(code_from_component(static_cast<float>(component), bits));
-    };
-    const auto decoded = [](Codes c) {
-        return vec3(component_from_code(c.x, bits), component_from_code(c.y, bits),
-                    component_from_code(c.z, bits));
-    };
-    add_storage(name, code, decoded);
-    add_storage(name_of_two, code, [=](Codes c) { return with_z(vec2(decoded(c))); });
+    using S = Stored<bits>;
+    add_storage(name, [](double x) { return S::unorm(x); }, [](Texel t) { return S::as_unorm(t); });
+    add_storage(
+        name_of_two, [](double x) { return S::unorm(x); },
+        [](Texel t) { return with_z(vec2(S::as_unorm(t))); });
+}
+
+/// 8 bits, encoded for one decoding and decoded by the other.
+void add_decodings() {
+    using S = Stored<8>;
+    const auto unorm = [](double x) { return S::unorm(x); };
+    const auto snorm = [](double x) { return S::snorm(x); };
+    const auto as_unorm = [](Texel t) { return S::as_unorm(t); };
+    const auto as_snorm = [](Texel t) { return S::as_snorm(t); };
+    add_storage("8 bits, SNORM", snorm, as_snorm);
+    add_storage("8 bits, UNORM decoded as SNORM", unorm, as_snorm);
+    add_storage("8 bits, SNORM decoded as UNORM", snorm, as_unorm);
 }
 
 /// From black over blue and red to yellow, in eight steps; an error of `most` and above is white.
@@ -150,9 +179,6 @@ int main(int argc, char** argv) {
     add_bits<8>("8 bits", "8 bits, x y");
     add_bits<10>("10 bits", "10 bits, x y");
     add_bits<16>("16 bits", "16 bits, x y");
-    add_storage(
-        "8 bits, no 0",
-        [](double x) { return static_cast<std::uint16_t>(std::floor(127.5 * (x + 1) + 0.5)); },
-        [](Codes c) { return vec3(c) * (2 / 255.0f) - 1.0f; });
+    add_decodings();
     return measure_variants(argc, argv);
 }
