@@ -19,6 +19,7 @@
 #include "assets/generate/materials.hpp"
 #include "assets/generate/models.hpp"
 #include "assets/generate/scenes.hpp"
+#include "assets/generate/shield.hpp"
 #include "assets/generate/teapot.hpp"
 #include "assets/generate/texture.hpp"
 #include "assets/generate/tiles.hpp"
@@ -68,6 +69,9 @@ void write_models(const path& folder, const std::vector<Part>& teapot) {
     write_model(folder, "scene", "Teapot, crate and floor", scene(teapot, "", "crate", "tiles"),
                 porcelain + tea_in_spout + wooden_crate + smooth_tiles);
     write_model(folder, "figure", "A robot with a crate on a platform", figure(), figure_paints);
+    write_model(folder, "shield_mirrored_uvs",
+                "A shield, both halves of which show one half of a texture", {shield("bronze")},
+                embossed_bronze);
     write_model(folder, "scene_bumpy", "Teapot, crate and floor with normal maps",
                 scene(teapot, "copper", "brick", "tiles"),
                 hammered_copper + tea_in_spout + brick_crate + bumpy_tiles);
@@ -101,6 +105,7 @@ void write_textures(const path& folder) {
     write_image(folder / "brick_height.png", height_image(brick));
     write_material(folder, "tiles", paint(tile_texel), tile_relief);
     write_material(folder, "hammered", paint(hammered_texel), hammered_relief);
+    write_image(folder / "shield_normal.png", normal_image(paint(shield_texel), shield_relief));
     write_image(folder / "wood.png", wood_image());
     write_image(folder / "checker.png", paint(checker_texel));
 }

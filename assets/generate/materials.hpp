@@ -50,6 +50,16 @@ map_Ks ../textures/hammered_specular.png
 norm ../textures/hammered_normal.png
 )";
 
+inline const std::string embossed_bronze = R"(
+newmtl bronze
+Ka 0.5 0.3 0.12
+Kd 0.5 0.3 0.12
+Ks 0.8 0.6 0.35
+Ns 25
+illum 2
+norm ../textures/shield_normal.png
+)";
+
 inline const std::string wooden_crate = R"(
 newmtl crate
 Ka 0.9 0.62 0.38
