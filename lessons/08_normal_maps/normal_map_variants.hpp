@@ -14,8 +14,9 @@
 
 namespace rasterbook {
 
-/// Tangents are computed once for a face; for its vertices, from all faces around them; or for each
-/// pixel, from the face's sides and the normal there.
+/// Tangent and bitangent are those of the face, as they lie in it (Eq. 8.3); or tangents are
+/// computed for its vertices, from all faces around them; or for each pixel, from the face's
+/// tangent and the normal there.
 enum class FrameOf { face, vertex, pixel };
 
 /// The frames between vertices are made orthonormal, or are as they are mixed.

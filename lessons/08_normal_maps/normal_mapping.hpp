@@ -92,7 +92,7 @@ struct TriangleNormalMap {
     std::array<vec2, 3> uvs{};
     std::array<vec3, 3> tangents{};  ///< Of the vertices, or thrice that of the face.
     float handedness = 1;
-    TangentFrame face{};  ///< For FrameOf::face.
+    TangentFrame face{};  ///< For FrameOf::face: as Eq. 8.3 finds it.
 };
 
 /// @param scene  With tangents, as make_tangents() leaves them.
@@ -109,22 +109,23 @@ inline TriangleNormalMap triangle_normal_map(const NormalMapVariant& variant, co
     map.bump_multiplier = named.bump_multiplier;
     map.uvs = uvs_of(projected.mesh, projected.triangle, named);
     if (map.space == MapSpace::object) return map;
+    float handedness = 1;
     if (variant.frame == FrameOf::vertex) {
         const std::vector<vec4>& tangents = projected.mesh.tangents;
         for (std::size_t i = 0; i < 3; ++i)
             map.tangents[i] = map.side * vec3(tangents[indices[i].normal]);
-        map.handedness = map.side * tangents[indices[0].normal].w;
-        return map;
+        handedness = tangents[indices[0].normal].w;
+    } else {
+        const UvDirections directions =
+            uv_directions({positions[indices[0].position], positions[indices[1].position],
+                           positions[indices[2].position]},
+                          map.uvs);
+        map.tangents.fill(map.side * directions.tangent);
+        map.face = {map.side * directions.tangent, map.side * directions.bitangent,
+                    map.side * face_normal(projected.mesh, projected.triangle)};
+        if (directions.handedness < 0) handedness = -1;
     }
-    const UvDirections directions =
-        uv_directions({positions[indices[0].position], positions[indices[1].position],
-                       positions[indices[2].position]},
-                      map.uvs);
-    map.handedness = directions.handedness < 0 ? -map.side : map.side;
-    map.tangents.fill(map.side * directions.tangent);
-    map.face =
-        tangent_frame(map.tangents[0], map.side * face_normal(projected.mesh, projected.triangle),
-                      map.handedness);
+    map.handedness = map.side * handedness;
     return map;
 }
 
