@@ -166,7 +166,7 @@ TEST(NormalMaps, HardCase_OnlyMeshesWithMapsHaveTangents) {
 }
 
 TEST(NormalMaps, HardCase_AFlatMapChangesNothing) {
-    look_up("Eq. 8.7, where x = y = 0");
+    look_up("Robust: A flat map changes nothing");
     const std::string flat = plain_picture("flat.png", {128, 128, 255});
     const std::string level = plain_picture("level.png", {77, 77, 77});
     const std::string shiny = "Ks 0.5 0.5 0.5\nNs 20\n";
@@ -191,7 +191,7 @@ TEST(NormalMaps, HardCase_AFlatMapChangesNothing) {
 }
 
 TEST(NormalMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
-    look_up("Eq. 8.7, where x = y = 0");
+    look_up("Robust: A flat map changes nothing");
     for (const char* model :
          {"scene.obj", "teapot.obj", "crate.obj", "scene_bumpy.obj", "crate_bump.obj"}) {
         const Scene scene = loaded(model);
@@ -267,7 +267,7 @@ TEST(NormalMaps, HardCase_AMapOfOneNormalIsASlantedSurface) {
 }
 
 TEST(NormalMaps, HardCase_ObjectSpaceMapsNeedNoFrame) {
-    look_up("maps in object space");
+    look_up("Robust: Maps in object space");
     // A floor that faces up: in object space (0, 1, 0) is flat.
     const std::string floor =
         "mtllib m.mtl\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -292,7 +292,7 @@ TEST(NormalMaps, HardCase_ObjectSpaceMapsNeedNoFrame) {
 }
 
 TEST(NormalMaps, HardCase_BacksOfFaces) {
-    look_up("Eq. 8.7, seen from behind");
+    look_up("Robust: Seen from behind, and in mirrored copies");
     // From behind a dent is a bump: as a square that looks there, with the texture mirrored and
     // steep the other way.
     const std::string map = textures + "hammered_normal.png\n";
@@ -310,6 +310,73 @@ TEST(NormalMaps, HardCase_BacksOfFaces) {
         EXPECT_GT(
             share_that_differs(picture_of(square_of("norm " + map, from_behind), options), front),
             0.1);
+    }
+}
+
+namespace {
+
+/// The share of a model's pixels whose red, green or blue differs by more than so many levels.
+double share_that_is_other(const Image<vec3>& a, const Image<vec3>& b, int levels) {
+    const Image<u8vec3> code_a = srgb8_from_linear(a), code_b = srgb8_from_linear(b),
+                        around = srgb8_from_linear(backdrop(a.size()));
+    double of_model = 0, other = 0;
+    for (std::size_t i = 0; i < code_a.pixels().size(); ++i) {
+        if (code_a.pixels()[i] == around.pixels()[i]) continue;
+        ++of_model;
+        other += greatest_difference(u8vec4(code_a.pixels()[i], 255),
+                                     u8vec4(code_b.pixels()[i], 255)) > levels;
+    }
+    return other / of_model;
+}
+
+}  // namespace
+
+TEST(NormalMaps, HardCase_WrongHandednessShowsOnMirroredHalves) {
+    look_up("Eq. 8.4, The mirror");
+    const Scene shield = loaded("shield_mirrored_uvs.obj");
+    for (const FrameOf frame : {FrameOf::vertex, FrameOf::pixel}) {
+        lesson_08::Options options = small_picture();
+        options.orbit.distance = 2.7f;
+        options.normal_map.frame = frame;
+        const Image<vec3> right = picture_of(shield, options);
+        options.normal_map.handedness = Handedness::ignored;
+        const Image<vec3> wrong = picture_of(shield, options);
+        // 38% of the shield's pixels, and 18%.
+        EXPECT_GT(share_that_is_other(right, wrong, 4), 0.35)
+            << "of the shield's pixels differ by more than 4 of 255 if no handedness is used";
+        EXPECT_GT(share_that_is_other(right, wrong, 16), 0.15)
+            << "of the shield's pixels differ by more than 16 of 255 if no handedness is used";
+        EXPECT_LT(share_that_is_other(right, wrong, 4), 0.5) << "one half of it is not mirrored";
+    }
+}
+
+TEST(NormalMaps, HardCase_MirroredHalvesLookLikeAWholeTexture) {
+    look_up("Eq. 8.4, The mirror");
+    // The shield's texture has both halves. What its left half shows mirrored is there once more as
+    // it is to look: with v beyond 0.5, and nothing is mirrored any more.
+    const Scene mirrored = loaded("shield_mirrored_uvs.obj");
+    Scene whole = mirrored;
+    int changed = 0;
+    for (Mesh& mesh : whole.meshes)
+        for (Triangle& triangle : mesh.triangles) {
+            const auto uv = [&](std::size_t i) { return mesh.uvs[triangle.vertices[i].uv]; };
+            const vec2 d1 = uv(1) - uv(0), d2 = uv(2) - uv(0);
+            if (d1.x * d2.y > d2.x * d1.y) continue;
+            ++changed;
+            for (Vertex& vertex : triangle.vertices) {
+                const vec2 of_other_half = mesh.uvs[vertex.uv];
+                vertex.uv = static_cast<std::uint32_t>(mesh.uvs.size());
+                mesh.uvs.emplace_back(of_other_half.x, 1 - of_other_half.y);
+            }
+        }
+    ASSERT_GT(changed, 100);
+    for (const FrameOf frame : all_frames) {
+        lesson_08::Options options = small_picture();
+        options.orbit.distance = 2.7f;
+        options.normal_map.frame = frame;
+        EXPECT_LT(share_that_is_other(picture_of(mirrored, options), picture_of(whole, options), 2),
+                  0.001)
+            << "of the shield's pixels differ, one half of it mirrored in the texture or not";
     }
 }
 
@@ -377,7 +444,7 @@ TEST(NormalMaps, HardCase_MissingAndBrokenMaps) {
 }
 
 TEST(NormalMaps, HardCase_DegenerateUvs) {
-    look_up("Eq. 8.5, where nothing is left");
+    look_up("Robust: Where no tangent is left");
     const std::string begin = "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
     const std::string map = "Ks 1 1 1\nNs 5\nnorm " + textures + "hammered_normal.png\n";
     for (const std::string uvs :
@@ -425,6 +492,11 @@ TEST(NormalMaps, HardCase_ModelsOfAllSizes) {
 
 TEST(NormalMaps, PictureOfTheScene) {
     EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps"));
+}
+
+TEST(NormalMaps, PictureOfMirroredHalves) {
+    EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps_mirrored_uvs",
+                              {"--model", "shield_mirrored_uvs.obj", "--distance", "2.7"}));
 }
 
 TEST(NormalMaps, PictureOfHeights) {

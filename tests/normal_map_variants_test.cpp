@@ -205,6 +205,7 @@ TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
     const Image<u8vec4> plain = drawn({});
     for (const std::vector<std::string>& same : {std::vector<std::string>{"--frame", "vertex"},
                                                  {"--orthonormal", "pixels"},
+                                                 {"--handedness", "uvs"},
                                                  {"--normal-map", "tangent"},
                                                  {"--green", "up"},
                                                  {"--normal-format", "unorm"},
@@ -223,6 +224,9 @@ TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
                                                   {"--bits", "5"},
                                                   {"--bits", "6"}})
         EXPECT_NE(drawn(other), plain) << other[0] << " " << other[1];
+    const std::string mirrored = "shield_mirrored_uvs.obj";
+    EXPECT_NE(drawn({"--model", mirrored, "--handedness", "ignored"}),
+              drawn({"--model", mirrored}));
 }
 
 TEST(NormalMapVariants, FewerBitsAreLessAccurate) {

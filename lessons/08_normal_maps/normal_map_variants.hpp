@@ -2,7 +2,8 @@
 /// @file
 /// Where frames are computed and how exactly, and how normals are stored, to be seen with
 /// `--frame`, `--orthonormal`, `--normal-format`, `--channels` and `--bits`, and measured in
-/// docs/accuracy/08_normal_maps.md; and what a map's normals mean: `--normal-map`, `--green`.
+/// docs/accuracy/08_normal_maps.md; and what a map's normals mean: `--normal-map`, `--green`,
+/// `--handedness`.
 #pragma once
 
 #include <algorithm>
@@ -25,6 +26,9 @@ enum class Orthonormal { at_pixels, at_vertices };
 /// What `norm` names: normals in the frames of the surface, or as they stand in the model; or
 /// neither `norm` nor `map_Bump` is read.
 enum class MapSpace { tangent, object, none };
+
+/// The bitangents of vertices and pixels point to where v grows; or as if no texture were mirrored.
+enum class Handedness { of_uvs, ignored };
 
 /// A map holds all of a normal, or x and y only.
 enum class Channels { xyz, xy };
@@ -74,6 +78,7 @@ inline Image<vec4> normals_from_snorm(const Image<u8vec4>& image, Green green) {
 struct NormalMapVariant {
     FrameOf frame = FrameOf::vertex;
     Orthonormal orthonormal = Orthonormal::at_pixels;
+    Handedness handedness = Handedness::of_uvs;
     MapSpace space = MapSpace::tangent;
     Green green = Green::up;
     NormalFormat format = NormalFormat::unorm;
@@ -88,6 +93,9 @@ struct NormalMapVariant {
         knobs.choice("--orthonormal", orthonormal,
                      {{"pixels", Orthonormal::at_pixels}, {"vertices", Orthonormal::at_vertices}},
                      "Frames are made orthonormal at each pixel, or only at the vertices");
+        knobs.choice("--handedness", handedness,
+                     {{"uvs", Handedness::of_uvs}, {"ignored", Handedness::ignored}},
+                     "Bitangents point to where v grows, or as if no texture were mirrored");
         knobs.choice("--normal-map", space,
                      {{"tangent", MapSpace::tangent},
                       {"object", MapSpace::object},

@@ -125,7 +125,7 @@ inline TriangleNormalMap triangle_normal_map(const NormalMapVariant& variant, co
                     map.side * face_normal(projected.mesh, projected.triangle)};
         if (directions.handedness < 0) handedness = -1;
     }
-    map.handedness = map.side * handedness;
+    map.handedness = map.side * (variant.handedness == Handedness::ignored ? 1 : handedness);
     return map;
 }
 
