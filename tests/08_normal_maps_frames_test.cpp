@@ -482,7 +482,7 @@ TEST(NormalMaps, Eq8_6_AnglesCountAndNotTheNumberOfTriangles) {
 }
 
 TEST(NormalMaps, HardCase_NoAreaInTheTexture) {
-    look_up("Eq. 8.4, no area");
+    look_up("Robust: A triangle without area in the texture");
     const float infinity = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
     const std::array<vec3, 3> p{vec3(0), along_x, along_y};
     // Two uvs are equal; all are; they lie on a line; they are not numbers.
@@ -587,7 +587,7 @@ TEST(NormalMaps, HardCase_TexturesOfAnySize) {
 }
 
 TEST(NormalMaps, HardCase_TangentAlongTheNormal) {
-    look_up("Eq. 8.5, where nothing is left");
+    look_up("Robust: Where no tangent is left");
     for (const vec3 n : {along_x, along_y, along_z, -along_z, vec3(0.6f, 0, 0.8f),
                          unit_or(vec3(1), along_x), unit_or(vec3(-3, 1, 2), along_x)})
         for (const float length : {-1e30f, -1.0f, 0.0f, 1e-30f, 1.0f, 1e30f}) {
@@ -628,7 +628,7 @@ TEST(NormalMaps, HardCase_ZeroNormal) {
 }
 
 TEST(NormalMaps, HardCase_OrderDoesNotMatter) {
-    look_up("Eq. 8.6, no order");
+    look_up("Robust: The order must not matter");
     // A closed fan of crumpled triangles around a vertex, some of them mirrored, some without area.
     std::mt19937 random(5);
     std::uniform_real_distribution<float> any(-1, 1);
@@ -739,7 +739,7 @@ TEST(NormalMaps, Eq8_6_FansOfSlantedFaces) {
 }
 
 TEST(NormalMaps, HardCase_NegativeZeroIsTheSamePosition) {
-    look_up("Eq. 8.6, -0 is 0");
+    look_up("Robust: Which vertices are the same");
     // The square of two triangles, of which the second has its own vertices, with -0 for 0.
     const float c = 0.6f, s = 0.8f;  // its texture is turned
     const Patch patch(
@@ -755,7 +755,7 @@ TEST(NormalMaps, HardCase_NegativeZeroIsTheSamePosition) {
 }
 
 TEST(NormalMaps, HardCase_AnyVertexMayComeFirst) {
-    look_up("Eq. 8.6, no order");
+    look_up("Robust: The order must not matter");
     // Needles, in space and in the texture: what is left of Eq. 8.3's difference is mostly
     // rounding, and another vertex to start from would round otherwise.
     std::mt19937 random(9);
@@ -797,7 +797,7 @@ TEST(NormalMaps, HardCase_TangentsThatCancel) {
 }
 
 TEST(NormalMaps, HardCase_TransformedModels) {
-    look_up("Eq. 4.15, and what goes with it");
+    look_up("Robust: Models that are transformed");
     // What is found on the stretched model is what the matrices make of what was found before it:
     // tangents transform like points, normals by the cofactor matrix.
     // The roof of the worked example.

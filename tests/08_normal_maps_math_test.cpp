@@ -216,7 +216,7 @@ struct NormalMappedTriangle {
 }  // namespace
 
 TEST(NormalMaps, HardCase_SpecialNumbersOfFrames) {
-    look_up("Eq. 8.5, where nothing is left");
+    look_up("Robust: Where no tangent is left");
     SpecialNumbers mix(4);
     for (int i = 0; i < special_cases; ++i) {
         const std::array p{mix.any_three(), mix.any_three(), mix.any_three()};

@@ -171,7 +171,7 @@ TEST(NormalMaps, Eq8_7_TheMapsNormalInTheFrame) {
 }
 
 TEST(NormalMaps, HardCase_AFlatNormalPerturbsNothing) {
-    look_up("Eq. 8.7, where x = y = 0");
+    look_up("Robust: A flat map changes nothing");
     const Image<vec4> flat({4, 4}, vec4(out_of_the_surface, 1));
     const TangentFrame frame = some_frame();
     const vec3 interpolated = 0.97f * frame.normal;  // not of length 1
@@ -191,7 +191,7 @@ TEST(NormalMaps, HardCase_AFlatNormalPerturbsNothing) {
 }
 
 TEST(NormalMaps, HardCase_TheFlatTexelIsAThirdOfADegreeOff) {
-    look_up("Eq. 8.1, the flat texel");
+    look_up("Robust: No byte is zero");
     const vec3 flat(
         normals_from_unorm(Image<u8vec4>({1, 1}, {128, 128, 255, 255}), Green::up)[{0, 0}]);
     EXPECT_NEAR(degrees_between(flat, out_of_the_surface), 0.318, 0.001)
@@ -201,7 +201,7 @@ TEST(NormalMaps, HardCase_TheFlatTexelIsAThirdOfADegreeOff) {
 }
 
 TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
-    look_up("Eq. 8.1, green");
+    look_up("Robust: Up or down");
     // The same surface, stored either way, and read as it is stored.
     const Image<u8vec4> up =
         read_image(std::filesystem::path(RASTERBOOK_ASSETS) / "textures/hammered_normal.png");
@@ -349,7 +349,7 @@ TEST(NormalMaps, HardCase_HeightsThatAreAllEqualAreFlat) {
 }
 
 TEST(NormalMaps, HardCase_MirroredCopiesOfAMap) {
-    look_up("Eq. 8.7, mirrored copies");
+    look_up("Robust: Seen from behind, and in mirrored copies");
     // The normals all point to the right and up: in a mirrored copy they point to the left.
     Texture texture = make_texture(Image<vec4>({8, 8}, vec4(0.6f, 0.48f, 0.64f, 1)), Wrap::mirror);
     const auto at = [&](vec2 uv) {
@@ -369,7 +369,7 @@ TEST(NormalMaps, HardCase_MirroredCopiesOfAMap) {
 }
 
 TEST(NormalMaps, HardCase_ColouredHeightsAreNormals) {
-    look_up("Eq. 8.9, coloured pictures");
+    look_up("Robust: Heights, or normals after all");
     EXPECT_TRUE(is_gray(Image<u8vec4>({3, 3}, {7, 7, 7, 1})));
     EXPECT_TRUE(is_gray(Image<u8vec4>()));
     EXPECT_FALSE(is_gray(Image<u8vec4>({3, 3}, {128, 128, 255, 255})));

@@ -14,7 +14,7 @@
 
 namespace rasterbook {
 
-/// Which way green leads in a normal map: up in the picture as in OpenGL, or down as in Direct3D.
+/// Where green points in a normal map: up in the image as in OpenGL, or down as in Direct3D.
 enum class Green { up, down };
 
 /// A component of a normal, -1 to 1, as glTF prescribes it (Eq. 8.1): of a UNORM value, 0 to 1,
@@ -40,17 +40,17 @@ inline Image<vec4> normals_from_unorm(const Image<u8vec4>& image, Green green) {
     return normals;
 }
 
-/// The normals of a map of heights, not yet of length 1: how much the surface falls to the right
-/// and upwards in the picture, and 1 (Eq. 8.9). A map of one height has (0, 0, 1) everywhere.
+/// The normals of a height map, of which z is 1: the slope down to the right, the slope down
+/// upwards in the image, and 1 (Eq. 8.9). A map of one height has (0, 0, 1) everywhere.
 ///
-/// @param picture  Its red is the height: code 255 lies one side of the picture above code 0.
-/// @param wrap     What lies beyond the picture's borders.
-inline Image<vec4> normals_from_heights(const Image<u8vec4>& picture, Wrap wrap) {
-    const ivec2 size = picture.size();
+/// @param image  Its red is the height: 255 lies one side of the image above 0.
+/// @param wrap   What lies beyond the image's borders.
+inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, Wrap wrap) {
+    const ivec2 size = image.size();
     const auto height = [&](ivec2 texel) {
         texel =
             wrap == Wrap::repeat ? (texel + size) % size : glm::clamp(texel, ivec2(0), size - 1);
-        return static_cast<float>(picture[texel].r) / 255.0f;
+        return static_cast<float>(image[texel].r) / 255.0f;
     };
     const vec2 per_two_texels = 0.5f * vec2(size);
     Image<vec4> normals(size);
@@ -63,21 +63,21 @@ inline Image<vec4> normals_from_heights(const Image<u8vec4>& picture, Wrap wrap)
     return normals;
 }
 
-/// Whether red, green and blue are the same in all texels. A `map_Bump` should be such a picture of
-/// heights; some exporters write their normal maps there.
-inline bool is_gray(const Image<u8vec4>& picture) {
-    return std::ranges::all_of(picture.pixels(), [](u8vec4 c) { return c.r == c.g && c.g == c.b; });
+/// Whether red, green and blue are the same in all texels. A `map_Bump` should be such a height
+/// map; some exporters write their normal maps there.
+inline bool is_gray(const Image<u8vec4>& image) {
+    return std::ranges::all_of(image.pixels(), [](u8vec4 c) { return c.r == c.g && c.g == c.b; });
 }
 
 /// The third component of a normal of length 1 from the other two (Eq. 8.8); 0 where they are too
 /// long for one.
 inline vec3 with_z(vec2 xy) { return {xy, std::sqrt(std::max(0.0f, 1 - glm::dot(xy, xy)))}; }
 
-/// What a normal map has in a fragment, in the directions in which the texture's coordinates grow.
-/// It is shorter than 1 where different normals are mixed.
+/// A sample of a normal map, in the directions in which the texture coordinates grow. It is shorter
+/// than 1 where different normals are interpolated.
 inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentUv& uv) {
     vec3 normal(sample(texture, filter, uv));
-    // In each second copy of a mirrored picture its right is on the left.
+    // In each second copy of a mirrored texture its right is on the left.
     if (texture.wrap == Wrap::mirror)
         for (int axis = 0; axis < 2; ++axis) {
             const float there_and_back = 0.5f * uv.here[axis];

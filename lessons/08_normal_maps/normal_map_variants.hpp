@@ -20,17 +20,17 @@ namespace rasterbook {
 /// tangent and the normal there.
 enum class FrameOf { face, vertex, pixel };
 
-/// The frames between vertices are made orthonormal, or are as they are mixed.
+/// The frames between vertices are made orthonormal, or are as they are interpolated.
 enum class Orthonormal { at_pixels, at_vertices };
-
-/// What `norm` names: normals in the frames of the surface, or as they stand in the model; or
-/// neither `norm` nor `map_Bump` is read.
-enum class MapSpace { tangent, object, none };
 
 /// The bitangents of vertices and pixels point to where v grows; or as if no texture were mirrored.
 enum class Handedness { of_uvs, ignored };
 
-/// A map holds all of a normal, or x and y only.
+/// What `norm` names: normals in tangent space, or in the model's space; or neither `norm` nor
+/// `map_Bump` is read.
+enum class MapSpace { tangent, object, none };
+
+/// A map stores all of a normal, or x and y only.
 enum class Channels { xyz, xy };
 
 constexpr int bits_of_file = 0;  ///< For NormalMapVariant::bits: as the file has them.
@@ -100,15 +100,15 @@ struct NormalMapVariant {
                      {{"tangent", MapSpace::tangent},
                       {"object", MapSpace::object},
                       {"none", MapSpace::none}},
-                     "Normals in a map stand in the surface's frames, or in the model's space; or "
-                     "maps are not read");
+                     "Maps have normals in tangent space, or in the model's space; or are not "
+                     "read");
         knobs.choice("--green", green, {{"up", Green::up}, {"down", Green::down}},
-                     "Where green leads in a normal map: up as in OpenGL, or down as in Direct3D");
+                     "Green points up in a normal map, as in OpenGL, or down, as in Direct3D");
         knobs.choice("--normal-format", format,
                      {{"unorm", NormalFormat::unorm}, {"snorm", NormalFormat::snorm}},
                      "Values 0 to 255 stand for -1 to 1, or 128 is 0 and 255 is 1");
         knobs.choice("--channels", channels, {{"xyz", Channels::xyz}, {"xy", Channels::xy}},
-                     "A map holds x, y and z, or z is found from the other two");
+                     "A map stores x, y and z, or z is computed from the other two");
         knobs.choice("--bits", bits,
                      {{"4", 4}, {"5", 5}, {"6", 6}, {"8", 8}, {"file", bits_of_file}},
                      "Normals are stored with so many bits a component");

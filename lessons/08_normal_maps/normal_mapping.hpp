@@ -24,7 +24,7 @@ namespace rasterbook {
 /// The normal maps of a scene: for each material.
 struct NormalMaps {
     MaterialTextures textures;     ///< `norm`, or else `map_Bump`; null for what is not lit.
-    std::vector<MapSpace> spaces;  ///< In which its normals stand.
+    std::vector<MapSpace> spaces;  ///< Of its normals.
 };
 
 /// @param all_effects  A lit material without a map is given one that changes nothing.
@@ -70,7 +70,7 @@ inline const TextureMap& normal_map_of(const Material& material) {
     return material.normal_map.file.empty() ? material.bump_map : material.normal_map;
 }
 
-/// Gives each mesh tangents for which a normal map in tangent space calls.
+/// Gives tangents to each mesh that a normal map in tangent space calls for.
 inline void make_tangents(Scene& scene, const NormalMaps& maps, const NormalMapVariant& variant) {
     if (variant.frame != FrameOf::vertex) return;
     for (Mesh& mesh : scene.meshes)
@@ -85,12 +85,12 @@ inline void make_tangents(Scene& scene, const NormalMaps& maps, const NormalMapV
 
 /// A triangle's normal map, and what its vertices have for it.
 struct TriangleNormalMap {
-    const Texture* texture = nullptr;  ///< Null where there is no map; then the rest means nothing.
+    const Texture* texture = nullptr;  ///< Null if there is no map; then the rest means nothing.
     MapSpace space = MapSpace::tangent;
-    float side = 1;             ///< -1 as seen from behind: what stands out there is a dent here.
+    float side = 1;             ///< -1 as seen from behind: a bump in front is a dent there.
     float bump_multiplier = 1;  ///< -bm
     std::array<vec2, 3> uvs{};
-    std::array<vec3, 3> tangents{};  ///< Of the vertices, or thrice that of the face.
+    std::array<vec3, 3> tangents{};  ///< Of the vertices, or three times that of the face.
     float handedness = 1;
     TangentFrame face{};  ///< For FrameOf::face: as Eq. 8.3 finds it.
 };
@@ -140,7 +140,7 @@ inline TangentFrame frame_at(const TriangleNormalMap& map, const NormalMapVarian
     return tangent_frame(tangent, normal, map.handedness);
 }
 
-/// The normal that a map makes of a surface's own.
+/// A fragment's normal, perturbed by the map.
 ///
 /// @param normal  Interpolated, not yet scaled.
 /// @return        Of any length.
@@ -157,7 +157,7 @@ vec3 normal_mapped(const TriangleNormalMap& map, const NormalMapVariant& variant
     return perturbed(frame_at(map, variant, at.here, normal), in_map, normal);
 }
 
-/// Where the key light stands: low, so that its light rakes over what stands out.
+/// The direction to the key light: low, so that its light rakes over the surface.
 constexpr vec3 low_key(-1.2f, 0.3f, 0.22f);
 
 }  // namespace rasterbook

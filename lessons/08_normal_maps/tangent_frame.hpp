@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How a texture lies on a surface: which way u grows, which way v, which way is out. Introduced in
-/// lesson 08; derivation: docs/derivations/08_normal_maps.md.
+/// Tangent frames: how a texture lies on a surface. Introduced in lesson 08; derivation:
+/// docs/derivations/08_normal_maps.md.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace rasterbook {
 
-/// Which way the texture's coordinates grow on a triangle.
+/// The directions in which the texture coordinates grow on a triangle.
 struct UvDirections {
     vec3 tangent{0};     ///< u grows, v stays; length 1, or 0 where there is no such direction.
     vec3 bitangent{0};   ///< v grows, u stays; the same.
@@ -36,10 +36,10 @@ struct UvDirections {
 /// @param positions,uvs  Of the vertices. Any numbers: with a uv that is not finite, the handedness
 ///          is 0; with a position that is not, it is that of the uvs, and both directions are 0.
 /// @return  Of one texture and surface whatever its size. The sides are taken from the first
-///          vertex: another one that comes first changes roundings. In double, an error of 2^-51
-///          times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is
-///          exact where the differences of the uvs are: between numbers that are 0 or less than
-///          2^29 times each other.
+///          vertex: another one that comes first changes roundings. All is computed in double, with
+///          an error of 2^-51 times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, and then rounded to
+///          float. The handedness is exact where the differences of the uvs are: between numbers
+///          that are 0 or less than 2^29 times each other.
 inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
                                   const std::array<vec2, 3>& uvs) {
     // double: products of floats may overflow or vanish
@@ -49,13 +49,13 @@ inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
     const double determinant = difference_of_products(d1.x, d2.y, d2.x, d1.y);
     const int handedness = (determinant > 0) - (determinant < 0);  // Eq. 8.4
     if (handedness == 0 || !std::isfinite(determinant)) return {};
-    // Eq. 8.3. Only directions count: of what they are divided by, the sign is enough.
+    // Eq. 8.3. Only directions count: of the determinant, the sign is enough.
     const double sign = handedness;
     return {vec3(normalize_or(sign * (d2.y * e1 - d1.y * e2), dvec3(0))),
             vec3(normalize_or(sign * (d1.x * e2 - d2.x * e1), dvec3(0))), handedness};
 }
 
-/// What is left of v when all that leads along the normal is taken away (Eq. 8.5).
+/// What is left of v when its component along the normal is taken away (Eq. 8.5).
 ///
 /// @param normal  Length 1.
 template <typename F>
@@ -63,7 +63,8 @@ Vec3<F> across(Vec3<F> v, Vec3<F> normal) {
     return v - glm::dot(v, normal) * normal;
 }
 
-/// A direction across n: along the axis to which n leans least, as far as n lets it.
+/// A direction perpendicular to n: along the axis, x, y or z, along which n is shortest in absolute
+/// value (the first of equals), less its component along n.
 ///
 /// @param n  Length 1.
 /// @return   Length 1.
@@ -76,21 +77,21 @@ Vec3<F> any_orthogonal(Vec3<F> n) {
     return unit_or(across(axis, n), axis);
 }
 
-/// Three directions at right angles, each of length 1: the TBN basis.
+/// The TBN basis: three directions at right angles, each of length 1.
 template <typename F>
 struct TangentBasis {
     Vec3<F> tangent, bitangent, normal;
 };
 using TangentFrame = TangentBasis<float>;
 
-/// More of the square of a tangent's length than this has to be left across the normal for one step
-/// to be exact enough: the tangent stood less than 30 degrees away from what it becomes.
+/// More of the square of a tangent's length than this has to be left perpendicular to the normal
+/// for one step to be exact enough: the tangent was less than 30 degrees away from what it becomes.
 constexpr float mostly = 0.75f;
 
-/// Where no more than this is left of the square, 2^-20 of the length, it has no true digit.
+/// If no more than this is left of the square, 2^-20 of the length, it has no true digit.
 constexpr float hardly_any = 0x1p-40f;
 
-/// What is left of a tangent across the normal, scaled to length 1 (Eq. 8.5).
+/// What is left of a tangent perpendicular to the normal, scaled to length 1 (Eq. 8.5).
 ///
 /// @param tangent  Any numbers.
 /// @param normal   Length 1.
@@ -114,9 +115,9 @@ Vec3<F> unit_orthogonal(Vec3<F> tangent, Vec3<F> normal) {
 
 /// The frame at a point (Eq. 8.5).
 ///
-/// @param tangent     Any numbers; where it has no direction across the normal, any_orthogonal()
-/// has.
-/// @param normal      Of any length; where it has no direction, up.
+/// @param tangent     Any numbers; any_orthogonal() takes its place where nothing of it is
+///                    perpendicular to the normal.
+/// @param normal      Of any length; up where it is zero-length or not finite.
 /// @param handedness  -1 or 1.
 /// @return            Orthonormal within 2^-20, also for numbers that are not finite.
 template <typename F>
@@ -139,7 +140,7 @@ struct TangentShare {
 ///
 /// @param mesh  As complete_normals() leaves it: each vertex has a normal of its own.
 /// @param uvs   Of the triangle's vertices.
-/// @return      A share of 0 where there is no direction across the normal.
+/// @return      A share of 0 where nothing of the tangent is perpendicular to the normal.
 inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
                                   const std::array<vec2, 3>& uvs, std::size_t vertex) {
     const std::size_t next = (vertex + 1) % 3, last = (vertex + 2) % 3;
@@ -167,17 +168,16 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
 }
 
 /// A tangent for each vertex: the mean of those of the triangles around it, weighted by their
-/// angles there (Eq. 8.6). Vertices with the same place, normal and uv share one, but for those
-/// with the other handedness: a mirrored texture has tangents that point against each other.
+/// angles there (Eq. 8.6). Vertices with the same position, normal, uv and handedness share one.
 ///
 /// Sums of whole numbers have no order: neither that of the triangles nor that of the vertices
-/// changes a bit. There may be 2^20 triangles in one place.
+/// changes a bit. Up to 2^20 triangles may share a vertex.
 ///
 /// @param mesh    As complete_normals() leaves it: each vertex has a normal of its own.
 /// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
-/// @return        For each of the mesh's normals: tangent, of length 1 and across the normal, and
-///                handedness, that of the triangles, -1 or 1; 1 where theirs is 0. Where no
-///                triangle has a direction across the normal, the tangent is any_orthogonal().
+/// @return        For each of the mesh's normals: tangent, of length 1 and perpendicular to the
+///                normal, and handedness, that of the triangles, -1 or 1; 1 where theirs is 0.
+///                Where no triangle adds anything, the tangent is any_orthogonal().
 template <std::invocable<const Triangle&> UvsOf>
 std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
     std::vector<TangentShare> shares;

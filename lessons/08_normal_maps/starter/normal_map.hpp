@@ -14,7 +14,7 @@
 
 namespace rasterbook {
 
-/// Which way green leads in a normal map: up in the picture as in OpenGL, or down as in Direct3D.
+/// Where green points in a normal map: up in the image as in OpenGL, or down as in Direct3D.
 enum class Green { up, down };
 
 /// A component of a normal, -1 to 1, as glTF prescribes it (Eq. 8.1): of a UNORM value, 0 to 1,
@@ -30,26 +30,26 @@ constexpr float component_from_unorm(std::uint32_t value, int bits = 8) {
 /// The normals of a map of 8 bits a component, x right, y up and z out of the surface; w is 1.
 /// Lengths are 1 but for the values' steps. The flat texel (128, 128, 255) is 0.318 degrees off.
 inline Image<vec4> normals_from_unorm(const Image<u8vec4>& image, Green green) {
-    // TODO: component_from_unorm() of red, green and blue; green down changes the sign of y. w
+    // TODO: component_from_unorm() of red, green and blue; green down changes the sign of y; w
     // is 1.
     return Image<vec4>(image.size(), vec4(0, 0, 1, 1));
 }
 
-/// The normals of a map of heights, not yet of length 1: how much the surface falls to the right
-/// and upwards in the picture, and 1 (Eq. 8.9). A map of one height has (0, 0, 1) everywhere.
+/// The normals of a height map, of which z is 1: the slope down to the right, the slope down
+/// upwards in the image, and 1 (Eq. 8.9). A map of one height has (0, 0, 1) everywhere.
 ///
-/// @param picture  Its red is the height: code 255 lies one side of the picture above code 0.
-/// @param wrap     What lies beyond the picture's borders.
-inline Image<vec4> normals_from_heights(const Image<u8vec4>& picture, Wrap wrap) {
-    // TODO: Eq. 8.9 with s = 1; red over 255 is the height, and w is 1. Beyond the border: the
-    // opposite one for Wrap::repeat, else the border itself.
-    return Image<vec4>(picture.size(), vec4(0, 0, 1, 1));
+/// @param image  Its red is the height: 255 lies one side of the image above 0.
+/// @param wrap   What lies beyond the image's borders.
+inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, Wrap wrap) {
+    // TODO: Eq. 8.9 with s = 1; red over 255 is the height; z and w are 1. Beyond the border: the
+    // texel at the opposite one for Wrap::repeat, else that at the border itself.
+    return Image<vec4>(image.size(), vec4(0, 0, 1, 1));
 }
 
-/// Whether red, green and blue are the same in all texels. A `map_Bump` should be such a picture of
-/// heights; some exporters write their normal maps there.
-inline bool is_gray(const Image<u8vec4>& picture) {
-    return std::ranges::all_of(picture.pixels(), [](u8vec4 c) { return c.r == c.g && c.g == c.b; });
+/// Whether red, green and blue are the same in all texels. A `map_Bump` should be such a height
+/// map; some exporters write their normal maps there.
+inline bool is_gray(const Image<u8vec4>& image) {
+    return std::ranges::all_of(image.pixels(), [](u8vec4 c) { return c.r == c.g && c.g == c.b; });
 }
 
 /// The third component of a normal of length 1 from the other two (Eq. 8.8); 0 where they are too
@@ -59,11 +59,11 @@ inline vec3 with_z(vec2 xy) {
     return {xy, 1};
 }
 
-/// What a normal map has in a fragment, in the directions in which the texture's coordinates grow.
-/// It is shorter than 1 where different normals are mixed.
+/// A sample of a normal map, in the directions in which the texture coordinates grow. It is shorter
+/// than 1 where different normals are interpolated.
 inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentUv& uv) {
     vec3 normal(sample(texture, filter, uv));
-    // In each second copy of a mirrored picture its right is on the left.
+    // In each second copy of a mirrored texture its right is on the left.
     if (texture.wrap == Wrap::mirror)
         for (int axis = 0; axis < 2; ++axis) {
             const float there_and_back = 0.5f * uv.here[axis];
@@ -81,8 +81,8 @@ inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentU
 /// @return            Of any length; scaling comes last.
 template <typename F>
 Vec3<F> perturbed(const TangentBasis<F>& frame, Vec3<F> normal_map, Vec3<F> normal) {
-    // TODO: what stands above the fraction line in Eq. 8.7; its N, of length 1, is frame.normal.
-    // Only where x and y are 0, `normal` as it is: by select().
+    // TODO: the numerator of Eq. 8.7; its N, of length 1, is frame.normal. Robust: where x and y
+    // are 0, `normal` as it is, by select().
     return normal;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How a texture lies on a surface: which way u grows, which way v, which way is out. Introduced in
-/// lesson 08; derivation: docs/derivations/08_normal_maps.md.
+/// Tangent frames: how a texture lies on a surface. Introduced in lesson 08; derivation:
+/// docs/derivations/08_normal_maps.md.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace rasterbook {
 
-/// Which way the texture's coordinates grow on a triangle.
+/// The directions in which the texture coordinates grow on a triangle.
 struct UvDirections {
     vec3 tangent{0};     ///< u grows, v stays; length 1, or 0 where there is no such direction.
     vec3 bitangent{0};   ///< v grows, u stays; the same.
@@ -36,51 +36,53 @@ struct UvDirections {
 /// @param positions,uvs  Of the vertices. Any numbers: with a uv that is not finite, the handedness
 ///          is 0; with a position that is not, it is that of the uvs, and both directions are 0.
 /// @return  Of one texture and surface whatever its size. The sides are taken from the first
-///          vertex: another one that comes first changes roundings. In double, an error of 2^-51
-///          times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, then rounded to float. The handedness is
-///          exact where the differences of the uvs are: between numbers that are 0 or less than
-///          2^29 times each other.
+///          vertex: another one that comes first changes roundings. All is computed in double, with
+///          an error of 2^-51 times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, and then rounded to
+///          float. The handedness is exact where the differences of the uvs are: between numbers
+///          that are 0 or less than 2^29 times each other.
 inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
                                   const std::array<vec2, 3>& uvs) {
-    // TODO: Eq. 8.3 and 8.4, in double, since products of floats may overflow or vanish; the
-    // determinant by difference_of_products(), for its sign. Where it is 0 or not finite: {}.
+    // TODO: Eq. 8.3. Convert to double first, dvec3(positions[1]) and so on: products of floats may
+    // overflow or vanish. normalize_or() with dvec3(0) scales to length 1. Robust: the determinant
+    // by difference_of_products(); where it is 0 or not finite, {}. The handedness is Eq. 8.4.
     return {};
 }
 
-/// What is left of v when all that leads along the normal is taken away (Eq. 8.5).
+/// What is left of v when its component along the normal is taken away (Eq. 8.5).
 ///
 /// @param normal  Length 1.
 template <typename F>
 Vec3<F> across(Vec3<F> v, Vec3<F> normal) {
-    // TODO: what stands above the fraction line in Eq. 8.5.
+    // TODO: the numerator of Eq. 8.5.
     return v;
 }
 
-/// A direction across n: along the axis to which n leans least, as far as n lets it.
+/// A direction perpendicular to n: along the axis, x, y or z, along which n is shortest in absolute
+/// value (the first of equals), less its component along n.
 ///
 /// @param n  Length 1.
 /// @return   Length 1.
 template <typename F>
 Vec3<F> any_orthogonal(Vec3<F> n) {
-    // TODO: what the text says behind Eq. 8.5, where nothing is left; choose the axis by select().
+    // TODO: Robust, "Where no tangent is left"; choose the axis by select().
     return Vec3<F>(vec3(1, 0, 0));
 }
 
-/// Three directions at right angles, each of length 1: the TBN basis.
+/// The TBN basis: three directions at right angles, each of length 1.
 template <typename F>
 struct TangentBasis {
     Vec3<F> tangent, bitangent, normal;
 };
 using TangentFrame = TangentBasis<float>;
 
-/// More of the square of a tangent's length than this has to be left across the normal for one step
-/// to be exact enough: the tangent stood less than 30 degrees away from what it becomes.
+/// More of the square of a tangent's length than this has to be left perpendicular to the normal
+/// for one step to be exact enough: the tangent was less than 30 degrees away from what it becomes.
 constexpr float mostly = 0.75f;
 
-/// Where no more than this is left of the square, 2^-20 of the length, it has no true digit.
+/// If no more than this is left of the square, 2^-20 of the length, it has no true digit.
 constexpr float hardly_any = 0x1p-40f;
 
-/// What is left of a tangent across the normal, scaled to length 1 (Eq. 8.5).
+/// What is left of a tangent perpendicular to the normal, scaled to length 1 (Eq. 8.5).
 ///
 /// @param tangent  Any numbers.
 /// @param normal   Length 1.
@@ -88,24 +90,22 @@ constexpr float hardly_any = 0x1p-40f;
 ///                 parallel to the normal but for `hardly_any` of its square.
 template <typename F>
 Vec3<F> unit_orthogonal(Vec3<F> tangent, Vec3<F> normal) {
-    // TODO: Eq. 8.5. In the usual case across() of the tangent as it is, times 1 / sqrt() of its
-    // square: where that square is above `mostly` times the tangent's and above 1e-30, and the
-    // tangent's below 1e30. Else scale the tangent first, unit_or(tangent, normal), since squares
-    // may overflow. What across() leaves of that: any_orthogonal() unless its square is above
-    // `hardly_any`; else to length 1, across() once more, and to length 1. Choose by select().
+    // TODO: Eq. 8.5, T': across(), times 1 / sqrt() of its square. Robust, "Where little is left":
+    // when this is not exact enough, and what to do then; choose by select().
     return any_orthogonal(normal);
 }
 
 /// The frame at a point (Eq. 8.5).
 ///
-/// @param tangent     Any numbers; where it has no direction across the normal, any_orthogonal()
-/// has.
-/// @param normal      Of any length; where it has no direction, up.
+/// @param tangent     Any numbers; any_orthogonal() takes its place where nothing of it is
+///                    perpendicular to the normal.
+/// @param normal      Of any length; up where it is zero-length or not finite.
 /// @param handedness  -1 or 1.
 /// @return            Orthonormal within 2^-20, also for numbers that are not finite.
 template <typename F>
 TangentBasis<F> tangent_frame(Vec3<F> tangent, Vec3<F> normal, F handedness) {
-    // TODO: Eq. 8.5. Scale the normal first: unit_or() with (0, 1, 0).
+    // TODO: Eq. 8.5, B', with T' by unit_orthogonal(). Scale the normal first: unit_or() with
+    // (0, 1, 0).
     return {Vec3<F>(vec3(1, 0, 0)), Vec3<F>(vec3(0, 1, 0)), Vec3<F>(vec3(0, 0, 1))};
 }
 
@@ -122,7 +122,7 @@ struct TangentShare {
 ///
 /// @param mesh  As complete_normals() leaves it: each vertex has a normal of its own.
 /// @param uvs   Of the triangle's vertices.
-/// @return      A share of 0 where there is no direction across the normal.
+/// @return      A share of 0 where nothing of the tangent is perpendicular to the normal.
 inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
                                   const std::array<vec2, 3>& uvs, std::size_t vertex) {
     [[maybe_unused]] const std::size_t next = (vertex + 1) % 3, last = (vertex + 2) % 3;
@@ -139,24 +139,23 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
                       bits(uv.y), handedness < 0 ? 1u : 0u},
                      normal,
                      {0, 0, 0}};
-    // TODO: if the tangent has a direction across the normal, that is if the square of across() is
-    // above `hardly_any`: the angle, vertex_angle_radians(), times unit_orthogonal(), each
-    // component times 2^40 (0x1p40) and rounded by std::llround(). In double.
+    // TODO: a term of Eq. 8.6: vertex_angle_radians() times unit_orthogonal(), the product in
+    // double, then each component times 2^40 (0x1p40) and rounded by std::llround(). But 0 unless
+    // the square of what across() leaves is above `hardly_any`.
     return own;
 }
 
 /// A tangent for each vertex: the mean of those of the triangles around it, weighted by their
-/// angles there (Eq. 8.6). Vertices with the same place, normal and uv share one, but for those
-/// with the other handedness: a mirrored texture has tangents that point against each other.
+/// angles there (Eq. 8.6). Vertices with the same position, normal, uv and handedness share one.
 ///
 /// Sums of whole numbers have no order: neither that of the triangles nor that of the vertices
-/// changes a bit. There may be 2^20 triangles in one place.
+/// changes a bit. Up to 2^20 triangles may share a vertex.
 ///
 /// @param mesh    As complete_normals() leaves it: each vertex has a normal of its own.
 /// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
-/// @return        For each of the mesh's normals: tangent, of length 1 and across the normal, and
-///                handedness, that of the triangles, -1 or 1; 1 where theirs is 0. Where no
-///                triangle has a direction across the normal, the tangent is any_orthogonal().
+/// @return        For each of the mesh's normals: tangent, of length 1 and perpendicular to the
+///                normal, and handedness, that of the triangles, -1 or 1; 1 where theirs is 0.
+///                Where no triangle adds anything, the tangent is any_orthogonal().
 template <std::invocable<const Triangle&> UvsOf>
 std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
     std::vector<TangentShare> shares;
