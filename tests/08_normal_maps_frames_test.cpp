@@ -304,7 +304,8 @@ TEST(NormalMaps, Eq8_4_HandednessSaysWhereTheBitangentLies) {
     }
 }
 
-TEST(NormalMaps, Eq8_4_TheSignIsExactWhereProductsAgree) {
+TEST(NormalMaps, HardCase_TheSignIsExactWhereProductsAgree) {
+    look_up("Robust: Products and signs in double");
     // Two vertices far out on the line u = v, and one near the origin, a little beside that line or
     // on it. The determinant's products agree in all digits of a double, or nearly.
     std::mt19937 random(6);
@@ -352,19 +353,39 @@ TEST(NormalMaps, Eq8_5_TheComponentAlongTheNormalIsRemoved) {
         EXPECT_TRUE(are_near(frame.tangent, along_x));
         EXPECT_TRUE(are_near(frame.bitangent, handedness * along_y));
         EXPECT_EQ(frame.normal, along_z);
-        // Lengths do not count, and neither is lost what is left of nearly nothing.
+    }
+}
+
+TEST(NormalMaps, HardCase_LengthsDoNotCountInAFrame) {
+    look_up("Robust: Where little is left");
+    for (const float handedness : {1.0f, -1.0f})
         for (const float length : {1e-37f, 1e-10f, 1e10f, 1e37f}) {
             const TangentFrame other =
                 tangent_frame(length * vec3(0.8f, 0, 0.6f), length * along_z, handedness);
             ASSERT_TRUE(are_near(other.tangent, along_x)) << "all lengths times " << length;
             ASSERT_TRUE(is_orthonormal(other)) << "all lengths times " << length;
         }
-    }
+    // What is left of nearly nothing is not lost.
     const TangentFrame steep = tangent_frame({0x1p-10f, 0, 1}, along_z, 1.0f);
     EXPECT_EQ(steep.tangent, along_x);
 }
 
 TEST(NormalMaps, Eq8_5_FramesAreOrthonormal) {
+    // One step is exact enough where the tangent is not too near the normal.
+    std::mt19937 random(10);
+    std::normal_distribution<float> normal;
+    for (int i = 0; i < 10'000; ++i) {
+        const vec3 n = unit_or({normal(random), normal(random), normal(random)}, along_x);
+        const vec3 t = unit_or({normal(random), normal(random), normal(random)}, along_y);
+        if (std::abs(glm::dot(t, n)) > 0.8f) continue;
+        ASSERT_TRUE(is_orthonormal(tangent_frame(t, n, i % 2 ? 1.0f : -1.0f)))
+            << "of tangent " << testing::PrintToString(t) << ", normal "
+            << testing::PrintToString(n) << " (seed 10, case " << i << ")";
+    }
+}
+
+TEST(NormalMaps, HardCase_FramesAreOrthonormalNearTheNormal) {
+    look_up("Robust: Where little is left");
     std::mt19937 random(4);
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> exponent(-30, 0);
@@ -378,7 +399,8 @@ TEST(NormalMaps, Eq8_5_FramesAreOrthonormal) {
     }
 }
 
-TEST(NormalMaps, Eq8_5_WhereNothingRemainsAnAxisIsTaken) {
+TEST(NormalMaps, HardCase_WhereNothingRemainsAnAxisIsTaken) {
+    look_up("Robust: Where no tangent is left");
     // The axis of the normal's smallest component; the first one of equals.
     EXPECT_EQ(any_orthogonal(along_x), along_y);
     EXPECT_EQ(any_orthogonal(along_y), along_x);

@@ -118,7 +118,8 @@ TEST(NormalMaps, Eq8_4_HandednessIsTheSignOfTheDeterminant) {
     EXPECT_GT(with_area, exact_cases * 9 / 10);
 }
 
-TEST(NormalMaps, Eq8_5_FramesAsExactAsTheDocumentationSays) {
+TEST(NormalMaps, HardCase_FramesAsExactAsTheDocumentationSays) {
+    look_up("Robust: Where little is left");
     LogUniform any(2);
     // What is left of t across n, of length s times that of t: the dot product is off by 3 half
     // ulps, by 10 more of n's length, the product and the difference by 1 each; then |.| by 5.
