@@ -175,7 +175,7 @@ def exchanged(code: str, right: list[str], wrong: list[str]) -> str:
 
 def build(tree: Path, lesson: str) -> Path:
     subprocess.run(
-        ["cmake", "--build", tree / "build", "--target", lesson, "--", "-j1"],
+        ["cmake", "--build", tree / "build", "--target", lesson, "--", "-j2"],
         check=True,
         stdout=subprocess.DEVNULL,
     )

@@ -481,6 +481,11 @@ TEST(ShadowMaps, Eq9_7_LitIsWhatIsNotBehindTheMap) {
     none.bias = 0.01f;
     EXPECT_TRUE(has_light(1, 2, 0.505f, 1));
     EXPECT_TRUE(has_light(1, 2, 0.515f, 0));
+    put(map, {1, 2}, 0.995f);
+    const float behind_the_map = pcf_visibility<0>(map, none, at_texel(1, 2, 7));
+    EXPECT_EQ(behind_the_map, 0) << "at depth 7, behind a caster at 0.995, with bias 0.01: the "
+                                    "minimum with 1 comes after the bias";
+    put(map, {1, 2}, 0.5f);
     none.bias = 0;
     // All of the texel, and none of its neighbours.
     for (const float side : {-0.49f, 0.49f}) {

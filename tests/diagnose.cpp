@@ -35,9 +35,10 @@ struct Drawn {
 
 Drawn draw(const std::string& lesson, std::vector<std::string> arguments, ivec2 size) {
     const auto file = test::fresh_folder("diagnose") / "expected.png";
-    arguments.insert(
-        arguments.end(),
-        {"--size", std::to_string(size.x) + "x" + std::to_string(size.y), "--out", file.string()});
+    arguments.insert(arguments.end(), {"--out", file.string()});
+    if (std::ranges::count(arguments, "--size") == 0)
+        arguments.insert(arguments.end(),
+                         {"--size", std::to_string(size.x) + "x" + std::to_string(size.y)});
     Drawn drawn{test::run_program(lesson, arguments), {}};
     if (std::filesystem::exists(file)) drawn.picture = read_image(file);
     return drawn;
@@ -143,9 +144,12 @@ int examine_own(const std::string& lesson) {
         read_image(std::filesystem::path(RASTERBOOK_GOLDEN) / (lesson + ".png"));
     const Drawn own = draw(lesson, {}, expected.size());
     std::cerr << own.process.err;
-    if (own.picture.size() != expected.size()) return 1;
     bool is_right = true;
     const std::string known = known_mistakes(lesson, is_right);
+    if (own.picture.size() != expected.size()) {  // it has crashed, or said what is wrong
+        std::cout << (known.empty() ? "There is no picture\n" : known);
+        return 1;
+    }
     const std::string found =
         diagnose(own.picture, expected, test::picture_facts(lesson, {}, expected.size()));
     if (is_right && found.empty()) {
@@ -157,8 +161,11 @@ int examine_own(const std::string& lesson) {
         std::cout << known;
     else if (!mistake.options.empty())
         std::cout << "It looks as with " << mistake.options << ": " << mistake.meaning << '\n';
-    else
+    else if (!found.empty())
         std::cout << "The picture: " << found << '\n';
+    else
+        std::cout << "The lesson's picture looks the same as the course's; others of "
+                     "docs/troubleshooting.md do not\n";
     return 1;
 }
 
