@@ -159,9 +159,9 @@ class Site:
         text = EMPHASIS_WITH_FORMULA.sub(
             lambda found: "<{0}>{1}</{0}>".format("b" if found[1] == "**" else "em", found[2]), text
         )
-        if f"]({page.name}.html#" in text:
+        if page.name != "index":
             text = re.sub(r"^## (.*)$", with_anchor, text, flags=re.MULTILINE)
-        if page.name == "index":  # its headings are not to stand between the lessons in the tree
+        else:  # its headings are not to stand between the lessons in the tree
             text = re.sub(r"^## (.*)$", r"<h2>\1</h2>", text, flags=re.MULTILINE)
         return text
 
