@@ -62,30 +62,42 @@ lvec3 exact(vec3 v) { return {v.x, v.y, v.z}; }
 lvec3 unit(lvec3 v) { return v / std::sqrt(glm::dot(v, v)); }
 real length(lvec3 v) { return std::sqrt(glm::dot(v, v)); }
 
+/// A triangle with its texture coordinates, and what they differ by, exact.
+struct UvTriangle {
+    explicit UvTriangle(LogUniform& any)
+        : positions{any.three(), any.three(), any.three()}, uvs{any.two(), any.two(), any.two()} {}
+
+    bool has_uv_area() const {
+        // Two differences, two products and their difference round, each by half an ulp of double.
+        const real unsure = 4 * half_ulp_of_double * (std::abs(u1 * v2) + std::abs(u2 * v1));
+        return std::abs(determinant) > unsure;
+    }
+
+    std::array<vec3, 3> positions;
+    std::array<vec2, 3> uvs;
+    real u1 = real{uvs[1].x} - uvs[0].x, v1 = real{uvs[1].y} - uvs[0].y;
+    real u2 = real{uvs[2].x} - uvs[0].x, v2 = real{uvs[2].y} - uvs[0].y;
+    real determinant = u1 * v2 - u2 * v1;
+};
+
 }  // namespace
 
 TEST(NormalMaps, Eq8_3_DirectionsAsExactAsTheDocumentationSays) {
     LogUniform any(1);
     int judged = 0;
     for (int i = 0; i < exact_cases; ++i) {
-        const std::array p{any.three(), any.three(), any.three()};
-        const std::array t{any.two(), any.two(), any.two()};
-        const UvDirections found = uv_directions(p, t);
+        const UvTriangle t(any);
+        if (!t.has_uv_area()) continue;
+        const UvDirections found = uv_directions(t.positions, t.uvs);
 
+        const auto& p = t.positions;
         const lvec3 e1 = exact(p[1]) - exact(p[0]), e2 = exact(p[2]) - exact(p[0]);
-        const real u1 = real{t[1].x} - t[0].x, v1 = real{t[1].y} - t[0].y;
-        const real u2 = real{t[2].x} - t[0].x, v2 = real{t[2].y} - t[0].y;
-        const real determinant = u1 * v2 - u2 * v1;
-        // Two differences, two products and their difference round, each by half an ulp of double.
-        const real unsure = 4 * half_ulp_of_double * (std::abs(u1 * v2) + std::abs(u2 * v1));
-        if (std::abs(determinant) <= unsure) continue;
-
-        const real sign = determinant > 0 ? 1 : -1;
+        const real sign = t.determinant > 0 ? 1 : -1;
         for (const auto& [direction, raw, sizes] :
-             {std::tuple{found.tangent, sign * (v2 * e1 - v1 * e2),
-                         std::abs(v2) * length(e1) + std::abs(v1) * length(e2)},
-              {found.bitangent, sign * (u1 * e2 - u2 * e1),
-               std::abs(u2) * length(e1) + std::abs(u1) * length(e2)}}) {
+             {std::tuple{found.tangent, sign * (t.v2 * e1 - t.v1 * e2),
+                         std::abs(t.v2) * length(e1) + std::abs(t.v1) * length(e2)},
+              {found.bitangent, sign * (t.u1 * e2 - t.u2 * e1),
+               std::abs(t.u2) * length(e1) + std::abs(t.u1) * length(e2)}}) {
             // The same roundings; scaling to length 1 may double what is off across the vector.
             const real off = 2 * 4 * half_ulp_of_double * sizes / length(raw);
             if (!(off < 0.1L)) continue;  // all digits are lost to cancellation
@@ -102,18 +114,11 @@ TEST(NormalMaps, Eq8_4_HandednessIsTheSignOfTheDeterminant) {
     LogUniform any(7);
     int with_area = 0;
     for (int i = 0; i < exact_cases; ++i) {
-        const std::array p{any.three(), any.three(), any.three()};
-        const std::array t{any.two(), any.two(), any.two()};
-        const real u1 = real{t[1].x} - t[0].x, v1 = real{t[1].y} - t[0].y;
-        const real u2 = real{t[2].x} - t[0].x, v2 = real{t[2].y} - t[0].y;
-        const real determinant = u1 * v2 - u2 * v1;
-        // Two differences, two products and their difference round, each by half an ulp of double.
-        if (std::abs(determinant) <=
-            4 * half_ulp_of_double * (std::abs(u1 * v2) + std::abs(u2 * v1)))
-            continue;
+        const UvTriangle t(any);
+        if (!t.has_uv_area()) continue;
         ++with_area;
-        ASSERT_EQ(uv_directions(p, t).handedness, determinant > 0 ? 1 : -1)
-            << "the determinant is " << determinant << " (seed 7, case " << i << ")";
+        ASSERT_EQ(uv_directions(t.positions, t.uvs).handedness, t.determinant > 0 ? 1 : -1)
+            << "the determinant is " << t.determinant << " (seed 7, case " << i << ")";
     }
     EXPECT_GT(with_area, exact_cases * 9 / 10);
 }

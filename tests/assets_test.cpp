@@ -92,10 +92,10 @@ std::size_t border_edges(const std::vector<const Mesh*>& meshes) {
     }));
 }
 
-const Mesh& group(const Scene& scene, const std::string& name) {
+const Mesh& group(const Scene& scene, std::string_view name) {
     const auto found = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                     [&](const Mesh& mesh) { return mesh.name == name; });
-    if (found == scene.meshes.end()) throw std::runtime_error("no group " + name);
+    if (found == scene.meshes.end()) throw std::runtime_error("no group " + std::string(name));
     return *found;
 }
 
