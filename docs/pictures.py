@@ -14,6 +14,7 @@ unified one whose lines "@@" have no numbers, the lesson then draws with its fir
 picture is the one that the answer shows. `check-answers` draws all of them, and compares.
 """
 
+import contextlib
 import fcntl
 import re
 import shlex
@@ -23,6 +24,7 @@ import subprocess
 import sys
 import tempfile
 import zlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -66,8 +68,8 @@ def filtered(row: bytes, above: bytes, channels: int) -> bytes:
     return bytes([best]) + ways[best]
 
 
-def write_png(file: Path, rows: Picture, channels: int = 3) -> None:
-    """Smaller than what the lessons write, which takes longer."""
+def png(rows: Picture, channels: int = 3) -> bytes:
+    """The bytes of a file: fewer than what the lessons write, and they take longer."""
 
     def chunk(name: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
@@ -76,7 +78,7 @@ def write_png(file: Path, rows: Picture, channels: int = 3) -> None:
     header = struct.pack(">IIBBBBB", width, len(rows), 8, {3: 2, 4: 6}[channels], 0, 0, 0)
     above = [bytes(len(rows[0])), *rows]
     lines = b"".join(filtered(row, before, channels) for row, before in zip(rows, above))
-    file.write_bytes(
+    return (
         b"\x89PNG\r\n\x1a\n"
         + chunk(b"IHDR", header)
         + chunk(b"IDAT", zlib.compress(lines, 9))
@@ -117,13 +119,14 @@ def draw_strip(build: Path) -> None:
             row = picture[y][3 * left : 3 * (left + width)]
             pixels = b"".join(row[i : i + 3] + b"\xff" for i in range(0, len(row), 3))
             strip[y] += (gap if strip[y] else b"") + pixels
-    write_png(ROOT / "docs/strip.png", strip, channels=4)
+    (ROOT / "docs/strip.png").write_bytes(png(strip, channels=4))
 
 
 # The mistakes
 
 
 SIZE = "416x234"  # small enough that a picture takes less than 100 kB
+
 
 class Mistake(NamedTuple):
     lesson: str
@@ -182,12 +185,18 @@ def build(tree: Path, lesson: str) -> Path:
     return tree / "build" / lesson
 
 
-def copied_tree() -> Path:
-    """A copy of the code to change, configured in its folder build/."""
+@contextlib.contextmanager
+def copied_tree() -> Iterator[Path]:
+    """A copy of the code to change, configured in its folder build/; one program at a time has it."""
     tree = ROOT / "build/mistakes"
     tree.mkdir(parents=True, exist_ok=True)
-    copied_tree.lock = (tree / "lock").open("w")  # until the program ends
-    fcntl.flock(copied_tree.lock, fcntl.LOCK_EX)
+    with (tree / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        copy_code(tree)
+        yield tree
+
+
+def copy_code(tree: Path) -> None:
     for name in ("CMakeLists.txt", "assets", "docs"):
         if not (tree / name).exists():
             (tree / name).symlink_to(ROOT / name)
@@ -205,25 +214,31 @@ def copied_tree() -> Path:
         check=True,
         stdout=subprocess.DEVNULL,
     )  # fmt: skip
-    return tree
 
 
-def draw_mistakes(only: list[str]) -> None:
-    tree = copied_tree()
+def drawn_with(tree: Path, changed_code: dict[str, str], lesson: str, options: list[str]) -> Picture:
+    """What a lesson draws with other texts in some files; their own are put back."""
+    own_code = {file: (tree / file).read_text(encoding="utf-8") for file in changed_code}
+    try:
+        for file, text in changed_code.items():
+            (tree / file).write_text(text, encoding="utf-8")
+        return draw(build(tree, lesson), options, SIZE)
+    finally:
+        for file, text in own_code.items():
+            (tree / file).write_text(text, encoding="utf-8")
+
+
+def draw_mistakes(tree: Path, only: list[str]) -> None:
     drawn = set()
     for m in mistakes():
         if only and m.wrong_picture.stem not in only:
             continue
         if m.right_picture not in drawn:
-            write_png(m.right_picture, draw(build(tree, m.lesson), m.options, SIZE))
+            m.right_picture.write_bytes(png(drawn_with(tree, {}, m.lesson, m.options)))
             drawn.add(m.right_picture)
-        copy = tree / m.file
-        code = copy.read_text(encoding="utf-8")
-        copy.write_text(exchanged(code, m.right, m.wrong), encoding="utf-8")
-        try:
-            write_png(m.wrong_picture, draw(build(tree, m.lesson), m.options, SIZE))
-        finally:
-            copy.write_text(code, encoding="utf-8")
+        code = exchanged((tree / m.file).read_text(encoding="utf-8"), m.right, m.wrong)
+        picture = drawn_with(tree, {str(m.file): code}, m.lesson, m.options)
+        m.wrong_picture.write_bytes(png(picture))
         print(m.wrong_picture.relative_to(ROOT))
 
 
@@ -273,39 +288,28 @@ def changed(code: dict[str, str], diff: str) -> None:
             code[file] = ("\n" + code[file]).replace("\n" + before, "\n" + after, 1)[1:]
 
 
-def draw_answers(of_lesson: str = "", number: str = "", is_check: bool = False) -> None:
-    tree = copied_tree()
+def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bool = False) -> None:
     for answer in answers():
         if of_lesson and answer.name.split("_")[0] != of_lesson.zfill(2):
             continue
         if number and answer.name.split("_")[1] != number:
             continue
+        if answer.options is None:
+            raise SystemExit(f"error: answer {answer.name} has no command")
         files = re.findall(r"^--- (.*)$", answer.diff, flags=re.MULTILINE)
         code = {file: (tree / file).read_text(encoding="utf-8") for file in files}
-        new_code = dict(code)
-        changed(new_code, answer.diff)
-        try:
-            for file in code:
-                (tree / file).write_text(new_code[file], encoding="utf-8")
-            if answer.options is None:
-                raise SystemExit(f"error: answer {answer.name} has no command")
-            program = build(tree, answer.lesson)
-            with tempfile.TemporaryDirectory() as folder:
-                file = Path(folder) / "picture.png"
-                write_png(file, draw(program, answer.options, SIZE))
-                if answer.picture is None:
-                    print(f"{answer.name}: draws; it shows no picture")
-                elif not is_check:
-                    answer.picture.parent.mkdir(exist_ok=True)
-                    shutil.copy(file, answer.picture)
-                    print(f"{answer.name}: {answer.picture.relative_to(ROOT)}")
-                elif file.read_bytes() == answer.picture.read_bytes():
-                    print(f"{answer.name}: as shown")
-                else:
-                    raise SystemExit(f"error: answer {answer.name} draws another picture than it shows")
-        finally:
-            for file in code:
-                (tree / file).write_text(code[file], encoding="utf-8")
+        changed(code, answer.diff)
+        picture = png(drawn_with(tree, code, answer.lesson, answer.options))
+        if answer.picture is None:
+            print(f"{answer.name}: draws; it shows no picture")
+        elif not is_check:
+            answer.picture.parent.mkdir(exist_ok=True)
+            answer.picture.write_bytes(picture)
+            print(f"{answer.name}: {answer.picture.relative_to(ROOT)}")
+        elif answer.picture.read_bytes() == picture:
+            print(f"{answer.name}: as shown")
+        else:
+            raise SystemExit(f"error: answer {answer.name} draws another picture than it shows")
 
 
 def main() -> None:
@@ -313,11 +317,14 @@ def main() -> None:
         case ["strip", folder]:
             draw_strip(Path(folder).resolve())
         case ["mistakes", *only]:
-            draw_mistakes(only)
+            with copied_tree() as tree:
+                draw_mistakes(tree, only)
         case ["answers", *which] if len(which) <= 2:
-            draw_answers(*which)
+            with copied_tree() as tree:
+                draw_answers(tree, *which)
         case ["check-answers"]:
-            draw_answers(is_check=True)
+            with copied_tree() as tree:
+                draw_answers(tree, is_check=True)
         case _:
             raise SystemExit(__doc__)
 
