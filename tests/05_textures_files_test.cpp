@@ -298,7 +298,7 @@ TEST(Textures, TrianglesWithoutUvHaveTheColourAtZero) {
         ASSERT_EQ(color, (drawn[{0, 0}])) << "a footprint of no size";
 }
 
-TEST(Textures, Eq5_11_HalfOfTheLightIsCode188) {
+TEST(Textures, Eq5_11_HalfOfTheLightIsValue188) {
     const auto color = [](const std::vector<std::string>& arguments, u8vec3 texel) {
         const Model model(plain + "map_Kd gray.png\n");
         write_image_file(model.folder / "gray.png", {1, 1}, {texel});

@@ -624,7 +624,7 @@ TEST(Textures, Eq5_1_UvOfAFragmentAndItsDerivatives) {
     EXPECT_EQ(uv.ddy, vec2(0, 2)) << "(0, 0) 0 + (1, 0) (-1) + (1, 2)";
 }
 
-TEST(Textures, Eq5_11_CodesAndOpacityOfTheTable) {
+TEST(Textures, Eq5_11_ValuesAndAlphaOfTheTable) {
     Image<u8vec4> codes({4, 1});
     codes[{0, 0}] = {0, 255, 10, 51};
     codes[{1, 0}] = {188, 128, 11, 255};
@@ -639,7 +639,7 @@ TEST(Textures, Eq5_11_CodesAndOpacityOfTheTable) {
     EXPECT_EQ(first.a, 0.2f) << "of code 51: opacity is not encoded";
 }
 
-TEST(Textures, Eq5_11_EveryCodeIsWithinRoundingAndComesBack) {
+TEST(Textures, Eq5_11_EveryValueIsWithinRoundingAndComesBack) {
     Image<u8vec4> codes({256, 1});
     for (int code = 0; code < 256; ++code)
         codes[{code, 0}] = {code, 255 - code, code / 2, 255 - code};

@@ -497,7 +497,7 @@ TEST(ShadowMaps, Eq9_7_LitIsWhatIsNotBehindTheMap) {
         ASSERT_TRUE(has_light(2, 2, depth, 1)) << "nothing is in front";
 }
 
-TEST(ShadowMaps, Eq9_7_InAPerspectiveThePlaceIsDividedByW) {
+TEST(ShadowMaps, Eq9_7_InPerspectiveThePositionIsDividedByW) {
     const mat4 clip(perspective(glm::radians(90.0), 1.0, 1.0, 9.0));
     ShadowMap map(clip, true, 4, box({-9, -9, -9}, {9, 9, -1}));
     put(map, {2, 1}, 0);

@@ -33,7 +33,7 @@ constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 constexpr double pi = 3.14159265358979323846;
 
 SceneLight file_light(SceneLight::Kind kind, vec3 color) {
-    return {"lamp",        kind,           color,
+    return {"light",       kind,           color,
             vec3(1, 2, 3), vec3(0, -1, 0), std::numeric_limits<float>::infinity()};
 }
 
@@ -45,31 +45,32 @@ TEST(Scenes, Eq11_1_ADirectionalLightOfPiLuxMakesAWhiteSurfaceWhite) {
     EXPECT_EQ(sun.kind, LightKind::directional);
     EXPECT_EQ(sun.direction_world, vec3(0, 1, 0)) << "towards the light; the file has it from it";
     const Incoming incoming = incoming_light(sun, vec3(50, -4, 9));
-    EXPECT_EQ(incoming.color.r, 1) << "a sun of pi lux of red: so much of it arrives";
+    EXPECT_EQ(incoming.color.r, 1) << "a directional light of pi lux of red: so much of it arrives";
     EXPECT_NEAR(incoming.color.g, 2 / pi, 2e-7)  // an ulp of a quotient, and of pi in float
-        << "a sun of 2 lux of green: so much of it arrives";
+        << "a directional light of 2 lux of green: so much of it arrives";
     EXPECT_EQ(incoming.color.b, 0);
 }
 
 TEST(Scenes, Eq11_2_APointLightFallsOffWithTheSquareOfTheDistance) {
     constexpr float radius = 4;
     const Light point_light = light_of(file_light(SceneLight::Kind::point, vec3(60)), radius);
-    // 5 away: within a hundredth, since a lamp is no point here.
+    // 5 away: within a hundredth, since the light has a size.
     EXPECT_NEAR(incoming_light(point_light, vec3(1, 2, 8)).color.r, 60 / (25 * pi), 1e-3)
-        << "of a lamp of 60 candela, 5 away, 60 / (25 pi) arrive: the worked example";
+        << "of a point light of 60 candela, 5 away, 60 / (25 pi) arrive: the worked example";
     EXPECT_EQ(point_light.position_world, vec3(1, 2, 3));
-    const double size = double{lamp_size} * radius;
+    const double size = double{point_light_size} * radius;
     for (const double distance : {0.0, 0.25, 0.5, 1.0, 3.0, 40.0}) {
         const vec3 point = point_light.position_world + vec3(0, -distance, 0);
         const double arriving = incoming_light(point_light, point).color.r;
         // A dozen roundings on the way.
         const double exact = 60 / pi / (distance * distance + size * size);
-        ASSERT_NEAR(arriving, exact, 1e-6 * exact)
-            << "of a lamp of 60 candela and the size " << size << ", " << distance << " away";
+        ASSERT_NEAR(arriving, exact, 1e-6 * exact) << "of a point light of 60 candela and the size "
+                                                   << size << ", " << distance << " away";
         if (distance >= 10 * size) {
             const double of_a_point = 60 / pi / (distance * distance);
             ASSERT_NEAR(arriving, of_a_point, 0.01 * of_a_point)
-                << "of a lamp of 60 candela, " << distance << " away: nearly that of a point";
+                << "of a point light of 60 candela, " << distance
+                << " away: nearly that of a point";
         }
     }
 }
@@ -96,7 +97,7 @@ TEST(Scenes, HardCase_LightsBeyondTheLimitAreNamed) {
     Scene scene;
     for (std::size_t i = 0; i < max_lights + 2; ++i) {
         scene.lights.push_back(file_light(SceneLight::Kind::point, vec3(1)));
-        scene.lights.back().name = "lamp " + std::to_string(i);
+        scene.lights.back().name = "light " + std::to_string(i);
     }
     std::vector<std::string> warnings;
     const SceneLights lights = lights_of(scene, LightKind::directional, warnings);
@@ -104,8 +105,8 @@ TEST(Scenes, HardCase_LightsBeyondTheLimitAreNamed) {
     EXPECT_TRUE(lights.are_of_file);
     EXPECT_TRUE(std::ranges::all_of(lights.casts, [](bool casts) { return casts; }));
     ASSERT_EQ(warnings.size(), 2u);
-    EXPECT_NE(warnings[0].find("\"lamp 16\""), std::string::npos) << warnings[0];
-    EXPECT_NE(warnings[1].find("\"lamp 17\""), std::string::npos) << warnings[1];
+    EXPECT_NE(warnings[0].find("\"light 16\""), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[1].find("\"light 17\""), std::string::npos) << warnings[1];
     scene.lights.clear();
     const SceneLights own = lights_of(scene, LightKind::spot, warnings);
     ASSERT_EQ(own.lights.size(), 2u) << "those of lesson 09";
@@ -131,7 +132,7 @@ TEST(Scenes, Eq11_12_LightsOfAnyUnitAreScaledDownTogether) {
             lights[1].position_world = vec3(1, 2, 3 + distance);
             const double far_away = std::max(distance, 2.0);  // one radius at least
             ASSERT_NEAR(exposure_of(lights, bounds), pi * far_away * far_away / 9000, 1e-7)
-                << "a lamp of 9000 candela, " << distance
+                << "a point light of 9000 candela, " << distance
                 << " from the middle of a scene of radius "
                 << "2: it counts as " << far_away << " away";
         }

@@ -113,7 +113,7 @@ TEST(Color, HardCase_OutOfRangeAndNotANumberAreClamped) {
     EXPECT_EQ(srgb8_from_linear(infinity), 255);
 }
 
-TEST(Color, BytesAreTheNearestCodes) {
+TEST(Color, BytesAreTheNearestValues) {
     for (float linear = 0; linear < 1; linear += 0.00013f) {
         const double code = 255 * srgb_from_linear(double{linear});
         EXPECT_NEAR(srgb8_from_linear(linear), code, 0.5 + 1e-4)

@@ -138,7 +138,7 @@ Image<u8vec4> picture(std::vector<std::string> arguments) {
     return read_image(out);
 }
 
-/// The sum of what all codes differ by.
+/// The sum of what all texels differ by.
 long difference(const Image<u8vec4>& a, const Image<u8vec4>& b) {
     long sum = 0;
     for (std::size_t i = 0; i < a.pixels().size(); ++i)
@@ -259,39 +259,39 @@ TEST(TextureVariants, AffineIsWrongByNineElevenths) {
 TEST(TextureVariants, BytesDecodedWhenReadGiveWhatDecodingAtOnceGives) {
     const DecodingTable table;
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
-        const Image<u8vec4> codes = random_picture({7, 5});
-        const CodedLevel coded = make_coded_level(codes, wrap);
-        const TextureLevel decoded = with_border(linear_from_srgb8(codes), wrap);
+        const Image<u8vec4> texels = random_picture({7, 5});
+        const EncodedLevel encoded = make_encoded_level(texels, wrap);
+        const TextureLevel decoded = with_border(linear_from_srgb8(texels), wrap);
         for (int y = 0; y <= 64; ++y)
             for (int x = 0; x <= 64; ++x) {
                 const vec2 place = vec2(x, y) / 64.0f;
                 const vec4 expected = sample_bilinear(decoded, place);
-                ASSERT_EQ(sample_by_table(coded, place, table), expected);
-                ASSERT_EQ(sample_by_power(coded, place), expected);
+                ASSERT_EQ(sample_by_table(encoded, place, table), expected);
+                ASSERT_EQ(sample_by_power(encoded, place), expected);
             }
     }
 }
 
 TEST(TextureVariants, DecodingTheMeanIsExactInCentresAndTooDarkBetween) {
     constexpr float tolerance = 8 * ulp;  // of a power of 2.4 and its argument
-    const Image<u8vec4> codes = random_picture({7, 5});
-    const CodedLevel coded = make_coded_level(codes, Wrap::repeat);
-    const TextureLevel decoded = with_border(linear_from_srgb8(codes), Wrap::repeat);
-    const Image<vec4> ignored = TextureOptions{.decoding = Decoding::ignored}.decoded(codes);
+    const Image<u8vec4> texels = random_picture({7, 5});
+    const EncodedLevel encoded = make_encoded_level(texels, Wrap::repeat);
+    const TextureLevel decoded = with_border(linear_from_srgb8(texels), Wrap::repeat);
+    const Image<vec4> ignored = TextureOptions{.decoding = Decoding::ignored}.decoded(texels);
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 7; ++x) {
             const vec2 center = (vec2(x, y) + 0.5f) / vec2(7, 5);
             const vec4 right = sample_bilinear(decoded, center);
-            // From a centre to its right neighbour codes differ by 1 at most; the place's rounding
+            // From a centre to its right neighbour texels differ by 1 at most; the place's rounding
             // moves by 4 ulp of 7 texels, and the decoding's slope is 2.3 at most.
-            ASSERT_LT(glm::length(sample_then_decode(coded, center) - right), 128 * ulp);
-            ASSERT_EQ((ignored[{x, y}]), undecoded(codes[{x, y}]));
+            ASSERT_LT(glm::length(sample_then_decode(encoded, center) - right), 128 * ulp);
+            ASSERT_EQ((ignored[{x, y}]), undecoded(texels[{x, y}]));
         }
     for (int y = 0; y <= 64; ++y)
         for (int x = 0; x <= 64; ++x) {
             const vec2 place = vec2(x, y) / 64.0f;
             const vec4 mean = sample_bilinear(decoded, place);
-            const vec4 dark = sample_then_decode(coded, place);
+            const vec4 dark = sample_then_decode(encoded, place);
             for (int channel = 0; channel < 3; ++channel)
                 ASSERT_LE(dark[channel], mean[channel] + tolerance);
             ASSERT_EQ(dark.a, mean.a);  // opacity is light's share in either case
@@ -299,7 +299,7 @@ TEST(TextureVariants, DecodingTheMeanIsExactInCentresAndTooDarkBetween) {
     // Black and white: the mean code 0.5 stands for ((0.5 + 0.055) / 1.055)^2.4.
     Image<u8vec4> two({2, 1}, u8vec4(255));
     two[{0, 0}] = {0, 0, 0, 255};
-    const vec4 gray = sample_then_decode(make_coded_level(two, Wrap::clamp), {0.5f, 0.5f});
+    const vec4 gray = sample_then_decode(make_encoded_level(two, Wrap::clamp), {0.5f, 0.5f});
     EXPECT_NEAR(gray.r, 0.21404f, 1e-5f);
 }
 

@@ -165,13 +165,13 @@ vec3 MaterialMaker::mean_of(const TextureMap& map, bool is_srgb) {
         const Image<u8vec4> picture =
             map.embedded ? decode_image(*map.embedded, map.file) : read_image(map.file);
         std::array<std::array<std::uint64_t, 256>, 3> counts{};
-        for (const u8vec4 code : picture.pixels())
-            for (int i = 0; i < 3; ++i) ++counts[static_cast<std::size_t>(i)][code[i]];
+        for (const u8vec4 pixel : picture.pixels())
+            for (int i = 0; i < 3; ++i) ++counts[static_cast<std::size_t>(i)][pixel[i]];
         dvec3 sum(0);
         for (int i = 0; i < 3; ++i)
-            for (std::size_t code = 0; code < 256; ++code) {
-                const double value = static_cast<double>(code) / 255;
-                sum[i] += static_cast<double>(counts[static_cast<std::size_t>(i)][code]) *
+            for (std::size_t stored = 0; stored < 256; ++stored) {
+                const double value = static_cast<double>(stored) / 255;
+                sum[i] += static_cast<double>(counts[static_cast<std::size_t>(i)][stored]) *
                           (is_srgb ? linear_from_srgb(value) : value);
             }
         return means_[{map.file, is_srgb}] =

@@ -26,11 +26,11 @@ inline vec3 flat_normal(const Mesh& mesh, const Triangle& triangle) {
 /// @param normal  World space, length 1.
 /// @return        Linear colour.
 inline vec3 flat_color(vec3 normal, const Material& material) {
-    constexpr vec3 up(0, 1, 0), sun_color(1.05f, 0.97f, 0.86f), sky_color(0.17f, 0.22f, 0.30f);
+    constexpr vec3 up(0, 1, 0), sunlight(1.05f, 0.97f, 0.86f), skylight(0.17f, 0.22f, 0.30f);
     const vec3 toward_sun = normalize_or(vec3(-0.75f, 0.85f, 0.3f), up);
     const float sun = std::max(glm::dot(normal, toward_sun), 0.0f);
     const float sky = 0.5f + 0.5f * normal.y;
-    return material.diffuse * (sun * sun_color + sky * sky_color);
+    return material.diffuse * (sun * sunlight + sky * skylight);
 }
 
 /// The same of a triangle in the world, by the direction that it faces.

@@ -182,13 +182,13 @@ inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
 /// An image's colours decoded from sRGB (Eq. 5.11); alpha is not encoded.
 inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
     std::array<float, 256> linear;
-    for (std::size_t code = 0; code < linear.size(); ++code)
-        linear[code] = linear_from_srgb(static_cast<float>(code) / 255.0f);
+    for (std::size_t value = 0; value < linear.size(); ++value)
+        linear[value] = linear_from_srgb(static_cast<float>(value) / 255.0f);
     Image<vec4> decoded(picture.size());
     for (std::size_t i = 0; i < decoded.pixels().size(); ++i) {
-        const u8vec4 code = picture.pixels()[i];
-        decoded.pixels()[i] = {linear[code.r], linear[code.g], linear[code.b],
-                               static_cast<float>(code.a) / 255.0f};
+        const u8vec4 texel = picture.pixels()[i];
+        decoded.pixels()[i] = {linear[texel.r], linear[texel.g], linear[texel.b],
+                               static_cast<float>(texel.a) / 255.0f};
     }
     return decoded;
 }

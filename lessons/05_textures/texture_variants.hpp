@@ -160,18 +160,18 @@ class MappedBarycentrics {
 };
 
 /// A level whose texels stay the values of the file: four bytes each, a quarter of TextureLevel's.
-struct CodedLevel {
-    ivec2 size;           ///< In texels, without the border.
-    Image<u8vec4> codes;  ///< With a border, as TextureLevel has.
+struct EncodedLevel {
+    ivec2 size;            ///< In texels, without the border.
+    Image<u8vec4> texels;  ///< With a border, as TextureLevel has.
 };
 
-inline CodedLevel make_coded_level(const Image<u8vec4>& picture, Wrap wrap) {
+inline EncodedLevel make_encoded_level(const Image<u8vec4>& picture, Wrap wrap) {
     const ivec2 size = picture.size();
-    CodedLevel level{size, Image<u8vec4>(size + 2)};
+    EncodedLevel level{size, Image<u8vec4>(size + 2)};
     for (int y = 0; y < size.y + 2; ++y)
         for (int x = 0; x < size.x + 2; ++x) {
             const ivec2 texel = ivec2(x, y) - 1;
-            level.codes[{x, y}] =
+            level.texels[{x, y}] =
                 picture[wrap == Wrap::repeat ? (texel + size) % size
                                              : glm::clamp(texel, ivec2(0), size - 1)];
         }
@@ -180,14 +180,14 @@ inline CodedLevel make_coded_level(const Image<u8vec4>& picture, Wrap wrap) {
 
 /// As sample_bilinear of TextureLevel (Eq. 5.6).
 ///
-/// @param read  Called as read(u8vec4 code): what the mean is taken of.
+/// @param read  Called as read(u8vec4 texel): what the mean is taken of.
 template <std::invocable<u8vec4> Read>
-vec4 sample_bilinear(const CodedLevel& level, vec2 position, Read&& read) {
+vec4 sample_bilinear(const EncodedLevel& level, vec2 position, Read&& read) {
     const vec2 from_first_center = position * vec2(level.size) + 0.5f;
     const ivec2 first(from_first_center);
     const vec2 share = from_first_center - vec2(first);
-    const u8vec4* const upper = &level.codes[first];
-    const u8vec4* const lower = upper + level.codes.size().x;
+    const u8vec4* const upper = &level.texels[first];
+    const u8vec4* const lower = upper + level.texels.size().x;
     const vec4 left = read(upper[0]), left_below = read(lower[0]);
     const vec4 in_upper = left + share.x * (read(upper[1]) - left);
     const vec4 in_lower = left_below + share.x * (read(lower[1]) - left_below);
@@ -195,7 +195,7 @@ vec4 sample_bilinear(const CodedLevel& level, vec2 position, Read&& read) {
 }
 
 /// Stored values taken for amounts of light.
-inline vec4 undecoded(u8vec4 code) { return vec4(code) / 255.0f; }
+inline vec4 undecoded(u8vec4 texel) { return vec4(texel) / 255.0f; }
 
 /// Colour decoded from sRGB (Eq. 5.11), each channel 0 to 1; alpha is not encoded.
 inline vec4 decoded_exactly(vec4 color) {
@@ -207,13 +207,13 @@ inline vec4 decoded_exactly(vec4 color) {
 class DecodingTable {
   public:
     DecodingTable() {
-        for (std::size_t code = 0; code < linear_.size(); ++code)
-            linear_[code] = linear_from_srgb(static_cast<float>(code) / 255.0f);
+        for (std::size_t value = 0; value < linear_.size(); ++value)
+            linear_[value] = linear_from_srgb(static_cast<float>(value) / 255.0f);
     }
 
-    vec4 operator()(u8vec4 code) const {
-        return {linear_[code.r], linear_[code.g], linear_[code.b],
-                static_cast<float>(code.a) / 255.0f};
+    vec4 operator()(u8vec4 texel) const {
+        return {linear_[texel.r], linear_[texel.g], linear_[texel.b],
+                static_cast<float>(texel.a) / 255.0f};
     }
 
   private:
@@ -221,17 +221,17 @@ class DecodingTable {
 };
 
 /// Each of the four texels is decoded by a table.
-inline vec4 sample_by_table(const CodedLevel& level, vec2 position, const DecodingTable& table) {
+inline vec4 sample_by_table(const EncodedLevel& level, vec2 position, const DecodingTable& table) {
     return sample_bilinear(level, position, table);
 }
 
 /// Each of the four texels is decoded with its power.
-inline vec4 sample_by_power(const CodedLevel& level, vec2 position) {
-    return sample_bilinear(level, position, [](u8vec4 c) { return decoded_exactly(undecoded(c)); });
+inline vec4 sample_by_power(const EncodedLevel& level, vec2 position) {
+    return sample_bilinear(level, position, [](u8vec4 t) { return decoded_exactly(undecoded(t)); });
 }
 
 /// The mean of the stored values is decoded, which is not the mean of what they stand for.
-inline vec4 sample_then_decode(const CodedLevel& level, vec2 position) {
+inline vec4 sample_then_decode(const EncodedLevel& level, vec2 position) {
     return decoded_exactly(sample_bilinear(level, position, undecoded));
 }
 

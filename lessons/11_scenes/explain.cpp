@@ -35,7 +35,7 @@ void explain(const SceneAssets& assets, const std::string& camera, const Counter
         const std::string& name = assets.lit_by.names[l];
         out << "light: " << (name.empty() ? "unnamed" : name) << ", a "
             << kinds[static_cast<std::size_t>(assets.lit_by.lights[l].kind)]
-            << (assets.lit_by.casts[l] ? "" : ", throws no shadows") << '\n';
+            << (assets.lit_by.casts[l] ? "" : ", casts no shadow") << '\n';
     }
     if (is_lit && assets.lit_by.exposure < 1)
         out << "light: taken down by " << 1 / assets.lit_by.exposure

@@ -13,7 +13,7 @@ namespace rasterbook {
 namespace {
 
 /// Whether all that is seen of a scene has toon materials, and some of it an outline.
-bool is_comic(const Scene& scene) {
+bool is_all_toon(const Scene& scene) {
     bool has_outlines = false;
     for (const Mesh& mesh : scene.meshes)
         for (const Triangle& triangle : mesh.triangles) {
@@ -72,7 +72,7 @@ ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
                  : !inputs.normal_maps ? "none are read"
                                        : "names none");
         plan.set(Effect::shadow, !is_unlit && (inputs.has_shadows || inputs.all_effects),
-                 is_unlit ? "unlit" : "nothing is thrown");
+                 is_unlit ? "unlit" : "nothing casts one");
         plan.set(Effect::toon, is_toon, "not asked for");
         plan.set(Effect::outline, has_outline(material), "not asked for");
         const bool is_masked = material.alpha == AlphaMode::mask;
@@ -88,7 +88,7 @@ SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
                               const LightOptions& shading, const NormalMapVariant& normal_map) {
     const bool all_effects = shading.all_effects;
     Scene scene = with_outline_materials(std::move(from));
-    const bool is_on_paper = is_comic(scene);
+    const bool is_on_paper = is_all_toon(scene);
     complete_normals(scene);
     SurfaceTextures textures = load_surface_textures(scene, texture);
     NormalMaps normal_maps = load_normal_maps(scene, texture, normal_map, all_effects);
@@ -110,8 +110,8 @@ SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
     for (const Material& material : scene.materials)
         if (!material.opacity_map.file.empty())
             scene.warnings.push_back("material \"" + material.name +
-                                     "\": map_d is passed over: holes are drawn for glTF files, by "
-                                     "the fourth number of their colour");
+                                     "\": map_d is ignored: an alpha test is made for glTF files "
+                                     "only, by the alpha of their textures");
     return {std::move(scene),  std::move(textures), std::move(normal_maps), bounds,
             std::move(lit_by), std::move(plan),     std::move(hulls),       is_on_paper};
 }

@@ -25,7 +25,7 @@ constexpr float lux_of_white = std::numbers::pi_v<float>;
 
 /// A file's point light has no size, and at its position its light would be infinite: here it is
 /// as large as this share of the scene's radius. A spotlight is, too.
-constexpr float lamp_size = 1.0f / 128;
+constexpr float point_light_size = 1.0f / 128;
 
 /// A file's light in units of the lessons' (Eq. 11.1 and 11.2).
 ///
@@ -33,17 +33,17 @@ constexpr float lamp_size = 1.0f / 128;
 ///                      size, less than 1% of its light is missing.
 /// @return  The range is ignored: glTF calls it a hint.
 inline Light light_of(const SceneLight& from, float scene_radius) {
-    const bool is_sun = from.kind == SceneLight::Kind::directional;
-    Light light{is_sun                                 ? LightKind::directional
+    const bool is_directional = from.kind == SceneLight::Kind::directional;
+    Light light{is_directional                         ? LightKind::directional
                 : from.kind == SceneLight::Kind::point ? LightKind::point
                                                        : LightKind::spot,
                 from.color / lux_of_white,  // Eq. 11.1
-                is_sun ? -from.direction_world : from.direction_world};
+                is_directional ? -from.direction_world : from.direction_world};
     light.position_world = from.position_world;
     light.cos_full = from.cos_full, light.cos_none = from.cos_none;
-    if (is_sun) return light;
+    if (is_directional) return light;
     constexpr float least = 1e-10f, most = 1e10f;  // whose squares are far from the ends of float
-    light.half_distance = std::clamp(lamp_size * scene_radius, least, most);
+    light.half_distance = std::clamp(point_light_size * scene_radius, least, most);
     light.color /= light.half_distance * light.half_distance;  // Eq. 11.2
     for (int i = 0; i < 3; ++i)
         light.color[i] = std::min(light.color[i], std::numeric_limits<float>::max());

@@ -101,13 +101,13 @@ long double light_of(std::uint8_t code) {
     return srgb <= 0.04045L ? srgb / 12.92L : std::pow((srgb + 0.055L) / 1.055L, 2.4L);
 }
 
-Image<dvec3> light_of(const Image<u8vec4>& codes) {
+Image<dvec3> light_of(const Image<u8vec4>& texels) {
     std::array<double, 256> lights;
     for (std::size_t code = 0; code < lights.size(); ++code)
         lights[code] = static_cast<double>(light_of(static_cast<std::uint8_t>(code)));
-    Image<dvec3> light(codes.size());
-    for (std::size_t i = 0; i < codes.pixels().size(); ++i) {
-        const u8vec4 code = codes.pixels()[i];
+    Image<dvec3> light(texels.size());
+    for (std::size_t i = 0; i < texels.pixels().size(); ++i) {
+        const u8vec4 code = texels.pixels()[i];
         light.pixels()[i] = {lights[code.r], lights[code.g], lights[code.b]};
     }
     return light;
@@ -183,10 +183,10 @@ void add_filters() {
     };
     static std::vector<Material> materials;
     for (const std::string name : {"checker", "tiles"}) {
-        const Image<u8vec4> codes = asset(name);
+        const Image<u8vec4> texels = asset(name);
         materials.push_back({name,
-                             make_texture(downsampled(linear_from_srgb8(codes)), Wrap::repeat),
-                             Floor::seen(light_of(codes))});
+                             make_texture(downsampled(linear_from_srgb8(texels)), Wrap::repeat),
+                             Floor::seen(light_of(texels))});
     }
     static Image<vec4> sink(Floor::size);
     const std::pair<const char*, Filter> filters[] = {{"nearest", Filter::nearest},
@@ -231,16 +231,16 @@ void add_decodings() {
     struct Picture {
         std::string name;
         TextureLevel decoded, ignored;
-        CodedLevel coded;
+        EncodedLevel encoded;
         Image<dvec3> light;
     };
     static std::vector<Picture> pictures;
     for (const std::string name : {"checker", "wood"}) {
-        const Image<u8vec4> codes = asset(name);
+        const Image<u8vec4> texels = asset(name);
         const TextureOptions ignored{.decoding = Decoding::ignored};
-        pictures.push_back({name, with_border(linear_from_srgb8(codes), Wrap::repeat),
-                            with_border(ignored.decoded(codes), Wrap::repeat),
-                            make_coded_level(codes, Wrap::repeat), light_of(codes)});
+        pictures.push_back({name, with_border(linear_from_srgb8(texels), Wrap::repeat),
+                            with_border(ignored.decoded(texels), Wrap::repeat),
+                            make_encoded_level(texels, Wrap::repeat), light_of(texels)});
     }
     // A square of the screen, turned, with a little less than a texel in a pixel.
     static std::vector<vec2> places;
@@ -267,9 +267,9 @@ void add_decodings() {
     };
     add("decoded", [](const Picture& p, vec2 place) { return sample_bilinear(p.decoded, place); });
     add("table",
-        [](const Picture& p, vec2 place) { return sample_by_table(p.coded, place, table); });
-    add("exact", [](const Picture& p, vec2 place) { return sample_by_power(p.coded, place); });
-    add("after", [](const Picture& p, vec2 place) { return sample_then_decode(p.coded, place); });
+        [](const Picture& p, vec2 place) { return sample_by_table(p.encoded, place, table); });
+    add("exact", [](const Picture& p, vec2 place) { return sample_by_power(p.encoded, place); });
+    add("after", [](const Picture& p, vec2 place) { return sample_then_decode(p.encoded, place); });
     add("ignored", [](const Picture& p, vec2 place) { return sample_bilinear(p.ignored, place); });
 }
 

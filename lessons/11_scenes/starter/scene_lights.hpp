@@ -25,7 +25,7 @@ constexpr float lux_of_white = std::numbers::pi_v<float>;
 
 /// A file's point light has no size, and at its position its light would be infinite: here it is
 /// as large as this share of the scene's radius. A spotlight is, too.
-constexpr float lamp_size = 1.0f / 128;
+constexpr float point_light_size = 1.0f / 128;
 
 /// A file's light in units of the lessons' (Eq. 11.1 and 11.2).
 ///
