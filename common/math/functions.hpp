@@ -3,6 +3,7 @@
 /// Functions of a number type F: float, or a struct of several floats, each of which takes the same
 /// steps and so gets the same bits. What F has to bring: arithmetic, comparisons that give a mask,
 /// and for that mask `select`, `all_of`, `&` and `|`; sqrt, floor, float_parts and two_to_the.
+/// What is called for each pixel is `inline`: g++ leaves it a call else, and that takes longer.
 #pragma once
 
 #include <bit>
@@ -82,7 +83,7 @@ inline float two_to_the(float n) {
 /// @return  Within 2 ulp; exact for whole numbers. 0 for x < -126, so that no result is subnormal;
 ///          infinity for x >= 128; NaN for NaN.
 template <typename F>
-F exp2(F x) {
+inline F exp2(F x) {
     const F inside = clamp(x, F(-126.0f), F(0x1.fffffep6f)), whole = floor(inside);
     const F t = inside - whole;
     // 2^t on [0, 1], within 2^-28 of itself: the coefficients that Remez's algorithm finds.
@@ -100,7 +101,7 @@ F exp2(F x) {
 /// @return  Within 2 ulp; exact for powers of two. -infinity for 0 and for subnormal numbers,
 ///          infinity for infinity; NaN for NaN and for negative numbers.
 template <typename F>
-F log2(F x) {
+inline F log2(F x) {
     const F infinity(std::numeric_limits<float>::infinity());
     const auto is_tiny = x < F(std::numeric_limits<float>::min());
     const auto is_usable = (x < infinity) & (x >= F(std::numeric_limits<float>::min()));
@@ -129,7 +130,7 @@ F log2(F x) {
 /// 1; exactly 1
 ///             for y = 0 and for x = 1.
 template <typename F>
-F power(F x, F y) {
+inline F power(F x, F y) {
     return select(y == F(0.0f), F(1.0f), exp2(y * log2(x)));
 }
 
@@ -137,7 +138,7 @@ F power(F x, F y) {
 ///
 /// @return  Each component within 2.9 * 2^-23 of its size of its exact value, or within 2^-149.
 template <typename F>
-Vec3<F> unit_or(Vec3<F> v, Vec3<F> fallback) {
+inline Vec3<F> unit_or(Vec3<F> v, Vec3<F> fallback) {
     const F squared = glm::dot(v, v);
     const Vec3<F> unit = v * (F(1.0f) / sqrt(squared));
     // Robust: squares lose digits or overflow where v is very short or long. Then its largest
