@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/trigonometric.hpp>
+
 #include "04_mvp/transform.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/model/mesh.hpp"

@@ -151,7 +151,7 @@ inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world
     return outside_all != 0;
 }
 
-/// A point on the screen in pixels, and its depth: 0 to 1 (Eq. 4.9).
+/// A point on the screen in pixels, and its depth, 0 to 1 (Eq. 4.9, after the division by w).
 ///
 /// @param position_clip  Inside the frustum, w > 0. A w of 0 gives NaN, which snap_triangle
 ///                       refuses.

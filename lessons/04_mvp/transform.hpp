@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "common/math/numerics.hpp"
 #include "common/math/types.hpp"
 
@@ -70,9 +72,10 @@ glm::mat<4, 4, T> rotation_z(T angle_radians) {
 /// The view matrix: the eye becomes the origin, and what it looks at lies on -z (Eq. 4.5).
 ///
 /// @param eye,center  World space. If they are the same point, the camera looks along -z.
-/// @param up          What shall point up in the picture, of any length. If it is parallel to the
-///                    view, zero or not finite, the axis that is least parallel takes its place; of
-///                    equals, y first.
+/// @param up          What shall point up in the picture, of any length. If it is zero or not
+///                    finite, or the sine of its angle with the view is at most 64 eps, the axis
+///                    that is least parallel to the view takes its place; of equals, y first, then
+///                    x. (eps is std::numeric_limits<T>::epsilon().)
 /// @return            view_from_world: its upper 3x3 part is a rotation within 4 eps.
 template <std::floating_point T>
 glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3, T> up) {

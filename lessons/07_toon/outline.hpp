@@ -116,8 +116,8 @@ void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera&
 
 /// From where on a change counts as an edge.
 ///
-/// That of normals is none that a crease of a box, a common prism or a regular solid can have,
-/// however it runs over the picture: rounding would decide what is inked there (Eq. 7.14).
+/// No crease of a box, a common prism or a regular solid has exactly that of normals, however it
+/// runs over the picture: otherwise rounding would decide what is inked there (Eq. 7.14).
 struct EdgeThresholds {
     float depth = 0.02f;    ///< In units of the distance to what is seen.
     float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
@@ -134,7 +134,8 @@ inline float inverse_w(float depth, const Camera& camera) {
 /// The second difference along x or y; the rows beside count half (Eq. 7.12). It is 0 for a plane,
 /// however steep; the first difference would grow with the slope.
 ///
-/// @param at  Called as at(ivec2 offset), in steps from -1 to 1.
+/// @param at     Called as at(ivec2 offset), in steps from -1 to 1.
+/// @param along  (1, 0) or (0, 1).
 template <typename At>
 float second_difference(At&& at, ivec2 along) {
     const ivec2 across(along.y, along.x);
@@ -145,7 +146,7 @@ float second_difference(At&& at, ivec2 along) {
 /// Sobel's first difference along x or y; the rows beside count half (Eq. 7.13). At an edge between
 /// two values it is their difference.
 ///
-/// @param at  As for second_difference().
+/// @param at,along  As for second_difference().
 template <typename At>
 vec3 sobel(At&& at, ivec2 along) {
     const ivec2 across(along.y, along.x);
@@ -158,8 +159,9 @@ vec3 sobel(At&& at, ivec2 along) {
 ///
 /// @param normals   Of what is seen, length 1; 0 where nothing is.
 /// @param width_px  Of lines along rows and columns, rounded up to an even number; slanted ones are
-///                  0.71 to 1.41 times as wide. 0: none. A picture that is not wider and higher
-///                  than that has none, and is not asked.
+///                  0.71 to 1.41 times as wide. 0: each pixel is asked, and none inked. In a
+///                  picture that is at most that even number of pixels wide or high, none is
+///                  asked.
 template <typename CounterPolicy>
 void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
                 float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,

@@ -17,7 +17,7 @@ constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
 
 /// How bright a coloured light is: its largest component (Eq. 7.1).
 ///
-/// @return  0 for NaN and for negative numbers.
+/// @return  At least 0: a component that is NaN or negative counts as 0.
 inline float brightness(vec3 light) { return std::max({0.0f, light.r, light.g, light.b}); }
 
 /// The tone that a brightness falls into: 0 to tones - 1 (Eq. 7.2).

@@ -40,10 +40,10 @@ inline Image<vec4> normals_from_unorm(const Image<u8vec4>& image, Green green) {
     return normals;
 }
 
-/// The normals of a height map, of which z is 1: the slope down to the right, the slope down
-/// upwards in the image, and 1 (Eq. 8.9). A map of one height has (0, 0, 1) everywhere.
+/// The normals of a height map, (-a, -b, 1) of Eq. 8.9: x and y say how steeply it falls to the
+/// right and upwards in the image. A map of one height has (0, 0, 1) everywhere.
 ///
-/// @param image  Its red is the height: 255 lies one side of the image above 0.
+/// @param image  Its red is the height: 255 is as high above 0 as the map is wide.
 /// @param wrap   What lies beyond the image's borders.
 inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, Wrap wrap) {
     const ivec2 size = image.size();

@@ -35,7 +35,7 @@ struct UvDirections {
 ///
 /// @param positions,uvs  Of the vertices. Any numbers: with a uv that is not finite, the handedness
 ///          is 0; with a position that is not, it is that of the uvs, and both directions are 0.
-/// @return  Of one texture and surface whatever its size. The sides are taken from the first
+/// @return  As exact for tiny triangles as for huge ones. The sides are taken from the first
 ///          vertex: another one that comes first changes roundings. All is computed in double, with
 ///          an error of 2^-51 times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, and then rounded to
 ///          float. The handedness is exact where the differences of the uvs are: between numbers
@@ -84,11 +84,12 @@ struct TangentBasis {
 };
 using TangentFrame = TangentBasis<float>;
 
-/// More of the square of a tangent's length than this has to be left perpendicular to the normal
-/// for one step to be exact enough: the tangent was less than 30 degrees away from what it becomes.
+/// One step of Eq. 8.5 is exact enough if the square of what across() leaves is more than this
+/// times the square of the tangent: then the two are less than 30 degrees apart.
 constexpr float mostly = 0.75f;
 
-/// If no more than this is left of the square, 2^-20 of the length, it has no true digit.
+/// If that square is no more than this times the tangent's, no digit of what is left is true: it is
+/// 2^-20 of the tangent's length at most.
 constexpr float hardly_any = 0x1p-40f;
 
 /// What is left of a tangent perpendicular to the normal, scaled to length 1 (Eq. 8.5).

@@ -86,7 +86,7 @@ inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers
 /// of a point near the border lies inside. One more than the largest PCF kernel takes.
 constexpr int margin_texels = 4;
 
-/// By how much the margin makes a map wider (Eq. 9.3).
+/// By how much the margin makes a map wider (Eq. 9.5).
 ///
 /// @param size  Of the map in texels, > 2 margin_texels.
 inline double widened_by_margin(int size) {

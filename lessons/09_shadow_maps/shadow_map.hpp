@@ -121,8 +121,8 @@ void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy
 /// What keeps a lit surface from shadowing itself.
 enum class Bias { none, constant, slope, plane, normal };
 
-/// What a shadow test has to know of the triangle on which a shadow falls. A table in the text,
-/// "Five biases and what they return", says which Bias sets which field.
+/// What a shadow test has to know of the triangle on which a shadow falls. A table in Robust, "Five
+/// biases and what they return", says which Bias sets which field.
 struct Receiver {
     vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
     float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/trigonometric.hpp>
+
 #include "04_mvp/transform.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/model/mesh.hpp"
@@ -24,7 +26,7 @@ struct Camera {
     ///
     /// @param size  Of the picture, in pixels.
     mat4 clip_from_world(ivec2 size) const {
-        // TODO: Eq. 4.4 and 4.8.
+        // TODO, step 2: Eq. 4.4 and 4.8.
         return mat4(1);
     }
 };
@@ -34,7 +36,7 @@ struct Camera {
 /// @param yaw_radians    Around the y axis, from +z towards +x.
 /// @param pitch_radians  Up from the horizon.
 inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
-    // TODO: Eq. 4.6.
+    // TODO, step 2: Eq. 4.6.
     return {0, 0, 1};
 }
 
@@ -44,8 +46,9 @@ inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
 /// @param bounds  Of the scene, world space. If it has no size, its radius counts as 1; if it is
 ///                empty, the same, around the origin.
 inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
-    // TODO: bounds.radius() is given; the eye and the up direction by Eq. 4.6; Eq. 4.5; near and
-    // far as the text says after Eq. 4.8.
+    // TODO, step 2: bounds.radius() is given, bounds.center() too, but for an empty box it would be
+    // NaN. The eye and the up direction by Eq. 4.6; Eq. 4.5; near and far as the text says after
+    // Eq. 4.8.
     return {vec3(0, 0, 1), mat4(1), 1, 1, 2};
 }
 

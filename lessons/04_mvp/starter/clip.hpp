@@ -29,7 +29,7 @@ constexpr int frustum_planes = 6;
 ///
 /// @param plane  0 to 5: left, right, bottom, top, near, far.
 constexpr float plane_distance(int plane, vec4 position_clip) {
-    // TODO: Eq. 4.10.
+    // TODO, step 3: Eq. 4.10.
     return 0;
 }
 
@@ -41,7 +41,8 @@ constexpr float plane_distance(int plane, vec4 position_clip) {
 /// @param a_by,b_by  The plane_distance of each; one of them is negative.
 inline ClippedVertex crossing(const ClippedVertex& a, float a_by, const ClippedVertex& b,
                               float b_by) {
-    // TODO: Eq. 4.12.
+    // TODO, step 3: Eq. 4.12, each share by a division of its own: with 1 minus the other, the two
+    // ways would differ.
     return a;
 }
 
@@ -79,7 +80,9 @@ inline vec4 clamped_to_frustum(vec4 position_clip) {
 ///                  plane. No vertex has a coordinate beyond its w, and no w is negative.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
 inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& vertices) {
-    // TODO: refuse what is not usable; Eq. 4.13; clamped_to_frustum().
+    // TODO, step 3: nothing is left, if a coordinate is NaN or not below clip_limit in size. Then
+    // the two tests before the cuts: a triangle that is all inside stays as it is. Then Eq. 4.13,
+    // plane by plane. After the last plane, clamped_to_frustum() for each vertex, and the fan.
     return {};
 }
 
@@ -98,16 +101,16 @@ inline std::array<vec4, 3> vertices_of(const Triangle& triangle,
 ///
 /// @param bounds  World space; or model space, with a matrix from there.
 inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world) {
-    // TODO: Eq. 4.10 and 4.14.
+    // TODO, step 3: Eq. 4.10 and 4.14.
     return false;
 }
 
-/// A point on the screen in pixels, and its depth: 0 to 1 (Eq. 4.9).
+/// A point on the screen in pixels, and its depth, 0 to 1 (Eq. 4.9, after the division by w).
 ///
 /// @param position_clip  Inside the frustum, w > 0. A w of 0 gives NaN, which snap_triangle
 ///                       refuses.
 inline vec3 screen_from_clip(vec4 position_clip, ivec2 size) {
-    // TODO: Eq. 4.9.
+    // TODO, step 2: divide by w; then Eq. 4.9 written out; viewport() would round otherwise.
     return vec3(0);
 }
 

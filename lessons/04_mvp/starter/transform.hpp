@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "common/math/numerics.hpp"
 #include "common/math/types.hpp"
 
@@ -22,14 +24,14 @@ namespace rasterbook {
 ///     0  0  0  1
 template <std::floating_point T>
 constexpr glm::mat<4, 4, T> translation(glm::vec<3, T> t) {
-    // TODO: Eq. 4.3.
+    // TODO, step 1: Eq. 4.3. matrix_from_rows<T>() of types.hpp takes the rows, as on paper.
     return glm::mat<4, 4, T>(1);
 }
 
 /// Scaling along the axes by the factors s (Eq. 4.3); negative ones mirror.
 template <std::floating_point T>
 constexpr glm::mat<4, 4, T> scaling(glm::vec<3, T> s) {
-    // TODO: Eq. 4.3.
+    // TODO, step 1: Eq. 4.3.
     return glm::mat<4, 4, T>(1);
 }
 
@@ -41,7 +43,7 @@ constexpr glm::mat<4, 4, T> scaling(glm::vec<3, T> s) {
 ///     0  0   0  1
 template <std::floating_point T>
 glm::mat<4, 4, T> rotation_x(T angle_radians) {
-    // TODO: Eq. 4.2.
+    // TODO, step 1: Eq. 4.2.
     return glm::mat<4, 4, T>(1);
 }
 
@@ -53,7 +55,7 @@ glm::mat<4, 4, T> rotation_x(T angle_radians) {
 ///      0  0  0  1
 template <std::floating_point T>
 glm::mat<4, 4, T> rotation_y(T angle_radians) {
-    // TODO: Eq. 4.2.
+    // TODO, step 1: Eq. 4.2.
     return glm::mat<4, 4, T>(1);
 }
 
@@ -65,20 +67,24 @@ glm::mat<4, 4, T> rotation_y(T angle_radians) {
 ///     0   0  0  1
 template <std::floating_point T>
 glm::mat<4, 4, T> rotation_z(T angle_radians) {
-    // TODO: Eq. 4.1.
+    // TODO, step 1: Eq. 4.1.
     return glm::mat<4, 4, T>(1);
 }
 
 /// The view matrix: the eye becomes the origin, and what it looks at lies on -z (Eq. 4.5).
 ///
 /// @param eye,center  World space. If they are the same point, the camera looks along -z.
-/// @param up          What shall point up in the picture, of any length. If it is parallel to the
-///                    view, zero or not finite, the axis that is least parallel takes its place; of
-///                    equals, y first.
+/// @param up          What shall point up in the picture, of any length. If it is zero or not
+///                    finite, or the sine of its angle with the view is at most 64 eps, the axis
+///                    that is least parallel to the view takes its place; of equals, y first, then
+///                    x. (eps is std::numeric_limits<T>::epsilon().)
 /// @return            view_from_world: its upper 3x3 part is a rotation within 4 eps.
 template <std::floating_point T>
 glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3, T> up) {
-    // TODO: Eq. 4.5; another up where this one has no direction or is parallel to the view.
+    // TODO, step 2: Eq. 4.5, with normalize_or() and cross_product() of numerics.hpp, which keep
+    // the 4 eps. Back is (0, 0, 1) if it has no direction. Scale up to length 1 first: then the
+    // length of up x back is the sine. The axis least parallel to back is the one along which
+    // back's coordinate is smallest in size.
     return glm::mat<4, 4, T>(1);
 }
 
@@ -96,7 +102,8 @@ glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3,
 ///                       and far are close, within (2 + 1 / (2 (1 - near/far))) eps.
 template <std::floating_point T>
 glm::mat<4, 4, T> perspective(T fov_y_radians, T aspect, T near, T far) {
-    // TODO: Eq. 4.7 and 4.8; mind an infinite far.
+    // TODO, step 2: Eq. 4.7 and 4.8. In 4.8 divide by far above and below, so that far may be
+    // infinite: with ratio = near / far, A = -(1 + ratio) / (1 - ratio), B = -2 near / (1 - ratio).
     return glm::mat<4, 4, T>(1);
 }
 
@@ -111,7 +118,7 @@ glm::mat<4, 4, T> perspective(T fov_y_radians, T aspect, T near, T far) {
 /// @param size  Of the picture: W, H.
 template <std::floating_point T>
 constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
-    // TODO: Eq. 4.9.
+    // TODO, step 2: Eq. 4.9.
     return glm::mat<4, 4, T>(1);
 }
 
@@ -124,13 +131,13 @@ constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
 ///           into it. The length of a normal is lost. Each element is within 1.5 ulp.
 template <std::floating_point T>
 glm::mat<3, 3, T> normal_matrix(const glm::mat<3, 3, T>& m) {
-    // TODO: Eq. 4.15.
+    // TODO, step 1: Eq. 4.15, with cross_product() of numerics.hpp, which keeps the 1.5 ulp.
     return glm::mat<3, 3, T>(1);
 }
 
 /// Points multiplied by `m`, as homogeneous coordinates.
 inline std::vector<vec4> transform(const mat4& m, const std::vector<vec3>& points) {
-    // TODO: Eq. 4.4.
+    // TODO, step 1: m times (x, y, z, 1) for each point (Eq. 4.4).
     return std::vector<vec4>(points.size(), vec4(0, 0, 0, 1));
 }
 

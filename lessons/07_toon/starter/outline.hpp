@@ -36,8 +36,10 @@ constexpr vec3 ink(0.006f, 0.005f, 0.009f);  ///< The colour of outlines; linear
 /// @return  Of length 1; 0 where there is none, as on a sheet with two sides.
 inline std::vector<vec3> hull_normals(const Mesh& mesh) {
     // TODO: Eq. 7.8: with face_normal and vertex_angle_radians, sum over the faces around each
-    // position, in the order of the mesh; then over all equal positions, in their order; then scale
-    // to length 1, with unit_or(sum, vec3(0)).
+    // index, in the order of the mesh. Then add up the sums of equal positions, in the order of
+    // their indices, and scale to length 1, with unit_or(sum, vec3(0)). To find equal positions,
+    // sort the indices by the bits of position + 0.0f (std::bit_cast): so -0 equals 0, and NaN has
+    // its place, too.
     return std::vector<vec3>(mesh.positions.size(), vec3(0));
 }
 
@@ -47,7 +49,8 @@ inline std::vector<vec3> hull_normals(const Mesh& mesh) {
 /// @param normal_clip  clip_from_world * vec4(normal, 0). A normal that points straight to the
 ///                     eye or away from it has no direction on the screen: the vertex stays.
 inline vec4 pushed(vec4 position_clip, vec4 normal_clip, float width_px, ivec2 size) {
-    // TODO: Eq. 7.9; unit_or scales to length 1, or gives its fallback where that cannot be.
+    // TODO: Eq. 7.9. unit_or(vec3(M, 0), vec3(0)) scales M to length 1. Where M is 0 it gives 0:
+    // the vertex stays.
     return position_clip;
 }
 
@@ -70,18 +73,19 @@ template <typename CounterPolicy>
 void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
                float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
     // TODO: transform the positions, push each one, and then for each triangle, as in lesson 04's
-    // for_each_visible_triangle: clip_triangle, project; fill_triangle and depth.test_and_write as
-    // in main.cpp. But only faces that are seen from behind (asked of the mesh as it was) are
-    // drawn. Do not ask project's is_back_facing: on the screen they are clockwise; nor
-    // is_outside_frustum: of a body just outside of the picture, the rim may reach into it. What
-    // passes the depth test is ink. Count Counter::outline_tests for each depth test and
-    // Counter::outline_pixels for each pixel inked, and nothing else.
+    // for_each_visible_triangle: clip_triangle, project. Give the projected triangle's on_screen to
+    // fill_triangle, and for each pixel its depth.at(barycentrics) to depth.test_and_write. But
+    // only faces that are seen from behind (asked of the mesh as it was) are drawn. Do not ask
+    // project's is_back_facing: on the screen they are clockwise; nor is_outside_frustum: of a body
+    // just outside of the picture, the rim may reach into it. What passes the depth test is ink.
+    // Count Counter::outline_tests for each depth test and Counter::outline_pixels for each pixel
+    // inked, and nothing else.
 }
 
 /// From where on a change counts as an edge.
 ///
-/// That of normals is none that a crease of a box, a common prism or a regular solid can have,
-/// however it runs over the picture: rounding would decide what is inked there (Eq. 7.14).
+/// No crease of a box, a common prism or a regular solid has exactly that of normals, however it
+/// runs over the picture: otherwise rounding would decide what is inked there (Eq. 7.14).
 struct EdgeThresholds {
     float depth = 0.02f;    ///< In units of the distance to what is seen.
     float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
@@ -91,24 +95,25 @@ struct EdgeThresholds {
 ///
 /// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, infinitely far: 0.
 inline float inverse_w(float depth, const Camera& camera) {
-    // TODO: Eq. 7.11.
+    // TODO: Eq. 7.11, in float.
     return 0;
 }
 
 /// The second difference along x or y; the rows beside count half (Eq. 7.12). It is 0 for a plane,
 /// however steep; the first difference would grow with the slope.
 ///
-/// @param at  Called as at(ivec2 offset), in steps from -1 to 1.
+/// @param at     Called as at(ivec2 offset), in steps from -1 to 1.
+/// @param along  (1, 0) or (0, 1).
 template <typename At>
 float second_difference(At&& at, ivec2 along) {
-    // TODO: Eq. 7.12.
+    // TODO: Eq. 7.12, in float.
     return 0;
 }
 
 /// Sobel's first difference along x or y; the rows beside count half (Eq. 7.13). At an edge between
 /// two values it is their difference.
 ///
-/// @param at  As for second_difference().
+/// @param at,along  As for second_difference().
 template <typename At>
 vec3 sobel(At&& at, ivec2 along) {
     // TODO: Eq. 7.13.
@@ -120,16 +125,19 @@ vec3 sobel(At&& at, ivec2 along) {
 ///
 /// @param normals   Of what is seen, length 1; 0 where nothing is.
 /// @param width_px  Of lines along rows and columns, rounded up to an even number; slanted ones are
-///                  0.71 to 1.41 times as wide. 0: none. A picture that is not wider and higher
-///                  than that has none, and is not asked.
+///                  0.71 to 1.41 times as wide. 0: each pixel is asked, and none inked. In a
+///                  picture that is at most that even number of pixels wide or high, none is
+///                  asked.
 template <typename CounterPolicy>
 void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
                 float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,
                 CounterPolicy& counters) {
     // TODO: for each pixel Eq. 7.14, with the neighbours `reach` = width_px / 2, rounded up, pixels
-    // away; at the picture's border all of it, also the threshold, for the next pixel that has
-    // neighbours on all sides. Count Counter::outline_tests for each pixel and
-    // Counter::outline_pixels for each one inked; nothing in a picture too small for such a pixel.
+    // away; at the picture's border all of it, also the threshold, for the nearest pixel that has
+    // neighbours on all sides. Take the root for depth with std::hypot: a square may vanish or
+    // overflow. Count Counter::outline_tests for each pixel (also if `reach` is 0) and
+    // Counter::outline_pixels for each one inked. In a picture at most 2 * reach pixels wide or
+    // high, do nothing and count nothing.
 }
 
 }  // namespace rasterbook

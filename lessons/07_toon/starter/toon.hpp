@@ -17,9 +17,9 @@ constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
 
 /// How bright a coloured light is: its largest component (Eq. 7.1).
 ///
-/// @return  0 for NaN and for negative numbers.
+/// @return  At least 0: a component that is NaN or negative counts as 0.
 inline float brightness(vec3 light) {
-    // TODO: Eq. 7.1; mind NaN.
+    // TODO: Eq. 7.1; for NaN see Robust, "Numbers that are no brightness".
     return 0;
 }
 
@@ -31,7 +31,8 @@ inline float brightness(vec3 light) {
 /// @param brightness  Any number; below 0 and NaN count as 0, above 1 as 1.
 /// @param tones       1 to max_tones.
 inline int tone_of(float brightness, int tones) {
-    // TODO: Eq. 7.2. The product has to be exact.
+    // TODO: Eq. 7.2, with the product in double, where it is exact; for NaN and great numbers see
+    // Robust, "Numbers that are no brightness".
     return 0;
 }
 
@@ -86,7 +87,7 @@ inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const Reflecte
 /// @return  0 to 1, but for rounding; 0 for NaN, and for normals that point away, as interpolated
 ///          ones may at a silhouette.
 inline float facing_ratio(vec3 normal, vec3 toward_eye) {
-    // TODO: the cosine of the angle between the two; mind NaN.
+    // TODO: the ratio of Eq. 7.6; NaN as in brightness().
     return 1;
 }
 

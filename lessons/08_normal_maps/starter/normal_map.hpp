@@ -23,7 +23,8 @@ enum class Green { up, down };
 /// @param value  As the image has it: 0 to 2^bits - 1.
 /// @param bits   2 to 16.
 constexpr float component_from_unorm(std::uint32_t value, int bits = 8) {
-    // TODO: Eq. 8.1, in float: a difference of unsigned numbers wraps.
+    // TODO: Eq. 8.1 as (2 c - greatest) / greatest, where greatest is 2^bits - 1; in float, since a
+    // difference of unsigned numbers wraps.
     return 0;
 }
 
@@ -35,14 +36,15 @@ inline Image<vec4> normals_from_unorm(const Image<u8vec4>& image, Green green) {
     return Image<vec4>(image.size(), vec4(0, 0, 1, 1));
 }
 
-/// The normals of a height map, of which z is 1: the slope down to the right, the slope down
-/// upwards in the image, and 1 (Eq. 8.9). A map of one height has (0, 0, 1) everywhere.
+/// The normals of a height map, (-a, -b, 1) of Eq. 8.9: x and y say how steeply it falls to the
+/// right and upwards in the image. A map of one height has (0, 0, 1) everywhere.
 ///
-/// @param image  Its red is the height: 255 lies one side of the image above 0.
+/// @param image  Its red is the height: 255 is as high above 0 as the map is wide.
 /// @param wrap   What lies beyond the image's borders.
 inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, Wrap wrap) {
-    // TODO: Eq. 8.9 with s = 1; red over 255 is the height; z and w are 1. Beyond the border: the
-    // texel at the opposite one for Wrap::repeat, else that at the border itself.
+    // TODO: Eq. 8.9 with s = 1, as normal_mapped() multiplies by the material's s later; red over
+    // 255 is the height; z and w are 1. Beyond the border: the texel at the opposite one for
+    // Wrap::repeat, else that at the border itself.
     return Image<vec4>(image.size(), vec4(0, 0, 1, 1));
 }
 

@@ -35,7 +35,7 @@ struct UvDirections {
 ///
 /// @param positions,uvs  Of the vertices. Any numbers: with a uv that is not finite, the handedness
 ///          is 0; with a position that is not, it is that of the uvs, and both directions are 0.
-/// @return  Of one texture and surface whatever its size. The sides are taken from the first
+/// @return  As exact for tiny triangles as for huge ones. The sides are taken from the first
 ///          vertex: another one that comes first changes roundings. All is computed in double, with
 ///          an error of 2^-51 times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, and then rounded to
 ///          float. The handedness is exact where the differences of the uvs are: between numbers
@@ -64,7 +64,7 @@ Vec3<F> across(Vec3<F> v, Vec3<F> normal) {
 /// @return   Length 1.
 template <typename F>
 Vec3<F> any_orthogonal(Vec3<F> n) {
-    // TODO: Robust, "Where no tangent is left"; choose the axis by select().
+    // TODO: choose the axis by select(), then across() and unit_or() with the axis as fallback.
     return Vec3<F>(vec3(1, 0, 0));
 }
 
@@ -75,11 +75,12 @@ struct TangentBasis {
 };
 using TangentFrame = TangentBasis<float>;
 
-/// More of the square of a tangent's length than this has to be left perpendicular to the normal
-/// for one step to be exact enough: the tangent was less than 30 degrees away from what it becomes.
+/// One step of Eq. 8.5 is exact enough if the square of what across() leaves is more than this
+/// times the square of the tangent: then the two are less than 30 degrees apart.
 constexpr float mostly = 0.75f;
 
-/// If no more than this is left of the square, 2^-20 of the length, it has no true digit.
+/// If that square is no more than this times the tangent's, no digit of what is left is true: it is
+/// 2^-20 of the tangent's length at most.
 constexpr float hardly_any = 0x1p-40f;
 
 /// What is left of a tangent perpendicular to the normal, scaled to length 1 (Eq. 8.5).
@@ -90,8 +91,12 @@ constexpr float hardly_any = 0x1p-40f;
 ///                 parallel to the normal but for `hardly_any` of its square.
 template <typename F>
 Vec3<F> unit_orthogonal(Vec3<F> tangent, Vec3<F> normal) {
-    // TODO: Eq. 8.5, T': across(), times 1 / sqrt() of its square. Robust, "Where little is left":
-    // when this is not exact enough, and what to do then; choose by select().
+    // TODO: Eq. 8.5, T': across(), times 1 / sqrt() of its square. Robust: that will do if the
+    // square is above `mostly` times the tangent's square and above 1e-30, and the tangent's square
+    // is below 1e30. Else take across() of unit_or() of the tangent. If the square of that is above
+    // `hardly_any`, unit_or(), across() and unit_or() once more; if not, any_orthogonal(). The
+    // fallback is the normal, of which across() leaves nothing. Choose by select(). NaN is neither
+    // above nor below anything.
     return any_orthogonal(normal);
 }
 

@@ -85,7 +85,7 @@ inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers
 /// of a point near the border lies inside. One more than the largest PCF kernel takes.
 constexpr int margin_texels = 4;
 
-/// By how much the margin makes a map wider (Eq. 9.3).
+/// By how much the margin makes a map wider (Eq. 9.5).
 ///
 /// @param size  Of the map in texels, > 2 margin_texels.
 inline double widened_by_margin(int size) {
@@ -117,8 +117,8 @@ inline dmat4 looking(dvec3 eye, dvec3 direction) {
 inline LightViews directional_light_views(const Light& light, const Bounds& casters,
                                           const Bounds& receivers, int size) {
     // TODO: step 1: Eq. 9.1 by looking(), the two boxes in this view by box_in(), shadow_region()
-    // and widened(); then crop() and S(1, 1, -1). Step 5: where one of the two boxes, or the region
-    // before it is widened, is not usable: {}.
+    // and widened(); then crop() and S(1, 1, -1). Step 5: return {} where is_usable() is false for
+    // one of the two boxes, or for the region before it is widened.
     return {{mat4(1)}, 1, false};
 }
 
@@ -143,18 +143,24 @@ inline DepthRange depth_range(double nearest_caster, double farthest) {
 /// @return  Of count 0 when in front of the light and in its cone no receiver lies behind a caster.
 inline LightViews spotlight_views(const Light& light, const Bounds& casters,
                                   const Bounds& receivers, int size) {
-    // TODO: step 4: perspective() of depth_range()'s planes, and looking(). Step 5: Eq. 9.4. Find
-    // both boxes in the light's view and the depths first: z grows towards the light. Then the
-    // boxes' corners in NDC; a box that comes nearer than the near plane is taken to fill the cone.
-    // What both have in common, cut to -1 to 1; widened(), z being -1 to 1 before and after; and
-    // crop(). Where there can be no shadow, in depth or as shadow_region() says: {}.
+    // TODO: step 4: P V, by perspective() and looking(); depth_range() takes no notice yet of what
+    // it is given. Step 5: Eq. 9.4, where {} is returned if there can be no shadow:
+    // 1. Both boxes in the light's view, by box_in(). {} if one is not usable.
+    // 2. A box reaches from -high.z to -low.z in front of the light. The map's farthest is the
+    //    lesser of the two far ends. {} unless it is > 0 and the nearest caster is not farther.
+    //    Then depth_range().
+    // 3. Both boxes in NDC: the corners in the world times P V, divided by w, which box_in() does
+    //    not do. A box that comes nearer than the near plane is from -1 to 1 instead.
+    // 4. shadow_region() of the two; x and y of low raised to at least -1, of high lowered to at
+    //    most 1; z set to -1 to 1. {} if not usable.
+    // 5. widened(), z set to -1 to 1 once more, and crop().
     return {{mat4(1)}, 1, true};
 }
 
 /// The face of a cube map that a vector from the light passes through: 0 to 5 for +x, -x, +y, -y,
 /// +z, -z (Eq. 9.5). A 0 of either sign counts as positive: a zero-length vector is +x.
 inline std::size_t cube_face(vec3 direction) {
-    // TODO: step 4: the left of Eq. 9.5.
+    // TODO: step 4: the left of Eq. 9.5. Of equal components, x wins over y and y over z.
     return 0;
 }
 
@@ -162,9 +168,12 @@ inline std::size_t cube_face(vec3 direction) {
 inline LightViews point_light_views(const Light& light, const Bounds& casters,
                                     const Bounds& receivers, int size) {
     // TODO: step 4: the right of Eq. 9.5, depth_range(), and a view along each axis by looking().
-    // Step 5: the boxes' distances in any direction, and from them depth_range(), for which the
-    // nearest is divided by sqrt(1 + 2 t^2). Where there can be no shadow in depth, or a distance
-    // is not finite: {}.
+    // Step 5: distances from the light, in any direction. The nearest caster is at the point of the
+    // casters' box that is nearest: the light's position, each coordinate clamped to the box. A box
+    // ends at its farthest corner: for each coordinate, min or max, whichever is farther. The
+    // lesser of the two boxes' ends is the map's. {} unless it is > 0 and below float's maximum,
+    // and the nearest caster is not farther. depth_range() gets the nearest caster's distance
+    // divided by sqrt(1 + 2 t^2).
     LightViews views{{}, 6, true};
     views.clip_from_world.fill(mat4(1));
     return views;

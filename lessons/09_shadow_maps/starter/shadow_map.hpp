@@ -61,14 +61,16 @@ struct ShadowMap {
         : size(texels),
           clip_from_world(clip),
           texels_from_world(1),  // TODO: step 1: Eq. 9.6, viewport<double>() and clip
-          plane_from_world(1),   // TODO: step 2: the left of Eq. 9.8
+          plane_from_world(1),   // TODO: step 2: (T^-1)^T of Eq. 9.8, in double
           is_perspective(perspective),
           depths(std::move(memory)) {
         [[maybe_unused]] const dvec4 farthest(
             glm::max(glm::abs(dvec3(reach.min)), glm::abs(dvec3(reach.max))), 1);
         const dmat4 rows = glm::transpose(dmat4(texels_from_world));
-        // TODO: step 5: Eq. 9.15; the sum for a row i is the dot product of |rows[i]| and
-        // `farthest`.
+        // TODO: step 5: Eq. 9.15, in Robust, "How much is rounded". A_x, A_y, A_z and A_w are the
+        // dot products of |rows[0]| to |rows[3]| and `farthest`.
+        //     rounding_texels = rounding * (max(A_x, A_y) + size * A_w)
+        //     rounding_depth = rounding * (A_z + A_w)
         rounding_texels = 0;
         rounding_depth = 0;
         slope_in_middle = slope_at(reach.center(), rows);
@@ -113,8 +115,8 @@ void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy
 /// What keeps a lit surface from shadowing itself.
 enum class Bias { none, constant, slope, plane, normal };
 
-/// What a shadow test has to know of the triangle on which a shadow falls. A table in the text,
-/// "Five biases and what they return", says which Bias sets which field.
+/// What a shadow test has to know of the triangle on which a shadow falls. A table in Robust, "Five
+/// biases and what they return", says which Bias sets which field.
 struct Receiver {
     vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
     float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
@@ -146,11 +148,25 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
         result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
     if (bias == Bias::none || bias == Bias::constant) return result;
 
-    // TODO: step 2: the triangle's plane as the map sees it, Eq. 9.8, turned so that `outward` is
-    // in front of it. Where it is turned away, or plane.z is 0 or not a number, the bias is 2. Else
-    // Eq. 9.9 and depth_quanta for Bias::slope; for Bias::plane, the slopes as well. The bias is 2
-    // if the slopes' sum is not at most max_slope. Step 5: Eq. 9.10 for Bias::slope, Eq. 9.11 for
-    // Bias::plane, and Eq. 9.12 for Bias::normal, where the bias is 2 if K g is not below 1.
+    // TODO: step 2: n by normalize_or(), 0 if the triangle has no area. The plane as the map sees
+    // it, Eq. 9.8; if dot(n, outward) < 0, change the signs of plane and n. Unless plane.z < 0,
+    // return a bias of 2 and nothing else. The same unless sum = |z_x| + |z_y| is <= max_slope.
+    // (Ask it this way round: a comparison with NaN is false.) Else Eq. 9.9 and depth_quanta for
+    // Bias::slope and Bias::plane; for Bias::plane, z_x and z_y as well, in result.slope. Leave
+    // Bias::normal for later.
+    //
+    // Step 5: Robust derives it from "The last two per cent of the bias" to "Off the surface".
+    // Bias::slope, Eq. 9.10:
+    //     bias = (reach_texels + snapping) sum + depth_quanta
+    //     bias_per_w = map.rounding_texels sum + map.rounding_depth
+    // Bias::plane, Eq. 9.11: the same without reach_texels.
+    // Bias::normal, Eq. 9.12, does not ask for `sum`. With across = |plane.x| + |plane.y|, and row
+    // the first three numbers of the last row of map.texels_from_world:
+    //     K = (reach_texels + snapping) across + depth_quanta |plane.z|
+    //     E = map.rounding_texels across + map.rounding_depth |plane.z|
+    //     g = dot(n, row)
+    //     offset_times_w = K / (1 - K g) n,  offset = E / (1 - K g) n
+    // Unless K g < 1, return a bias of 2 and nothing else.
     return result;
 }
 
@@ -164,10 +180,18 @@ template <int radius>
 float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
     static_assert(radius >= 0 && radius <= max_pcf_radius);
     // TODO: step 1: find the point's position in the map (Eq. 9.6), and make the test of Eq. 9.7
-    // with receiver.bias. What is outside of the map is lit. Step 3: Eq. 9.7 for each tap of the
-    // kernel, which may reach beyond the map's border, and Eq. 9.13. Step 5: move the point by its
-    // offsets first (Eq. 9.12), and find the depth to compare at the centre of each texel (Eq. 9.10
-    // and 9.11).
+    // with receiver.bias. Texel (i, j) is
+    //     map.depths.depths()[{i + max_pcf_radius, j + max_pcf_radius}].
+    // Return 1, lit, unless x >= 0, y >= 0, x < R and y < R; in a perspective also unless w > 0,
+    // before anything is divided.
+    //
+    // Step 3: Eq. 9.7 for each tap of the kernel, which may reach into the border, and Eq. 9.13.
+    //
+    // Step 5: first move the point by offset + w offset_times_w (Eq. 9.12), where w is that of the
+    // point not yet moved, 1 for a directional light. All else is of the moved point. Take bias +
+    // bias_per_w / w off its depth (Eq. 9.10). For each tap, add slope.x times the way from the
+    // point to the centre of the tap's texel, in texels to the right, and slope.y times that down
+    // (Eq. 9.11); then comes the minimum.
     return 1;
 }
 
