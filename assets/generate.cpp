@@ -15,6 +15,7 @@
 
 #include "assets/generate/brick.hpp"
 #include "assets/generate/figure.hpp"
+#include "assets/generate/graph_paper.hpp"
 #include "assets/generate/hammered.hpp"
 #include "assets/generate/materials.hpp"
 #include "assets/generate/models.hpp"
@@ -24,6 +25,7 @@
 #include "assets/generate/texture.hpp"
 #include "assets/generate/tiles.hpp"
 #include "assets/generate/wood.hpp"
+#include "assets/generate/workshop.hpp"
 #include "common/image/file.hpp"
 #include "common/image/image_io.hpp"
 #include "common/image/input_error.hpp"
@@ -84,6 +86,7 @@ void write_scenes(const path& folder, const std::vector<Part>& teapot) {
     write_whole_file(folder / "textured.bin", textured.bytes());
     write_whole_file(folder / "bumpy.glb", bumpy_scene(teapot).glb());
     write_whole_file(folder / "toon.glb", toon_scene().glb());
+    write_whole_file(folder / "workshop.glb", workshop_scene(teapot).glb());
 }
 
 u8vec3 checker_texel(dvec2 p) {
@@ -108,6 +111,7 @@ void write_textures(const path& folder) {
     write_image(folder / "shield_normal.png", normal_image(paint(shield_texel), shield_relief));
     write_image(folder / "wood.png", wood_image());
     write_image(folder / "checker.png", paint(checker_texel));
+    write_image(folder / "graph_paper.png", graph_paper_image());
 }
 
 void generate(const path& folder) {

@@ -1,8 +1,11 @@
 """Draws the pictures that no test draws:
-pictures.py strip BUILD_FOLDER | mistakes [PICTURE...] | answers [NN [K]] | check-answers.
+pictures.py cover BUILD_FOLDER | strip BUILD_FOLDER | mistakes [PICTURE...] | answers [NN [K]] |
+            check-answers.
 
-`strip` puts README.md's picture together, a panel a lesson, each drawn by the lesson's own program
-with the options in its README's line "strip: OPTIONS".
+`cover` draws README.md's first picture by the command below it.
+
+`strip` puts README.md's second picture together, a panel a lesson, each drawn by the lesson's own
+program with the options in its README's line "strip: OPTIONS".
 
 `mistakes` makes the mistakes of docs/troubleshooting.md, one after the other, in a copy of the code:
 in the file that a section links to last before its diff, the right line (+) is replaced by the
@@ -98,7 +101,14 @@ def draw(program: Path, options: list[str], size: str) -> Picture:
         return read_bmp(file)
 
 
-# The strip: README.md
+# The cover and the strip: README.md
+
+
+def draw_cover(build: Path) -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    command = re.search(r"\./lessons/run 11 (--model workshop[^`\n#]*)", readme)
+    picture = draw(build / "11_scenes", shlex.split(command[1]), "1280x720")
+    (ROOT / "docs/cover.png").write_bytes(png(picture))
 
 
 PANEL, GAP = (168, 300), 6  # px
@@ -314,6 +324,8 @@ def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bo
 
 def main() -> None:
     match sys.argv[1:]:
+        case ["cover", folder]:
+            draw_cover(Path(folder).resolve())
         case ["strip", folder]:
             draw_strip(Path(folder).resolve())
         case ["mistakes", *only]:

@@ -162,8 +162,9 @@ TEST(GltfFiles, BlendersCameraAndLightsKeepTheirPositions) {
 TEST(GltfFiles, TheCoursesScenesCallForTheirEffects) {
     const Scene unlit = load_model(models / "unlit.glb"),
                 textured = load_model(models / "textured.gltf"),
-                bumpy = load_model(models / "bumpy.glb"), toon = load_model(models / "toon.glb");
-    for (const Scene* scene : {&unlit, &textured, &bumpy, &toon}) {
+                bumpy = load_model(models / "bumpy.glb"), toon = load_model(models / "toon.glb"),
+                workshop = load_model(models / "workshop.glb");
+    for (const Scene* scene : {&unlit, &textured, &bumpy, &toon, &workshop}) {
         EXPECT_TRUE(is_sound(*scene));
         EXPECT_TRUE(scene->warnings.empty()) << scene->warnings[0];
         EXPECT_GE(scene->cameras.size(), 1u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Four scenes as glTF files, each with what it calls for and no more.
+/// The lessons' four scenes as glTF files, each with what it calls for and no more.
 #pragma once
 
 #include <cmath>
@@ -220,39 +220,42 @@ inline GltfFile bumpy_scene(const std::vector<Part>& teapot) {
     return file;
 }
 
+/// A toon material: a lit colour and a shade, and the width of the outline.
+inline json toon_material(const std::string& name, dvec3 lit, dvec3 shade, double outline) {
+    json material = plain_material(name, lit, 0, 1);
+    material["extensions"]["VRMC_materials_mtoon"] = {
+        {"specVersion", "1.0"},
+        {"shadeColorFactor", {shade.r, shade.g, shade.b}},
+        {"shadingToonyFactor", 0.95},
+        {"shadingShiftFactor", -0.1},
+        {"outlineWidthMode", outline > 0 ? "worldCoordinates" : "none"},
+        {"outlineWidthFactor", outline},
+        {"outlineColorFactor", {0.02, 0.015, 0.03}}};
+    return material;
+}
+
 /// The robot as VRM files ask for it: light in two colours, and outlines.
 inline GltfFile toon_scene() {
     GltfFile file("Robot");
     file.use_extension("KHR_lights_punctual");
     file.use_extension("VRMC_materials_mtoon");
-    const auto paint = [](const std::string& name, dvec3 lit, dvec3 shade, double outline) {
-        json material = plain_material(name, lit, 0, 1);
-        material["extensions"]["VRMC_materials_mtoon"] = {
-            {"specVersion", "1.0"},
-            {"shadeColorFactor", {shade.r, shade.g, shade.b}},
-            {"shadingToonyFactor", 0.95},
-            {"shadingShiftFactor", -0.1},
-            {"outlineWidthMode", outline > 0 ? "worldCoordinates" : "none"},
-            {"outlineWidthFactor", outline},
-            {"outlineColorFactor", {0.02, 0.015, 0.03}}};
-        return material;
-    };
-    json lamp = paint("lamp", {0.8, 0.42, 0.04}, {0.5, 0.18, 0.03}, 0.025);
+    json lamp = toon_material("lamp", {0.8, 0.42, 0.04}, {0.5, 0.18, 0.03}, 0.025);
     lamp["emissiveFactor"] = {0.15, 0.08, 0.01};
-    json eyes = paint("eyes", {0.1, 0.1, 0.1}, {0.08, 0.08, 0.1}, 0);
+    json eyes = toon_material("eyes", {0.1, 0.1, 0.1}, {0.08, 0.08, 0.1}, 0);
     eyes["emissiveFactor"] = {0.55, 0.85, 0.8};
     // Glass and panel are sunk so flat into what is around them that an outline would break off.
     NamedMaterials material(
-        file, {{"coat", paint("coat", {0.8, 0.13, 0.06}, {0.34, 0.03, 0.06}, 0.025)},
-               {"cream", paint("cream", {0.87, 0.72, 0.42}, {0.5, 0.3, 0.2}, 0.025)},
-               {"panel", paint("panel", {0.87, 0.72, 0.42}, {0.5, 0.3, 0.2}, 0)},
-               {"trim", paint("trim", {0.03, 0.36, 0.38}, {0.01, 0.13, 0.2}, 0.025)},
-               {"glass", paint("glass", {0.05, 0.07, 0.14}, {0.02, 0.025, 0.06}, 0)},
-               {"steel", paint("steel", {0.36, 0.4, 0.5}, {0.12, 0.13, 0.22}, 0.025)},
-               {"lamp", lamp},
-               {"eyes", eyes},
-               {"box", paint("box", {0.75, 0.4, 0.12}, {0.34, 0.13, 0.06}, 0.025)},
-               {"platform", paint("platform", {0.3, 0.5, 0.25}, {0.08, 0.2, 0.16}, 0.025)}});
+        file,
+        {{"coat", toon_material("coat", {0.8, 0.13, 0.06}, {0.34, 0.03, 0.06}, 0.025)},
+         {"cream", toon_material("cream", {0.87, 0.72, 0.42}, {0.5, 0.3, 0.2}, 0.025)},
+         {"panel", toon_material("panel", {0.87, 0.72, 0.42}, {0.5, 0.3, 0.2}, 0)},
+         {"trim", toon_material("trim", {0.03, 0.36, 0.38}, {0.01, 0.13, 0.2}, 0.025)},
+         {"glass", toon_material("glass", {0.05, 0.07, 0.14}, {0.02, 0.025, 0.06}, 0)},
+         {"steel", toon_material("steel", {0.36, 0.4, 0.5}, {0.12, 0.13, 0.22}, 0.025)},
+         {"lamp", lamp},
+         {"eyes", eyes},
+         {"box", toon_material("box", {0.75, 0.4, 0.12}, {0.34, 0.13, 0.06}, 0.025)},
+         {"platform", toon_material("platform", {0.3, 0.5, 0.25}, {0.08, 0.2, 0.16}, 0.025)}});
     std::map<std::string, std::vector<Part>> groups;
     for (Part& part : figure(48)) groups[part.group].push_back(std::move(part));
     for (const auto& [name, parts] : groups)
