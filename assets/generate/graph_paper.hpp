@@ -74,7 +74,7 @@ inline dvec3 paper_color(dvec2 p) {
 
     const dvec3 at = barycentrics_on_paper(middle);
     if (glm::min(glm::min(at.x, at.y), at.z) >= 0) {
-        // Of the squares: nearer to a mixture of light than that of sRGB codes.
+        // Of the squares: nearer to a mixture of light than that of sRGB-encoded values.
         const dvec3 mixed =
             glm::sqrt(at.x * crayons[0] * crayons[0] + at.y * crayons[1] * crayons[1] +
                       at.z * crayons[2] * crayons[2]);
