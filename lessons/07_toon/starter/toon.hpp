@@ -19,7 +19,7 @@ constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
 ///
 /// @return  At least 0: a component that is NaN or negative counts as 0.
 inline float brightness(vec3 light) {
-    // TODO: Eq. 7.1; for NaN see Robust, "Numbers that are no brightness".
+    // TODO: Eq. 7.1; for NaN see Robust, "Numbers that are not a brightness".
     return 0;
 }
 
@@ -32,7 +32,7 @@ inline float brightness(vec3 light) {
 /// @param tones       1 to max_tones.
 inline int tone_of(float brightness, int tones) {
     // TODO: Eq. 7.2, with the product in double, where it is exact; for NaN and great numbers see
-    // Robust, "Numbers that are no brightness".
+    // Robust, "Numbers that are not a brightness".
     return 0;
 }
 
