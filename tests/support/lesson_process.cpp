@@ -8,6 +8,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <mutex>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +56,8 @@ std::filesystem::path fresh_folder(const std::string& name) {
         }
     };
     static Folders folders;
+    static std::mutex mutex;
+    const std::scoped_lock lock(mutex);
     const auto folder = std::filesystem::temp_directory_path() /
                         ("rasterbook_" + name + "_" + std::to_string(getpid()) + "_" +
                          std::to_string(folders.paths.size()));
