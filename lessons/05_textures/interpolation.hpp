@@ -45,7 +45,8 @@ struct PerspectiveSetup {
 /// sum.
 constexpr float min_inverse_w = 0x1p-80f;
 
-/// @param clipped  With w > 0: a piece with a w of 0 has no area on the screen, and no fragments.
+/// @param clipped  A piece with a w of 0, or without area, has no fragments: what is returned for
+///                 it is not used, and may be anything.
 inline PerspectiveSetup perspective_setup(const ScreenTriangle& on_screen,
                                           const ClippedTriangle& clipped) {
     // Only the ratios of the w count; those to the least one do not overflow.
@@ -78,6 +79,7 @@ inline PerspectiveSetup perspective_setup(const ProjectedTriangle& projected) {
 /// From barycentric coordinates on the screen to those on the surface, of the whole triangle
 /// (Eq. 5.3).
 ///
+/// @tparam F         float; or several floats at once, as common/math/functions.hpp has it.
 /// @param on_screen  Of the clipped piece, as fill_triangle gives them.
 /// @return           Coordinates >= 0, each within 16 ulp of its exact value; 22 ulp in a piece
 ///                   that was cut, taking its vertices' coordinates as they are.

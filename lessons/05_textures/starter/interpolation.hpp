@@ -45,11 +45,13 @@ struct PerspectiveSetup {
 /// sum.
 constexpr float min_inverse_w = 0x1p-80f;
 
-/// @param clipped  With w > 0: a piece with a w of 0 has no area on the screen, and no fragments.
+/// @param clipped  A piece with a w of 0, or without area, has no fragments: what is returned for
+///                 it is not used, and may be anything.
 inline PerspectiveSetup perspective_setup(const ScreenTriangle& on_screen,
                                           const ClippedTriangle& clipped) {
     // TODO: the 1/w of Eq. 5.3, of which only the ratios count, none below min_inverse_w; the
-    // numerators; and how fast they change (Eq. 2.5 over the area, in double).
+    // numerators; how fast they change (Eq. 2.5 over the area, in double); and whether the piece
+    // is the whole triangle: its barycentrics are (1, 0, 0), (0, 1, 0) and (0, 0, 1).
     return {};
 }
 
@@ -60,12 +62,14 @@ inline PerspectiveSetup perspective_setup(const ProjectedTriangle& projected) {
 /// From barycentric coordinates on the screen to those on the surface, of the whole triangle
 /// (Eq. 5.3).
 ///
+/// @tparam F         float; or several floats at once, as common/math/functions.hpp has it.
 /// @param on_screen  Of the clipped piece, as fill_triangle gives them.
 /// @return           Coordinates >= 0, each within 16 ulp of its exact value; 22 ulp in a piece
 ///                   that was cut, taking its vertices' coordinates as they are.
 template <typename F>
 PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup, Vec3<F> on_screen) {
-    // TODO: Eq. 5.2 and 5.3, and 5.7 for the derivatives.
+    // TODO: Eq. 5.2 and 5.3, and 5.7 for the derivatives. First turn the setup's vectors into
+    // Vec3<F>. In a whole triangle the numerators are just inverse_w times on_screen.
     return {on_screen, Vec3<F>(F(0.0f)), Vec3<F>(F(0.0f))};
 }
 

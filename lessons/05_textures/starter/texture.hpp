@@ -134,7 +134,7 @@ inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
 
 /// An image's colours decoded from sRGB (Eq. 5.11); alpha is not encoded.
 inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
-    // TODO: Eq. 5.11, which common/math/color.hpp has; alpha is not encoded.
+    // TODO: Eq. 5.11 in float, which common/math/color.hpp has; alpha is not encoded.
     return Image<vec4>(picture.size());
 }
 
