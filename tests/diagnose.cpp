@@ -113,8 +113,8 @@ std::size_t jumps_between(const Image<u8vec4>& a, const Image<u8vec4>& b) {
 std::string known_mistakes(const std::string& lesson, bool& is_right) {
     constexpr std::size_t part_left = 10;  // a tenth of the wrong pixels may have another reason
     std::vector<WrongPicture> mistakes = wrong_pictures(lesson);
-    std::map<std::vector<std::string>, Image<u8vec4>>
-        drawn;  // by options; at first as it should be
+    // By the options it is drawn with; until then what it should be.
+    std::map<std::vector<std::string>, Image<u8vec4>> drawn;
     for (WrongPicture& known : mistakes) {
         if (std::ranges::count(known.options, "--samples") == 0)
             known.options.insert(known.options.end(), {"--samples", "16"});
