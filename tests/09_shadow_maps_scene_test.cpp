@@ -21,7 +21,7 @@
 #include "09_shadow_maps/shadows.hpp"
 #include "support/first_difference.hpp"
 #include "support/golden.hpp"
-#include "support/lessons.hpp"
+#include "support/lesson_09.hpp"
 #include "support/light_maps.hpp"
 #include "support/look_up.hpp"
 #include "support/names.hpp"

@@ -11,7 +11,13 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lessons.hpp"
+#include "support/lesson_04.hpp"
+#include "support/lesson_05.hpp"
+#include "support/lesson_06.hpp"
+#include "support/lesson_07.hpp"
+#include "support/lesson_08.hpp"
+#include "support/lesson_09.hpp"
+#include "support/lesson_10.hpp"
 
 using namespace rasterbook;
 

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lessons.hpp"
+#include "support/lesson_06.hpp"
+#include "support/lesson_07.hpp"
+#include "support/lesson_08.hpp"
+#include "support/lesson_09.hpp"
 #include "support/pictures.hpp"
 
 using namespace rasterbook;

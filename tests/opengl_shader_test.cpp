@@ -14,7 +14,7 @@
 #include "04_mvp/transform.hpp"
 #include "common/image/backdrop.hpp"
 #include "common/math/color.hpp"
-#include "support/lessons.hpp"
+#include "support/lesson_09.hpp"
 #include "support/opengl.hpp"
 #include "support/picture_difference.hpp"
 #include "support/pictures.hpp"
@@ -120,7 +120,7 @@ TEST_F(OpenGlTest, Lesson09sFragmentShaderDrawsTheSamePicture) {
     options.texture.filter = Filter::bilinear;  // OpenGL finds levels only roughly
     options.shading.all_effects = true;         // so that each material has all textures
     const ShadowAssets assets = lesson_09::make_assets(loaded(options.model.string()), options);
-    NoCounters uncounted;
+    Counters uncounted;
     const Image<vec3> ours = lesson_09::render(options, assets, uncounted);
 
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());

@@ -8,8 +8,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 struct Options : LessonOptions {
     LineMethod line = LineMethod::bresenham;
 
@@ -24,13 +22,13 @@ struct Options : LessonOptions {
 };
 
 /// What a line adds to its pixels: near lines are bright, far ones dim. Linear colour.
-vec3 line_color(float depth) {
+static vec3 line_color(float depth) {
     constexpr vec3 near_color(0.30f, 0.42f, 0.36f), far_color(0.0f, 0.012f, 0.07f);
     return glm::mix(near_color, far_color, depth);
 }
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 
@@ -53,8 +51,6 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
     }
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "01_bresenham_lines", "Draws a model as a wireframe.",

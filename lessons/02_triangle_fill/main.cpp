@@ -9,8 +9,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 enum class Paint { flat, barycentric };
 
 struct Options : LessonOptions {
@@ -26,7 +24,7 @@ struct Options : LessonOptions {
 };
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 
@@ -52,8 +50,6 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
     }
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "02_triangle_fill",

@@ -11,8 +11,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 enum class Paint { flat, barycentric };
 
 struct Options : LessonOptions {
@@ -29,7 +27,7 @@ struct Options : LessonOptions {
 };
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
@@ -60,8 +58,6 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "03_z_buffer",

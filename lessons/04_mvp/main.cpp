@@ -13,8 +13,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
@@ -30,7 +28,7 @@ struct Options : LessonOptions {
 };
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
     // The teapot again, as a coffee pot on the crate: scaled, then rotated, then moved.
     const mat4 world_from_pot = translation(vec3(-3.7f, 2.4f, -2.6f)) *
                                 rotation_y(glm::radians(options.turn_degrees)) *
@@ -61,8 +59,6 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "04_mvp", "Draws a scene through a camera.",

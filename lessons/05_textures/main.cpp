@@ -12,8 +12,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
@@ -29,13 +27,13 @@ struct Assets {
     MaterialTextures textures;
 };
 
-Assets make_assets(Scene scene, const Options& options) {
+static Assets make_assets(Scene scene, const Options& options) {
     MaterialTextures textures = load_diffuse_textures(scene, options.texture);
     return {std::move(scene), std::move(textures)};
 }
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const Assets& assets, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Assets& assets, CounterPolicy& counters) {
     const auto& [scene, textures] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -66,8 +64,6 @@ Image<vec3> render(const Options& options, const Assets& assets, CounterPolicy& 
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "05_textures", "Draws a scene with textures.",

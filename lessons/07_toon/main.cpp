@@ -14,8 +14,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
@@ -27,7 +25,8 @@ struct Options : LessonOptions {
 };
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const ToonAssets& assets, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const ToonAssets& assets,
+                          CounterPolicy& counters) {
     const auto& [scene, textures, effects, hull_normals] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -77,8 +76,6 @@ Image<vec3> render(const Options& options, const ToonAssets& assets, CounterPoli
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "07_toon", "Draws a scene as a comic does.",

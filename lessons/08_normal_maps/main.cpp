@@ -15,8 +15,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
@@ -29,7 +27,8 @@ struct Options : LessonOptions {
 };
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const NormalMapAssets& assets, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const NormalMapAssets& assets,
+                          CounterPolicy& counters) {
     const auto& [scene, textures, normal_maps, effects] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -69,8 +68,6 @@ Image<vec3> render(const Options& options, const NormalMapAssets& assets, Counte
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "08_normal_maps", "Draws a scene with normal maps.",

@@ -16,8 +16,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
@@ -31,7 +29,8 @@ struct Options : LessonOptions {
 };
 
 template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const ShadowAssets& assets, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const ShadowAssets& assets,
+                          CounterPolicy& counters) {
     const auto& [scene, textures, normal_maps, effects, shadow_bounds] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -79,8 +78,6 @@ Image<vec3> render(const Options& options, const ShadowAssets& assets, CounterPo
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "09_shadow_maps", "Draws a scene with shadow maps.",

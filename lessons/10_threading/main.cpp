@@ -15,8 +15,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
@@ -33,8 +31,8 @@ struct Options : LessonOptions {
 };
 
 template <typename Pool, typename CounterPolicy>
-Image<vec3> render(const Options& options, const ShadowAssets& assets, Pool& pool,
-                   CounterPolicy& total) {
+static Image<vec3> render(const Options& options, const ShadowAssets& assets, Pool& pool,
+                          CounterPolicy& total) {
     const auto& [scene, textures, normal_maps, effects, shadow_bounds] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -96,8 +94,6 @@ Image<vec3> render(const Options& options, const ShadowAssets& assets, Pool& poo
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(

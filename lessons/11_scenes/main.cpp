@@ -15,8 +15,6 @@
 
 using namespace rasterbook;
 
-namespace {
-
 struct Options : LessonOptions {
     Orbit orbit;
     bool show_depth = false;
@@ -39,8 +37,8 @@ struct Options : LessonOptions {
 };
 
 template <typename Pool, typename CounterPolicy>
-Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool,
-                   CounterPolicy& total, StepClock& clock) {
+static Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool,
+                          CounterPolicy& total, StepClock& clock) {
     const auto& [scene, textures, normal_maps, bounds, lit_by, plan, hulls, is_on_paper] = assets;
     const Camera camera = camera_of_picture(options, options.scene.camera, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -90,8 +88,6 @@ Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(

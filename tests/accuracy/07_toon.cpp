@@ -15,7 +15,7 @@
 #include "accuracy/accuracy.hpp"
 #include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
-#include "support/lessons.hpp"
+#include "support/lesson_07.hpp"
 #include "support/lit_sphere.hpp"
 
 using namespace rasterbook;

@@ -21,7 +21,7 @@
 #include "10_threading/thread_pool.hpp"
 #include "accuracy/accuracy.hpp"
 #include "common/app/memory.hpp"
-#include "support/lessons.hpp"
+#include "support/lesson_10.hpp"
 #include "support/pictures.hpp"
 #include "support/pretend_pool.hpp"
 

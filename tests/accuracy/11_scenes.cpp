@@ -17,7 +17,7 @@
 #include "accuracy/accuracy.hpp"
 #include "common/app/memory.hpp"
 #include "common/math/color.hpp"
-#include "support/lessons.hpp"
+#include "support/lesson_11.hpp"
 #include "support/pictures.hpp"
 
 using namespace rasterbook;

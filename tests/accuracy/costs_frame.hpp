@@ -17,7 +17,7 @@
 #include "11_scenes/explain.hpp"
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/shaders.hpp"
-#include "support/lessons.hpp"
+#include "support/lesson_11.hpp"
 #include "support/pictures.hpp"
 
 namespace rasterbook {

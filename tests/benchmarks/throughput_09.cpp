@@ -4,7 +4,7 @@
 /// In a file of its own, so that the compiler has just what it has in the lesson.
 #include <benchmark/benchmark.h>
 
-#include "support/lessons.hpp"
+#include "support/lesson_09.hpp"
 #include "support/pictures.hpp"
 
 using namespace rasterbook;

@@ -12,7 +12,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "support/lessons.hpp"
+#include LESSON_HEADER
 
 namespace rasterbook {
 

@@ -38,7 +38,7 @@ struct Drawn {
 };
 
 /// @param render  Called as render(options, assets, counters): that of a lesson
-/// (support/lessons.hpp).
+/// (support/lesson_NN.hpp).
 template <typename Options, typename Assets, typename Render>
 Drawn drawn(const Options& options, const Assets& assets, Render&& render) {
     Drawn result;

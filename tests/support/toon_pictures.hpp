@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "support/lessons.hpp"
+#include "support/lesson_07.hpp"
 #include "support/pictures.hpp"
 
 namespace rasterbook::test {

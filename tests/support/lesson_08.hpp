@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Lesson 08's Options, make_assets() and render(), in namespace lesson_08.
+/// In tests of the reader's headers, too, it is the course's main.cpp.
+#pragma once
+
+// All that main.cpp includes, so that what is left of it are its own lines.
+#include <utility>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/projection.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "08_normal_maps/assets.hpp"
+#include "08_normal_maps/normal_mapping.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
+#include "support/run_no_lesson.hpp"
+
+#define main static lesson_main [[maybe_unused]]
+namespace lesson_08 {
+using rasterbook::test::run_lesson;
+#include "lessons/08_normal_maps/main.cpp"
+inline auto make_assets(Scene scene, const Options& options) {
+    return make_normal_map_assets(std::move(scene), options);
+}
+#ifdef RENDER_IS_COMPILED_APART
+Image<vec3> render(const Options&, const NormalMapAssets&, Counters&);
+#endif
+}  // namespace lesson_08
+#undef main

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Lesson 10's Options, make_assets() and render(), in namespace lesson_10.
+/// In tests of the reader's headers, too, it is the course's main.cpp.
+#pragma once
+
+// All that main.cpp includes, so that what is left of it are its own lines.
+#include <optional>
+#include <utility>
+
+#include "04_mvp/camera.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "09_shadow_maps/assets.hpp"
+#include "10_threading/binned_triangles.hpp"
+#include "10_threading/thread_options.hpp"
+#include "10_threading/thread_pool.hpp"
+#include "10_threading/threaded_shadows.hpp"
+#include "common/app/lesson_app.hpp"
+#include "support/run_no_lesson.hpp"
+
+#define main static lesson_main [[maybe_unused]]
+namespace lesson_10 {
+using rasterbook::test::run_lesson;
+#include "lessons/10_threading/main.cpp"
+inline auto make_assets(Scene scene, const Options& options) {
+    return make_shadow_assets(std::move(scene), options);
+}
+#ifdef RENDER_IS_COMPILED_APART
+Image<vec3> render(const Options&, const ShadowAssets&, ThreadPool&, Counters&);
+#endif
+}  // namespace lesson_10
+#undef main
