@@ -262,3 +262,26 @@ TEST(Phong, HardCase_NormalsOfTinyAndHugeFaces) {
             ASSERT_EQ(normal, vec3(0, 0, 1)) << "of a square with sides of " << size;
     }
 }
+
+TEST(Phong, Eq6_9_HardCase_WhereThousandsOfFacesMeetNormalsAreNearlyThoseOfAllFaces) {
+    // A cone, on one side of narrow faces and on the other of wide ones.
+    constexpr std::uint32_t sides = 5000;
+    std::vector<vec3> positions = {{0, 0.7f, 0}};
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const double part = static_cast<double>(i) / sides;
+        const double azimuth = 2 * std::numbers::pi * part * part;
+        positions.push_back(vec3(dvec3(std::sin(azimuth), 0, std::cos(azimuth))));
+        triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
+    }
+    const Mesh mesh = mesh_of(positions, triangles);
+    const SmoothNormals smooth(mesh);
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 7) {
+        const vec3 own = face_normal(mesh, mesh.triangles[i]);
+        dvec3 expected(0);
+        for (const Triangle& other : mesh.triangles)
+            if (const vec3 normal = face_normal(mesh, other); glm::dot(normal, own) > cos_sharp)
+                expected += double{vertex_angle_radians(mesh, other, 0)} * dvec3(normal);
+        ASSERT_LT(degrees_between(smooth.at(0, own), vec3(expected)), 2) << "face " << i;
+    }
+}

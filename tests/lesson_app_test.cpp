@@ -146,6 +146,23 @@ TEST(LessonApp, HardCase_BrokenModelNamesFileAndLineAndWritesNothing) {
         << "something was left behind";
 }
 
+TEST(LessonApp, LimitsSayWhatAModelMayAskFor) {
+    const auto file = fresh_folder("limits") / "a.png";
+    const auto draw = [&](const std::string& limit) {
+        return run_program(lesson, {"--size", "8x8", "--limit", "vertices=100", "--limit", limit,
+                                    "--out", file.string()});
+    };
+    for (const char* wrong : {"pixels", "pixels=", "pixels=-1", "pixels=1x", "wishes=3", "=3"})
+        EXPECT_EQ(draw(wrong).exit_status, 2) << wrong;
+    EXPECT_EQ(draw("vertices=1000000").exit_status, 0) << "the last one counts";
+    const ProcessResult refused = draw("pixels=0");
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_NE(refused.err.find("teapot.obj: more than 100 vertices in all, the most that are "
+                               "accepted; see --limit vertices=N"),
+              std::string::npos)
+        << refused.err;
+}
+
 TEST(LessonApp, HardCase_OutputIntoAMissingFolderIsAnError) {
     const auto file = fresh_folder("app") / "no" / "picture.png";
     expect_error(run_program(lesson, {"--size", "8x8", "--out", file.string()}), 1, file.string());

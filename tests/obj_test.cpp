@@ -86,7 +86,7 @@ std::string without_folder(std::string text, const fs::path& folder) {
 /// The message of the InputError that reading a file ends with; "" when it is read.
 std::string error_of(const fs::path& file, std::uint32_t max_elements = no_index) {
     try {
-        load_obj(file, max_elements);
+        load_obj(file, {}, max_elements);
     } catch (const InputError& error) { return without_folder(error.what(), file.parent_path()); }
     return "";
 }

@@ -45,6 +45,24 @@ ivec2 parse_size(const std::string& text) {
     return size;
 }
 
+/// Reads "pixels=1000000"; anything else is a usage error.
+void set_limit(LoadBudget& budget, const std::string& text) {
+    const std::size_t equals = std::min(text.find('='), text.size());
+    const auto name = std::ranges::find(resource_names, text.substr(0, equals));
+    const std::string number = text.substr(std::min(equals + 1, text.size()));
+    const char* const end = number.data() + number.size();
+    std::uint64_t most = 0;
+    const auto read = std::from_chars(number.data(), end, most);
+    if (name == resource_names.end() || read.ec != std::errc() || read.ptr != end) {
+        std::string names;
+        for (const std::string_view known : resource_names)
+            names += (names.empty() ? "" : "|") + std::string(known);
+        throw CLI::ValidationError("--limit",
+                                   "'" + text + "' is not WHAT=NUMBER, where WHAT is " + names);
+    }
+    budget.set(static_cast<Resource>(name - resource_names.begin()), most);
+}
+
 /// Reads "90" or "0-29/90"; anything else is a usage error.
 Frames parse_frames(const std::string& text) {
     try {
@@ -153,9 +171,13 @@ Tally make_film(const LessonProgram& program) {
 void make_pictures(const LessonProgram& program) {
     LessonOptions& options = program.options;
     const auto start = std::chrono::steady_clock::now();
-    const Scene& scene = program.prepare(load_model(find_model(options.model)));
+    const Scene& scene = program.prepare(load_model(find_model(options.model), options.budget));
     const double load_ms = elapsed_ms(start);
-    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << '\n';
+    constexpr std::size_t most_warnings = 200;
+    for (std::size_t i = 0; i < std::min(scene.warnings.size(), most_warnings); ++i)
+        std::cerr << "warning: " << scene.warnings[i] << '\n';
+    if (scene.warnings.size() > most_warnings)
+        std::cerr << "warning: and " << scene.warnings.size() - most_warnings << " more\n";
 
     const ivec2 size = options.size;
     options.size *= options.samples_per_side;
@@ -270,6 +292,14 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
             "--size", [&](const std::string& text) { options.size = parse_size(text); },
             "The picture's size in pixels [1280x720]")
         ->type_name("WIDTHxHEIGHT");
+    line.add_option_function<std::vector<std::string>>(
+            "--limit",
+            [&](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) set_limit(options.budget, text);
+            },
+            "How much the model's files may ask for, such as pixels=1000000000; or bytes, "
+            "vertices, primitives, objects, materials")
+        ->type_name("WHAT=NUMBER");
     line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
     Knobs knobs(line);
     knobs.choice(

@@ -29,6 +29,7 @@ struct LessonOptions {
     std::filesystem::path out;  ///< By default NAME.png in the current folder.
     ivec2 size{1280, 720};      ///< Pixels to render, each side 1 to 16384 for one sample a pixel.
     int samples_per_side = 1;   ///< The picture is rendered this many times as wide and as high.
+    LoadBudget budget;          ///< What the model's files may ask for.
     bool stats = false;
     Frames frames;
     int jobs = 0;  ///< Frames that are drawn and written at once; 0: as many as there are threads.

@@ -54,7 +54,7 @@ std::uint32_t checked_info_bytes(ByteView bytes, const std::filesystem::path& fi
     return info_bytes;
 }
 
-BmpHeader read_header(ByteView bytes, const std::filesystem::path& file) {
+BmpHeader read_header(ByteView bytes, const std::filesystem::path& file, std::uint64_t max_pixels) {
     const std::uint32_t info_bytes = checked_info_bytes(bytes, file);
     const std::uint32_t pixels_begin = u32_at(bytes, 10);
     const std::uint32_t bits = u16_at(bytes, 28);
@@ -70,7 +70,7 @@ BmpHeader read_header(ByteView bytes, const std::filesystem::path& file) {
     const auto width = static_cast<std::int32_t>(u32_at(bytes, 18));
     const auto height = static_cast<std::int32_t>(u32_at(bytes, 22));
     const std::int64_t rows = height;  // in 64 bits, where every number has a negative
-    return {.size = checked_size(width, rows < 0 ? -rows : rows, file),
+    return {.size = checked_size(width, rows < 0 ? -rows : rows, max_pixels, file),
             .top_row_first = rows < 0,
             .bytes_per_pixel = bits / 8,
             .has_opacity = masked && opacity_mask != 0,
@@ -123,8 +123,9 @@ Bytes encode_bmp(const Image<u8vec3>& pixels, const std::filesystem::path& file)
     return bytes;
 }
 
-Image<u8vec4> decode_bmp(ByteView bytes, const std::filesystem::path& file) {
-    const BmpHeader header = read_header(bytes, file);
+Image<u8vec4> decode_bmp(ByteView bytes, const std::filesystem::path& file,
+                         std::uint64_t max_pixels) {
+    const BmpHeader header = read_header(bytes, file, max_pixels);
     const std::size_t pixel_bytes = header.bytes_per_pixel;
     const std::size_t row_bytes =
         (static_cast<std::size_t>(header.size.x) * pixel_bytes + 3) / 4 * 4;

@@ -34,6 +34,7 @@ Bytes encode_bmp(const Image<u8vec3>& pixels, const std::filesystem::path& file)
 ///               not compressed; the bottom or the top row first.
 /// @param file   Named in the error.
 /// @throws InputError  When the file is truncated or of another kind.
-Image<u8vec4> decode_bmp(ByteView bytes, const std::filesystem::path& file);
+Image<u8vec4> decode_bmp(ByteView bytes, const std::filesystem::path& file,
+                         std::uint64_t max_pixels = any_number);
 
 }  // namespace rasterbook

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,15 +62,24 @@ inline u8vec4 color_from_stored(ByteView stored, bool has_opacity) {
 /// 64 bits.
 constexpr int max_side = 1 << 24;
 
+/// For a picture that may have as many pixels as its bytes can hold.
+constexpr std::uint64_t any_number = std::numeric_limits<std::uint64_t>::max();
+
 /// The size of a picture whose header claims these sides.
 ///
-/// @throws InputError  When a side is below 1 or above max_side.
-inline ivec2 checked_size(std::int64_t width, std::int64_t height,
+/// @param max_pixels   As many are accepted.
+/// @throws InputError  When a side is below 1 or above max_side, or there are more pixels.
+inline ivec2 checked_size(std::int64_t width, std::int64_t height, std::uint64_t max_pixels,
                           const std::filesystem::path& file) {
     if (width < 1 || height < 1 || width > max_side || height > max_side)
         throw InputError(file, "a picture of " + std::to_string(width) + " x " +
                                    std::to_string(height) + " pixels: each side must lie in 1 to " +
                                    std::to_string(max_side));
+    if (area({width, height}) > max_pixels)
+        throw InputError(file, "a picture of " + std::to_string(width) + " x " +
+                                   std::to_string(height) + " pixels: only " +
+                                   std::to_string(max_pixels) +
+                                   " are left of those that are accepted; see --limit pixels=N");
     return {width, height};
 }
 

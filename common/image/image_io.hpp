@@ -9,6 +9,7 @@
 #include <span>
 
 #include "common/image/image.hpp"
+#include "common/image/image_bytes.hpp"
 
 namespace rasterbook {
 
@@ -21,14 +22,15 @@ namespace rasterbook {
 ///          reduced to 8.
 /// @throws InputError  When the file is missing, not a regular file, longer than 2^31 - 1 bytes,
 ///          truncated, of an unsupported kind, of zero size, has a side over 2^24, or claims more
-///          pixels than its bytes can hold.
-Image<u8vec4> read_image(const std::filesystem::path& file);
+///          pixels than its bytes can hold or than are accepted.
+Image<u8vec4> read_image(const std::filesystem::path& file, std::uint64_t max_pixels = any_number);
 
 /// The same for a picture whose file is in memory already.
 ///
 /// @param bytes  Fewer than 2^31.
 /// @param name   Named in errors.
-Image<u8vec4> decode_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
+Image<u8vec4> decode_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& name,
+                           std::uint64_t max_pixels = any_number);
 
 /// Writes a picture as PNG, BMP or TGA, by the ending of the name (in any case).
 ///

@@ -74,13 +74,15 @@ int checked_scans(ByteView bytes, const std::filesystem::path& file) {
 
 }  // namespace
 
-Image<u8vec4> decode_jpeg(ByteView bytes, const std::filesystem::path& file) {
+Image<u8vec4> decode_jpeg(ByteView bytes, const std::filesystem::path& file,
+                          std::uint64_t max_pixels) {
     if (checked_scans(bytes, file) > 100) throw InputError(file, "more than 100 scans");
     ivec2 size;
     int channels = 0;
     if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.x, &size.y,
                                &channels))
         throw InputError(file, "damaged or unsupported: the JPEG header cannot be read");
+    size = checked_size(size.x, size.y, max_pixels, file);
     // A block of 8 x 8 pixels takes a bit or more.
     check_compressed_bytes(size, area((size + 7) / 8) / 8, bytes.size(), file);
 

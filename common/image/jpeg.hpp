@@ -12,6 +12,7 @@ namespace rasterbook {
 /// @param file   Named in the error.
 /// @throws InputError  When the file is truncated, damaged or claims more than its bytes can hold,
 ///          or has more than 100 scans (each one is a pass over the whole picture, however short).
-Image<u8vec4> decode_jpeg(ByteView bytes, const std::filesystem::path& file);
+Image<u8vec4> decode_jpeg(ByteView bytes, const std::filesystem::path& file,
+                          std::uint64_t max_pixels = any_number);
 
 }  // namespace rasterbook

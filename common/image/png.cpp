@@ -163,11 +163,12 @@ Bytes encode_png(const Image<u8vec3>& pixels, const std::filesystem::path& file)
     return std::move(writer.bytes);
 }
 
-Image<u8vec4> decode_png(ByteView bytes, const std::filesystem::path& file) {
+Image<u8vec4> decode_png(ByteView bytes, const std::filesystem::path& file,
+                         std::uint64_t max_pixels) {
     static_assert(sizeof(u8vec4) == 4);
     const std::size_t data_bytes = checked_data_bytes(bytes, file);
     const ByteView header = bytes.subspan(16, 13);
-    const ivec2 size = checked_size(big_u32_at(header, 0), big_u32_at(header, 4), file);
+    const ivec2 size = checked_size(big_u32_at(header, 0), big_u32_at(header, 4), max_pixels, file);
     // Deflate makes 258 bytes from 2 bits at best: 1032 from one.
     const std::uint64_t least = area(size) * bits_per_pixel(header, file) / (8 * 1032);
     check_compressed_bytes(size, least, data_bytes, file);

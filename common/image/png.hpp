@@ -18,6 +18,7 @@ Bytes encode_png(const Image<u8vec3>& pixels, const std::filesystem::path& file)
 /// @param bytes  A whole file that begins with PNG's signature.
 /// @param file   Named in the error.
 /// @throws InputError  When the file is truncated, damaged or claims more than its bytes can hold.
-Image<u8vec4> decode_png(ByteView bytes, const std::filesystem::path& file);
+Image<u8vec4> decode_png(ByteView bytes, const std::filesystem::path& file,
+                         std::uint64_t max_pixels = any_number);
 
 }  // namespace rasterbook

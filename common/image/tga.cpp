@@ -43,7 +43,7 @@ bool is_tga(ByteView bytes) {
            (bytes[17] & 0xc0) == 0;
 }
 
-TgaHeader read_header(ByteView bytes, const std::filesystem::path& file) {
+TgaHeader read_header(ByteView bytes, const std::filesystem::path& file, std::uint64_t max_pixels) {
     if (!is_tga(bytes)) throw InputError(file, "not a PNG, JPEG, BMP or TGA picture");
     const auto type = static_cast<std::uint8_t>(bytes[2] & ~in_runs);
     const std::size_t bits = bytes[16];
@@ -56,7 +56,7 @@ TgaHeader read_header(ByteView bytes, const std::filesystem::path& file) {
     const std::size_t palette_bytes = entry_bytes * u16_at(bytes, 5);
     if (bytes.size() < palette_begin + palette_bytes)
         throw InputError(file, "truncated before the pixels");
-    return {.size = checked_size(u16_at(bytes, 12), u16_at(bytes, 14), file),
+    return {.size = checked_size(u16_at(bytes, 12), u16_at(bytes, 14), max_pixels, file),
             .type = type,
             .has_runs = (bytes[2] & in_runs) != 0,
             .bytes_per_pixel = bits / 8,
@@ -146,8 +146,9 @@ Bytes encode_tga(const Image<u8vec3>& pixels, const std::filesystem::path& file)
     return bytes;
 }
 
-Image<u8vec4> decode_tga(ByteView bytes, const std::filesystem::path& file) {
-    const TgaHeader header = read_header(bytes, file);
+Image<u8vec4> decode_tga(ByteView bytes, const std::filesystem::path& file,
+                         std::uint64_t max_pixels) {
+    const TgaHeader header = read_header(bytes, file, max_pixels);
     const std::size_t pixel_bytes = header.bytes_per_pixel;
     const std::size_t wanted = area(header.size) * pixel_bytes;
     if (!header.has_runs) {

@@ -62,8 +62,8 @@ dmat4 without_scale(const dmat4& world_from_node) {
 /// Reads a scene.
 class GltfReader {
   public:
-    GltfReader(const fs::path& file, std::size_t max_vertices)
-        : file_(file), model_(read_gltf_document(file, complaint_)), vertices_left_(max_vertices) {}
+    GltfReader(const fs::path& file, const LoadBudget& budget)
+        : file_(file), budget_(budget), model_(read_gltf_document(file, budget_, complaint_)) {}
     Scene read();
 
   private:
@@ -116,9 +116,9 @@ class GltfReader {
     }
 
     const fs::path& file_;
+    LoadBudget budget_;
     std::string complaint_;
     const tinygltf::Model model_;
-    std::size_t vertices_left_;
     Scene scene_;
     Warnings warnings_;
     std::string node_name_, where_;  ///< For messages: the node's, and the primitive's.
@@ -138,11 +138,12 @@ void GltfReader::warn_of_document() {
 
 Scene GltfReader::read() {
     warn_of_document();
-    scene_.materials = gltf_materials(model_, file_, warnings_);
+    scene_.materials = gltf_materials(model_, file_, budget_, warnings_);
     read_nodes(roots());
     if (scene_.meshes.empty()) fail("holds no faces");
     scene_.warnings = warnings_.take();
     scene_.is_gltf = true;
+    scene_.budget = budget_;
     return std::move(scene_);
 }
 
@@ -248,6 +249,7 @@ std::vector<std::uint32_t> GltfReader::triangle_vertices(const tinygltf::Primiti
         indices.emplace(model_, primitive.indices, file_, where_ + ": indices");
         if (indices->components() != 1 || !indices->is_unsigned())
             indices->fail("has no whole numbers, one by one");
+        if (indices->is_normalized()) indices->fail("is normalized, which indices must not be");
     }
     const std::size_t count = indices ? indices->size() : points;
     const auto point = [&](std::size_t i) {
@@ -262,8 +264,7 @@ std::vector<std::uint32_t> GltfReader::triangle_vertices(const tinygltf::Primiti
     const std::size_t triangles = is_list ? count / 3 : std::max<std::size_t>(count, 2) - 2;
     if (is_list && count % 3 != 0)
         warn(where_ + ": " + std::to_string(count) + " vertices are not a number of triangles");
-    if (triangles > vertices_left_ / 3) fail("has more vertices than are accepted");
-    vertices_left_ -= 3 * triangles;
+    budget_.charge(Resource::vertices, 3 * triangles, file_);
     std::vector<std::uint32_t> vertices;
     vertices.reserve(3 * triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
@@ -279,6 +280,7 @@ std::vector<std::uint32_t> GltfReader::triangle_vertices(const tinygltf::Primiti
 
 void GltfReader::read_primitive(const tinygltf::Primitive& primitive,
                                 const dmat4& world_from_node) {
+    budget_.charge(Resource::primitives, 1, file_);
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP)
         return warn(where_ + (primitive.mode == TINYGLTF_MODE_POINTS ? ": points" : ": lines") +
                     " are not drawn");
@@ -437,8 +439,8 @@ void GltfReader::add_light(const tinygltf::Node& node, const dmat4& world_from_n
 
 }  // namespace
 
-Scene load_gltf(const fs::path& file, std::size_t max_vertices) {
-    return GltfReader(file, max_vertices).read();
+Scene load_gltf(const fs::path& file, const LoadBudget& budget) {
+    return GltfReader(file, budget).read();
 }
 
 }  // namespace rasterbook

@@ -34,6 +34,14 @@ using nlohmann::json;
 
 constexpr std::size_t max_bytes = std::numeric_limits<int>::max();  // tinygltf counts in int
 
+/// All bytes of a file, charged before they are read.
+Bytes read_charged(const fs::path& file, LoadBudget& budget) {
+    std::error_code missing;  // read_whole_file() says what is wrong
+    const std::uintmax_t size = fs::file_size(file, missing);
+    if (!missing) budget.charge(Resource::bytes, size, file);
+    return read_whole_file(file, max_bytes);
+}
+
 /// A message of a library as one line that is not too long.
 std::string one_line(std::string text) {
     constexpr std::size_t most = 300;
@@ -100,6 +108,21 @@ void check_image_views(const json& document, const fs::path& file) {
     }
 }
 
+/// Before tinygltf makes objects of a few hundred bytes, or buffers, of a few letters.
+void charge_document(const json& document, const fs::path& file, LoadBudget& budget) {
+    for (const auto& [name, list] : document.items()) {
+        if (!list.is_array()) continue;
+        budget.charge(name == "materials" ? Resource::materials : Resource::objects, list.size(),
+                      file);
+        for (const json& object : list) {
+            if (name == "buffers")  // each has bytes of its own, even where several are of one file
+                budget.charge(Resource::bytes, whole_number(object, "byteLength", 0), file);
+            if (name == "meshes" && object.is_object() && object.contains("primitives"))
+                budget.charge(Resource::objects, object["primitives"].size(), file);
+        }
+    }
+}
+
 void check_required_extensions(const json& document, const fs::path& file) {
     const auto required = document.find("extensionsRequired");
     if (required == document.end() || !required->is_array()) return;
@@ -126,7 +149,7 @@ void check_depth(ByteView text, const fs::path& file) {
 }
 
 /// Broken JSON has a message with line and column; what tinygltf would stumble over has one, too.
-void check_json(ByteView text, const fs::path& file) {
+void check_json(ByteView text, const fs::path& file, LoadBudget& budget) {
     check_depth(text, file);
     json document;
     try {
@@ -144,25 +167,33 @@ void check_json(ByteView text, const fs::path& file) {
     const std::string version = asset["version"];
     if (!version.starts_with("2."))
         throw InputError(file, "is glTF " + one_line(version) + ", not 2");
+    charge_document(document, file, budget);
     check_required_extensions(document, file);
     check_image_views(document, file);
 }
 
+/// For the files that a document names.
+struct FileAccess {
+    LoadBudget& budget;
+    std::string error;  ///< The first.
+};
+
 /// Our own file access, which tinygltf is given in place of its own. From 2.9 on it takes all of
 /// the functions or none; before 2.8.17 it has no member for the last of them.
 template <typename Callbacks = tinygltf::FsCallbacks>
-Callbacks file_callbacks(std::string& error) {
+Callbacks file_callbacks(FileAccess& access) {
     Callbacks callbacks{};
     // The first place that is looked in, beside the scene's file, is the only one.
     callbacks.FileExists = [](const std::string&, void*) { return true; };
     callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
     callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string*,
-                                 const std::string& path, void* first_error) {
+                                 const std::string& path, void* user_data) {
+        auto& [budget, error] = *static_cast<FileAccess*>(user_data);
         try {
-            *bytes = read_whole_file(path, max_bytes);
+            *bytes = read_charged(path, budget);
             return true;
         } catch (const InputError& failure) {
-            *static_cast<std::string*>(first_error) = failure.what();
+            error = failure.what();
             return false;
         }
     };
@@ -174,7 +205,7 @@ Callbacks file_callbacks(std::string& error) {
             *size = 0;
             return true;
         };
-    callbacks.user_data = &error;
+    callbacks.user_data = &access;
     return callbacks;
 }
 
@@ -197,15 +228,17 @@ bool is_known_gltf_extension(const std::string& name) {
     return known.contains(name);
 }
 
-tinygltf::Model read_gltf_document(const fs::path& file, std::string& complaint) {
-    const Bytes bytes = read_whole_file(file, max_bytes);
+tinygltf::Model read_gltf_document(const fs::path& file, LoadBudget& budget,
+                                   std::string& complaint) {
+    const Bytes bytes = read_charged(file, budget);
     const ByteView text = json_of(bytes, file);
-    check_json(text, file);
+    check_json(text, file, budget);
 
     tinygltf::Model model;
     tinygltf::TinyGLTF reader;
-    std::string file_error, error, warning;
-    reader.SetFsCallbacks(file_callbacks(file_error));
+    FileAccess access{budget, {}};
+    std::string error, warning;
+    reader.SetFsCallbacks(file_callbacks(access));
     reader.SetImageLoader(keep_image, nullptr);
     bool is_read = false;
     try {
@@ -222,7 +255,7 @@ tinygltf::Model read_gltf_document(const fs::path& file, std::string& complaint)
     } catch (const std::exception& failure) {  // of its own .at() or JSON
         throw InputError(file, "damaged: " + one_line(failure.what()));
     }
-    if (!file_error.empty()) throw InputError(file, one_line(file_error));
+    if (!access.error.empty()) throw InputError(file, one_line(access.error));
     if (!is_read) throw InputError(file, one_line(error.empty() ? "damaged" : error));
     complaint = one_line(error);
     return model;

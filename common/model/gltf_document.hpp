@@ -11,17 +11,20 @@
 
 #include "common/image/image_bytes.hpp"
 #include "common/math/types.hpp"
+#include "common/model/load_budget.hpp"
 
 namespace rasterbook {
 
 /// Reads a .gltf or .glb file, told apart by the content, and the buffers that it names. Pictures
 /// beside it are not opened.
 ///
+/// @param budget     Is charged with the bytes of files and buffers.
 /// @param complaint  Takes what tinygltf found fault with and passed over; one line, or empty.
 /// @throws InputError  When a file is missing or not regular, the JSON is broken or nested deeper
 ///          than 64, a .glb is truncated, a buffer is shorter or longer than said, an extension is
 ///          needed that is_known_gltf_extension() does not know, or tinygltf finds fault. One line.
-tinygltf::Model read_gltf_document(const std::filesystem::path& file, std::string& complaint);
+tinygltf::Model read_gltf_document(const std::filesystem::path& file, LoadBudget& budget,
+                                   std::string& complaint);
 
 /// Whether all that can be drawn of an extension is read, or a picture is the same without it.
 bool is_known_gltf_extension(const std::string& name);
@@ -49,6 +52,7 @@ class GltfArray {
 
     /// Whether its numbers are whole and not negative, as those of indices.
     bool is_unsigned() const;
+    bool is_normalized() const { return is_normalized_; }
 
     /// One number. Whole ones become 0 to 1 or -1 to 1 where the accessor says so.
     ///

@@ -8,9 +8,9 @@
 #include <memory>
 #include <utility>
 
-#include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 #include "common/model/metallic_roughness.hpp"
+#include "common/model/texture_file.hpp"
 
 namespace rasterbook {
 namespace {
@@ -57,8 +57,9 @@ std::string decoded_uri(const std::string& uri) {
 /// Makes our materials of those of a file.
 class MaterialMaker {
   public:
-    MaterialMaker(const tinygltf::Model& model, const fs::path& file, Warnings& warnings)
-        : model_(model), file_(file), warnings_(warnings), images_(model.images.size()) {}
+    MaterialMaker(const tinygltf::Model& model, const fs::path& file, LoadBudget& budget,
+                  Warnings& warnings)
+        : model_(model), file_(file), budget_(budget), warnings_(warnings) {}
 
     Material make(std::size_t index);
 
@@ -82,8 +83,15 @@ class MaterialMaker {
 
     const tinygltf::Model& model_;
     const fs::path& file_;
+    LoadBudget& budget_;
     Warnings& warnings_;
-    std::vector<std::shared_ptr<const Bytes>> images_;  ///< Those in the file, once asked for.
+
+    /// An image in the file.
+    struct Embedded {
+        std::shared_ptr<const Bytes> bytes;
+        fs::path name;
+    };
+    std::map<std::pair<int, int>, Embedded> embedded_;  ///< By buffer view, or -1 and the image.
     std::map<std::pair<fs::path, bool>, vec3> means_;   ///< Of pictures, as sRGB or plain.
     std::string name_;                                  ///< Of the material, for messages.
 };
@@ -101,15 +109,19 @@ void MaterialMaker::add_picture(TextureMap& map, int image) {
         map.file = file_.parent_path() / decoded_uri(from.uri);
         return;
     }
-    const std::string label = "image " + std::to_string(image);
-    if (!images_[index] && from.bufferView >= 0) {
-        const ByteView bytes = bytes_of_view(model_, from.bufferView, file_, label);
-        images_[index] = std::make_shared<const Bytes>(bytes.begin(), bytes.end());
-    } else if (!images_[index]) {
-        images_[index] = std::make_shared<const Bytes>(from.image);
+    // Images of one view are one: its name is that of the first.
+    Embedded& own = embedded_[{from.bufferView, from.bufferView < 0 ? image : 0}];
+    if (!own.bytes) {
+        const std::string label = "image " + std::to_string(image);
+        const ByteView bytes = from.bufferView < 0
+                                   ? ByteView(from.image)
+                                   : bytes_of_view(model_, from.bufferView, file_, label);
+        budget_.charge(Resource::bytes, bytes.size(), file_);
+        own = {std::make_shared<const Bytes>(bytes.begin(), bytes.end()),
+               file_.string() + ", " + label};
     }
-    map.embedded = images_[index];
-    map.file = file_.string() + ", " + label;
+    map.embedded = own.bytes;
+    map.file = own.name;
 }
 
 /// Both directions of a picture are wrapped as the first is.
@@ -151,19 +163,22 @@ TextureMap MaterialMaker::map_of(int texture, const tinygltf::ExtensionMap& exte
         // There v points down: 1 - v becomes (1 - v) s + o, and v becomes v s + (1 - s - o).
         map.scale = {finite(scale.x, "scale"), finite(scale.y, "scale"), 1};
         map.offset = {finite(offset.x, "offset"), finite(1 - scale.y - offset.y, "offset"), 0};
+        if (transform->Has("texCoord"))
+            warn(std::string(which) +
+                 ": KHR_texture_transform's own set of texture coordinates is "
+                 "passed over");
         if (number_in(*transform, "rotation", 0) != 0)
             warn(std::string(which) + " is turned (KHR_texture_transform), which is passed over");
     }
     return map;
 }
 
-/// The mean of a picture's colours.
+/// The mean of a picture's colours; 1, with a warning, where it cannot be read.
 vec3 MaterialMaker::mean_of(const TextureMap& map, bool is_srgb) {
     const auto known = means_.find({map.file, is_srgb});
     if (known != means_.end()) return known->second;
     try {
-        const Image<u8vec4> picture =
-            map.embedded ? decode_image(*map.embedded, map.file) : read_image(map.file);
+        const Image<u8vec4> picture = read_texture_file(map, budget_);
         std::array<std::array<std::uint64_t, 256>, 3> counts{};
         for (const u8vec4 pixel : picture.pixels())
             for (int i = 0; i < 3; ++i) ++counts[static_cast<std::size_t>(i)][pixel[i]];
@@ -177,7 +192,8 @@ vec3 MaterialMaker::mean_of(const TextureMap& map, bool is_srgb) {
         return means_[{map.file, is_srgb}] =
                    vec3(sum / static_cast<double>(picture.pixels().size()));
     } catch (const InputError& error) {
-        throw InputError(file_, map.asked_by + ": " + error.what());
+        warnings_.add(file_, 0, map.asked_by + ": " + error.what());
+        return means_[{map.file, is_srgb}] = vec3(1);
     }
 }
 
@@ -336,9 +352,9 @@ int uv_set_of(const tinygltf::Material& material) {
 }
 
 std::vector<Material> gltf_materials(const tinygltf::Model& model, const fs::path& file,
-                                     Warnings& warnings) {
+                                     LoadBudget& budget, Warnings& warnings) {
     std::vector<Material> materials{Material{}};
-    MaterialMaker maker(model, file, warnings);
+    MaterialMaker maker(model, file, budget, warnings);
     for (std::size_t i = 0; i < model.materials.size(); ++i) materials.push_back(maker.make(i));
     return materials;
 }

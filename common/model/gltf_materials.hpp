@@ -18,12 +18,14 @@ double number_in(const tinygltf::Value& object, const std::string& key, double m
 
 /// The colours, maps and flags of all materials.
 ///
+/// @param budget    Is charged with the images in the file, and with those read for their means.
 /// @param warnings  Takes what is passed over.
 /// @return          Material 0 is the default one; that of index i in the file is i + 1.
 /// @throws InputError  When a material names a texture or picture that is not there, has a number
-///          that is not finite, or a picture must be read and cannot be.
+///          that is not finite, or there are more than are accepted.
 std::vector<Material> gltf_materials(const tinygltf::Model& model,
-                                     const std::filesystem::path& file, Warnings& warnings);
+                                     const std::filesystem::path& file, LoadBudget& budget,
+                                     Warnings& warnings);
 
 /// Which of its sets of texture coordinates a material of the file takes, 0 for none.
 int uv_set_of(const tinygltf::Material& material);

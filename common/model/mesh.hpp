@@ -18,6 +18,7 @@
 #include <glm/geometric.hpp>
 
 #include "common/math/types.hpp"
+#include "common/model/load_budget.hpp"
 
 namespace rasterbook {
 
@@ -170,6 +171,7 @@ struct Scene {
     std::vector<SceneCamera> cameras{};  ///< As glTF has them; the lessons' own until lesson 11.
     std::vector<SceneLight> lights{};    ///< The same.
     bool is_gltf = false;                ///< The file is of a kind that may have both.
+    LoadBudget budget{};                 ///< What is left for its images.
 
     Bounds bounds() const {
         Bounds all;

@@ -9,10 +9,10 @@
 
 namespace rasterbook {
 
-Scene load_model(const std::filesystem::path& file) {
+Scene load_model(const std::filesystem::path& file, const LoadBudget& budget) {
     const std::string ending = ending_of(file);
     const bool is_gltf = ending == ".gltf" || ending == ".glb" || ending == ".vrm";
-    return is_gltf ? load_gltf(file) : load_obj(file);
+    return is_gltf ? load_gltf(file, budget) : load_obj(file, budget);
 }
 
 }  // namespace rasterbook

@@ -13,6 +13,6 @@ namespace rasterbook {
 /// load_obj().
 ///
 /// @throws InputError  As these do.
-Scene load_model(const std::filesystem::path& file);
+Scene load_model(const std::filesystem::path& file, const LoadBudget& budget = {});
 
 }  // namespace rasterbook

@@ -42,7 +42,7 @@ vec3 read_option_vector(const StatementReader& in, std::string_view& words, vec3
 }  // namespace
 
 void MaterialReader::read(const std::filesystem::path& file) {
-    StatementReader in(file);
+    StatementReader in(file, budget_);
     current_ = &unused_;
     for (Statement statement; in.next(statement);) read_statement(in, statement);
 }
@@ -51,6 +51,7 @@ void MaterialReader::read(const std::filesystem::path& file) {
 void MaterialReader::begin_material(const StatementReader& in, std::string_view name) {
     const auto index = std::uint32_t(materials_.size());
     const bool is_new = index_of_name_.emplace(name, index).second;
+    if (is_new) budget_.charge(Resource::materials, 1, in.file());
     if (is_new) materials_.emplace_back().name = name;
     if (!is_new) warnings_.add(in, "material " + in_quotes(name) + " is defined already");
     current_ = is_new ? &materials_.back() : &unused_;

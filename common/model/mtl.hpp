@@ -36,7 +36,8 @@ class Warnings {
 /// Reads material libraries.
 class MaterialReader {
   public:
-    explicit MaterialReader(Warnings& warnings) : warnings_(warnings) {}
+    /// @param budget  Is charged with bytes and materials.
+    MaterialReader(LoadBudget& budget, Warnings& warnings) : budget_(budget), warnings_(warnings) {}
 
     /// @throws InputError  When the library is not a regular file, or a number in it is wrong.
     void read(const std::filesystem::path& file);
@@ -53,6 +54,7 @@ class MaterialReader {
     void read_statement(const StatementReader& in, const Statement& statement);
     void read_map(const StatementReader& in, const Statement& statement, TextureMap& map);
 
+    LoadBudget& budget_;
     Warnings& warnings_;
     std::vector<Material> materials_{Material{}};
     std::unordered_map<std::string, std::uint32_t> index_of_name_;

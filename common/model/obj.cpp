@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 /// Reads a model.
 class ObjReader {
   public:
-    ObjReader(const fs::path& file, std::size_t max_elements) : in_(file), limit_(max_elements) {}
+    ObjReader(const fs::path& file, const LoadBudget& budget, std::size_t max_elements)
+        : budget_(budget), in_(file, budget_), limit_(max_elements) {}
     Scene read();
 
   private:
@@ -56,10 +57,11 @@ class ObjReader {
         return kind == 0 ? positions_.size() : kind == 1 ? uvs_.size() : normals_.size();
     }
 
+    LoadBudget budget_;
     StatementReader in_;
     std::size_t limit_;
     Warnings warnings_;
-    MaterialReader materials_{warnings_};
+    MaterialReader materials_{budget_, warnings_};
     std::set<fs::path> libraries_;  ///< Those read.
 
     std::vector<vec3> positions_, normals_;
@@ -89,7 +91,9 @@ Scene ObjReader::read() {
     if (meshes_.empty()) throw InputError(in_.file(), "holds no faces");
     resolve_materials();
     share_out_elements();
-    return {std::move(meshes_), materials_.take(), warnings_.take()};
+    Scene scene{std::move(meshes_), materials_.take(), warnings_.take()};
+    scene.budget = budget_;
+    return scene;
 }
 
 void ObjReader::read_statement(const Statement& statement) {
@@ -118,6 +122,7 @@ void ObjReader::read_face(std::string_view words) {
         append(mesh.vertices, read_vertex(word), "vertices in a group");
     const std::size_t count = mesh.vertices.size() - first;
     if (count < 3) in_.fail("a face needs 3 vertices and has " + std::to_string(count));
+    budget_.charge(Resource::vertices, count, in_.file());
     mesh.faces.push_back({std::uint32_t(first), std::uint32_t(count), material_use_});
 }
 
@@ -252,7 +257,7 @@ void ObjReader::share_out_elements() {
     share_out(normals_, &Mesh::normals, &Vertex::normal);
 }
 
-void cut_into_triangles(Mesh& mesh) {
+void cut_into_triangles(Mesh& mesh, const fs::path& file) {
     mesh.triangles.reserve(mesh.vertices.size() - 2 * mesh.faces.size());
     std::vector<vec3> polygon;
     for (const Face& face : mesh.faces) {
@@ -265,18 +270,22 @@ void cut_into_triangles(Mesh& mesh) {
             polygon.push_back(mesh.positions[vertex.position]);
             mesh.bounds.add(polygon.back());
         }
-        if (vertices.size() == 3)
+        if (vertices.size() == 3) {
             add(0, 1, 2);
-        else
-            for (const auto& [i, j, k] : triangulate(polygon)) add(i, j, k);
+            continue;
+        }
+        if (most_returns(polygon) > max_returns)
+            throw InputError(file, "a polygon returns to one point more than " +
+                                       std::to_string(max_returns) + " times");
+        for (const auto& [i, j, k] : triangulate(polygon)) add(i, j, k);
     }
 }
 
 }  // namespace
 
-Scene load_obj(const fs::path& file, std::uint32_t max_elements) {
-    Scene scene = ObjReader(file, max_elements).read();
-    for (Mesh& mesh : scene.meshes) cut_into_triangles(mesh);
+Scene load_obj(const fs::path& file, const LoadBudget& budget, std::uint32_t max_elements) {
+    Scene scene = ObjReader(file, budget, max_elements).read();
+    for (Mesh& mesh : scene.meshes) cut_into_triangles(mesh, file);
     return scene;
 }
 

@@ -17,6 +17,7 @@ namespace rasterbook {
 /// down. A missing material library or an unknown material is a warning and gives the default
 /// material; of two materials with one name the first counts.
 ///
+/// @param budget        What the files may ask for.
 /// @param max_elements  As many positions, uvs, normals, and vertices of one group, are accepted.
 /// @return  One mesh for each name of a group (`o` or `g`) that has faces; polygons as written and
 ///          cut into triangles. A single mesh keeps all positions, uvs and normals of the file; of
@@ -24,8 +25,10 @@ namespace rasterbook {
 /// @throws InputError  With file and line, when an index is 0 or out of range, a face has fewer
 ///          than 3 vertices, a number does not parse or is not finite, the file is not text
 ///          (control characters, UTF-16), or it has more elements than accepted; without line, when
-///          it has no faces, is missing or is not a regular file. The file may also be a material
-///          library.
-Scene load_obj(const std::filesystem::path& file, std::uint32_t max_elements = no_index);
+///          it has no faces, is missing or is not a regular file, asks for more than is accepted,
+///          or has a polygon that returns to one point more than 1,000 times. The file may also be
+///          a material library.
+Scene load_obj(const std::filesystem::path& file, const LoadBudget& budget = {},
+               std::uint32_t max_elements = no_index);
 
 }  // namespace rasterbook

@@ -13,6 +13,7 @@
 
 #include "common/image/input_error.hpp"
 #include "common/math/types.hpp"
+#include "common/model/load_budget.hpp"
 
 namespace rasterbook {
 
@@ -64,8 +65,9 @@ struct Statement {
 /// Reads statements and keeps no more of the file in memory than the longest of them.
 class StatementReader {
   public:
-    /// @throws InputError  When the file is missing, not regular, unreadable or UTF-16.
-    explicit StatementReader(const std::filesystem::path& file);
+    /// @param budget  Is charged with the file's bytes.
+    /// @throws InputError  When the file is missing, not regular, too long, unreadable or UTF-16.
+    StatementReader(const std::filesystem::path& file, LoadBudget& budget);
 
     /// Goes on to the next statement, whose views last until the one after; false at the end.
     bool next(Statement& statement);

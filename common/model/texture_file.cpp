@@ -16,15 +16,28 @@ Image<u8vec4> chessboard() {
 
 }  // namespace
 
+Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget& budget) {
+    if (!map.embedded) {
+        std::error_code missing;  // read_image() says what is wrong
+        const std::uintmax_t bytes = std::filesystem::file_size(map.file, missing);
+        if (!missing) budget.charge(Resource::bytes, bytes, map.file);
+    }
+    const std::uint64_t most = budget.left(Resource::pixels);
+    Image<u8vec4> image =
+        map.embedded ? decode_image(*map.embedded, map.file, most) : read_image(map.file, most);
+    budget.charge(Resource::pixels, image.pixels().size(), map.file);
+    return image;
+}
+
 Image<u8vec4> read_texture_file(const TextureMap& map, const char* statement, bool keep_going,
-                                std::vector<std::string>& warnings) {
+                                Scene& scene) {
     try {
-        return map.embedded ? decode_image(*map.embedded, map.file) : read_image(map.file);
+        return read_texture_file(map, scene.budget);
     } catch (const InputError& error) {
         const std::string asked_by = map.asked_by.empty() ? statement : map.asked_by;
         const InputError named(map.library, map.line, asked_by + ": " + error.what());
         if (!keep_going) throw named;
-        warnings.push_back(named.what());
+        scene.warnings.push_back(named.what());
         return chessboard();
     }
 }

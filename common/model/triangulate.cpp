@@ -312,6 +312,19 @@ int orientation(vec2 a, vec2 b, vec2 c) {
     return sum.sign();
 }
 
+std::size_t most_returns(std::span<const vec3> polygon) {
+    if (polygon.size() <= max_returns) return polygon.size();  // it cannot be too many
+    std::vector<std::array<float, 3>> points;
+    for (const vec3 p : polygon) points.push_back({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f});
+    std::ranges::sort(points);
+    std::size_t most = 0;
+    for (std::size_t begin = 0, i = 0; i < points.size(); ++i) {
+        if (points[i] != points[begin]) begin = i;
+        most = std::max(most, i - begin + 1);
+    }
+    return most;
+}
+
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const vec3> polygon) {
     assert(polygon.size() >= 3 && "a polygon has at least 3 vertices");
     std::vector<vec2> points = project(polygon);

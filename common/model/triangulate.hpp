@@ -31,4 +31,10 @@ int orientation(vec2 a, vec2 b, vec2 c);
 /// @return  For each triangle three numbers of vertices, 0 to n - 1.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const vec3> polygon);
 
+/// Of a polygon that returns to one point more often, triangulate() takes much longer.
+constexpr std::size_t max_returns = 1000;
+
+/// How often a polygon passes through the point that it passes through most often.
+std::size_t most_returns(std::span<const vec3> polygon);
+
 }  // namespace rasterbook

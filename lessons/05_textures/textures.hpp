@@ -26,7 +26,7 @@ using MaterialTextures = std::vector<std::shared_ptr<const Texture>>;
 /// The textures that materials name by one statement, each file read once. Materials that no
 /// triangle has get none.
 ///
-/// @param scene      Takes warnings.
+/// @param scene      Takes warnings; its budget is charged.
 /// @param decode     Makes texels of an image's stored values.
 /// @param calls_for  Whether a material needs its texture.
 /// @throws InputError  As read_texture_file() has it.
@@ -47,7 +47,7 @@ inline MaterialTextures load_textures(
         std::shared_ptr<const Texture>& texture = loaded[{map.file, wrap}];
         if (!texture) {
             const Image<u8vec4> image =
-                read_texture_file(map, statement, options.keep_going, scene.warnings);
+                read_texture_file(map, statement, options.keep_going, scene);
             texture = std::make_shared<Texture>(make_texture(decode(image, wrap), wrap));
         }
         textures[i] = texture;

@@ -5,10 +5,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -54,11 +56,14 @@ class SmoothNormals {
             for (const Vertex& vertex : triangle.vertices) ++begin_[vertex.position + 1];
         for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
         around_.resize(begin_.back());
-        std::vector<std::size_t> next = begin_;
+        end_ = begin_;
         for (const Triangle& triangle : mesh.triangles)
             for (std::size_t i = 0; i < 3; ++i)
-                around_[next[triangle.vertices[i].position]++] = {
+                around_[end_[triangle.vertices[i].position]++] = {
                     face_normal(mesh, triangle), vertex_angle_radians(mesh, triangle, i)};
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            if (end_[i] - begin_[i] > crowd_)
+                end_[i] = begin_[i] + merge({&around_[begin_[i]], &around_[end_[i]]});
     }
 
     /// The mean of the normals of the faces around a position, weighted by their angles there.
@@ -69,15 +74,37 @@ class SmoothNormals {
     ///                        seen from this face, does not count.
     vec3 at(std::uint32_t position, vec3 normal_of_face) const {
         vec3 sum(0);
-        for (std::size_t i = begin_[position]; i < begin_[position + 1]; ++i)
+        for (std::size_t i = begin_[position]; i < end_[position]; ++i)
             if (glm::dot(around_[i].normal, normal_of_face) > cos_sharp)
                 sum += around_[i].angle_radians * around_[i].normal;
         return sum;
     }
 
   private:
-    std::vector<std::size_t>
-        begin_;  ///< Of each position's faces in around_, and one more: the end.
+    /// Robust: each face around a position looks at all others there. Where more than this many
+    /// meet, those whose normals lie in one cube of side 1/16 become one face with their mean.
+    static constexpr std::size_t crowd_ = 1024;
+
+    /// @return  How many faces are left, at the front.
+    static std::size_t merge(std::span<FaceAround> faces) {
+        const auto cube_of = [](const FaceAround& face) {
+            const vec3 corner = glm::floor(16.0f * face.normal);
+            return std::array{corner.x, corner.y, corner.z};
+        };
+        std::ranges::stable_sort(faces, {}, cube_of);
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < faces.size();) {
+            const FaceAround first = faces[i];
+            dvec3 sum(0);
+            for (; i < faces.size() && cube_of(faces[i]) == cube_of(first); ++i)
+                sum += double{faces[i].angle_radians} * dvec3(faces[i].normal);
+            faces[left++] = {vec3(normalize_or(sum, dvec3(first.normal))),
+                             static_cast<float>(glm::length(sum))};
+        }
+        return left;
+    }
+
+    std::vector<std::size_t> begin_, end_;  ///< Of each position's faces in around_.
     std::vector<FaceAround> around_;
 };
 

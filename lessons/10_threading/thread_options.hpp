@@ -34,7 +34,12 @@ struct ThreadOptions {
         knobs.flag("--show-threads", show, "Tint each pixel by the thread that drew it");
     }
 
-    Tiling tiling_of(ivec2 size, std::size_t workers) const { return {split, size, workers, tile}; }
+    /// Tiles grow where there would be more than 65,536: each has a list in each batch.
+    Tiling tiling_of(ivec2 size, std::size_t workers) const {
+        int side = tile;
+        while (Tiling(Split::tiles, size, 1, side).count() > 65536) side *= 2;
+        return {split, size, workers, side};
+    }
 };
 
 /// A worker's colour, linear: all are equally bright to the eye, and hues a golden angle apart, so

@@ -50,12 +50,13 @@ ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
             scene_plan.materials[triangle.material].is_seen = true;
             if (!mesh.colors.empty()) has_colors[triangle.material] = true;
         }
+    const std::size_t first_outline = first_outline_material(scene.materials);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         MaterialPlan& plan = scene_plan.materials[i];
         const Material& material = scene.materials[i];
         const bool is_unlit = !is_lit(material), is_toon = material.toon.has_value();
         const bool is_phong = !is_unlit && !is_toon;
-        const bool is_outline = i >= first_outline_material(scene.materials);
+        const bool is_outline = i >= first_outline;
         const char* const unlit = is_toon ? "a comic's paint" : "unlit";
         plan.two_sided = !is_outline && (material.two_sided || inputs.two_sided);
         plan.set(Effect::light, is_phong && inputs.has_lights, is_phong ? "no lights" : unlit);

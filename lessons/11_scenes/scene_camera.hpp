@@ -74,10 +74,14 @@ inline std::optional<std::size_t> chosen_camera(const Scene& scene, const std::s
         if (scene.cameras.empty() || is_orbit_asked_for) return {};
         return 0;
     }
+    constexpr std::size_t most_named = 20;
     std::string names;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         if (asked == scene.cameras[i].name || asked == std::to_string(i)) return i;
-        names += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + scene.cameras[i].name + "\"";
+        if (i < most_named)
+            names +=
+                (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + scene.cameras[i].name + "\"";
+        if (i == most_named) names += " and more";
     }
     throw std::runtime_error("there is no camera '" + asked + "'; the file has " +
                              (names.empty() ? "none" : names) + "; or --camera " + orbit_name +

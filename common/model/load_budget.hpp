@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How much a model's files may ask for: a small file can ask for very much.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "common/image/input_error.hpp"
+
+namespace rasterbook {
+
+/// What loading a model takes, and the words for it of `--limit`.
+enum class Resource {
+    bytes,       ///< Of files and of the buffers in them.
+    pixels,      ///< Of all images; about 25 bytes of memory each.
+    vertices,    ///< Of all triangles and polygons, those of each instance; about 100 bytes each.
+    primitives,  ///< Of a glTF file's meshes, again for each node that has the mesh.
+    objects,     ///< In the lists of a glTF file: nodes, meshes, images and so on.
+    materials,   ///< About 5,000 bytes each.
+};
+constexpr std::array<std::string_view, 6> resource_names = {"bytes",      "pixels",  "vertices",
+                                                            "primitives", "objects", "materials"};
+
+/// What is left of what a model may ask for. Loaders charge it before they take memory.
+class LoadBudget {
+  public:
+    /// @param most  Replaces the default: 10^9 bytes, 6 * 10^7 pixels, 1.5 * 10^7 vertices, 10^6
+    ///              primitives, 10^6 objects, 2 * 10^5 materials.
+    void set(Resource resource, std::uint64_t most) { most_[index(resource)] = most; }
+
+    std::uint64_t left(Resource resource) const {
+        return most_[index(resource)] - used_[index(resource)];
+    }
+
+    /// @throws InputError  When less than that is left: names the file, the limit and the option
+    ///                     that changes it.
+    void charge(Resource resource, std::uint64_t amount, const std::filesystem::path& file) {
+        if (amount > left(resource)) throw InputError(file, complaint(resource));
+        used_[index(resource)] += amount;
+    }
+
+    /// "more than 60000000 pixels, the most that are accepted; see --limit pixels=N".
+    std::string complaint(Resource resource) const {
+        const std::string name(resource_names[index(resource)]);
+        return "more than " + std::to_string(most_[index(resource)]) + " " + name +
+               " in all, the most that are accepted; see --limit " + name + "=N";
+    }
+
+  private:
+    static std::size_t index(Resource resource) { return static_cast<std::size_t>(resource); }
+
+    std::array<std::uint64_t, resource_names.size()> most_ = {1'000'000'000, 60'000'000, 15'000'000,
+                                                              1'000'000,     1'000'000,  200'000};
+    std::array<std::uint64_t, resource_names.size()> used_{};
+};
+
+}  // namespace rasterbook
