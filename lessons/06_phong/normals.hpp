@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -63,7 +64,8 @@ class SmoothNormals {
                     face_normal(mesh, triangle), vertex_angle_radians(mesh, triangle, i)};
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             if (end_[i] - begin_[i] > crowd_)
-                end_[i] = begin_[i] + merge({&around_[begin_[i]], &around_[end_[i]]});
+                end_[i] =
+                    begin_[i] + merge(std::span(around_).subspan(begin_[i], end_[i] - begin_[i]));
     }
 
     /// The mean of the normals of the faces around a position, weighted by their angles there.
@@ -87,20 +89,16 @@ class SmoothNormals {
 
     /// @return  How many faces are left, at the front.
     static std::size_t merge(std::span<FaceAround> faces) {
-        const auto cube_of = [](const FaceAround& face) {
-            const vec3 corner = glm::floor(16.0f * face.normal);
-            return std::array{corner.x, corner.y, corner.z};
-        };
-        std::ranges::stable_sort(faces, {}, cube_of);
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < faces.size();) {
-            const FaceAround first = faces[i];
-            dvec3 sum(0);
-            for (; i < faces.size() && cube_of(faces[i]) == cube_of(first); ++i)
-                sum += double{faces[i].angle_radians} * dvec3(faces[i].normal);
-            faces[left++] = {vec3(normalize_or(sum, dvec3(first.normal))),
-                             static_cast<float>(glm::length(sum))};
+        std::map<std::array<float, 3>, dvec3> sum_of_cube;
+        for (const auto& [normal, angle_radians] : faces) {
+            const vec3 corner = glm::floor(16.0f * normal);
+            const auto sum = sum_of_cube.try_emplace({corner.x, corner.y, corner.z}, dvec3(0));
+            sum.first->second += double{angle_radians} * dvec3(normal);
         }
+        std::size_t left = 0;
+        for (const auto& [cube, sum] : sum_of_cube)
+            faces[left++] = {vec3(normalize_or(sum, dvec3(0, 1, 0))),
+                             static_cast<float>(glm::length(sum))};
         return left;
     }
 
