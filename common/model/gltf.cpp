@@ -227,7 +227,7 @@ void GltfReader::read_mesh(const tinygltf::Node& node, const dmat4& world_from_n
     if (node.skin >= 0) warn("skins are passed over: figures stand as they were modelled");
     mesh_ = {};
     mesh_.name = node.name.empty() ? from.name : node.name;
-    index_of_point_.clear();
+    index_of_point_ = {};  // clear() would take as long as the largest mesh before
     has_colors_ = std::ranges::any_of(from.primitives, [](const tinygltf::Primitive& primitive) {
         return primitive.attributes.contains("COLOR_0");
     });

@@ -7,10 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <string_view>
-
-#include "common/image/input_error.hpp"
 
 namespace rasterbook {
 
@@ -39,17 +36,7 @@ class LoadBudget {
 
     /// @throws InputError  When less than that is left: names the file, the limit and the option
     ///                     that changes it.
-    void charge(Resource resource, std::uint64_t amount, const std::filesystem::path& file) {
-        if (amount > left(resource)) throw InputError(file, complaint(resource));
-        used_[index(resource)] += amount;
-    }
-
-    /// "more than 60000000 pixels, the most that are accepted; see --limit pixels=N".
-    std::string complaint(Resource resource) const {
-        const std::string name(resource_names[index(resource)]);
-        return "more than " + std::to_string(most_[index(resource)]) + " " + name +
-               " in all, the most that are accepted; see --limit " + name + "=N";
-    }
+    void charge(Resource resource, std::uint64_t amount, const std::filesystem::path& file);
 
   private:
     static std::size_t index(Resource resource) { return static_cast<std::size_t>(resource); }
