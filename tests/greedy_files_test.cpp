@@ -364,30 +364,6 @@ const std::vector<GreedyFile> files = {
          return file;
      },
      "--limit vertices="},
-    {"SmallMeshesAfterALargeOne",
-     [](const fs::path& folder) {
-         constexpr std::uint32_t large = 300'000;
-         std::string scene =
-             scene_of("", R"({"mesh":1},)" + list_of(50'000, [](int) { return R"({"mesh":0})"; }),
-                      R"({"primitives":[{"attributes":{"POSITION":0}}]},)"
-                      R"({"primitives":[{"attributes":{"POSITION":2}}]})");
-         const std::string bytes = std::to_string(12 * large);
-         scene.insert(scene.find(R"(],"bufferViews")"),
-                      R"(,{"uri":"large.bin","byteLength":)" + bytes + "}");
-         scene.insert(scene.find(R"(],"accessors")"),
-                      R"(,{"buffer":1,"byteLength":)" + bytes + "}");
-         scene.insert(scene.find(R"(],"meshes")"),
-                      R"(,{"bufferView":2,"componentType":5126,"count":)" + std::to_string(large) +
-                          R"(,"type":"VEC3"})");
-         std::string positions;
-         for (std::uint32_t i = 0; i < large; ++i) {
-             const float part = static_cast<float>(i) / large;
-             const float position[] = {part, part * part, -part};
-             positions.append(reinterpret_cast<const char*>(position), sizeof position);
-         }
-         written(folder / "large.bin", positions);
-         return gltf(folder, scene);
-     }},
     {"AChainOfNodes",
      [](const fs::path& folder) {
          constexpr int nodes = 200'000;
