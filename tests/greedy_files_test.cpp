@@ -448,7 +448,7 @@ TEST_P(GreedyFiles, HardCase_AreDrawnOrRefusedWithinBounds) {
     const GreedyFile& file = GetParam();
     const fs::path folder = fresh_folder("greedy"), model = file.write(folder);
     // They take up to 10 s on the course's machine; without an end, none of them should go on.
-    std::vector<std::string> arguments = {"30",      std::string(RASTERBOOK_LESSONS) + "/11_scenes",
+    std::vector<std::string> arguments = {"60",      std::string(RASTERBOOK_LESSONS) + "/11_scenes",
                                           "--model", model,
                                           "--out",   folder / "picture.png"};
     if (file.options.size() < 3) arguments.insert(arguments.end(), {"--size", "320x180"});
