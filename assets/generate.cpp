@@ -29,6 +29,7 @@
 #include "common/image/file.hpp"
 #include "common/image/image_io.hpp"
 #include "common/image/input_error.hpp"
+#include "common/image/interruption.hpp"
 
 namespace rasterbook::assets {
 namespace {
@@ -131,6 +132,7 @@ int main(int argument_count, char** arguments) {
         std::cerr << "usage: generate_assets [OUT_DIR]\n";
         return 2;
     }
+    rasterbook::protect_files();
     try {
         rasterbook::assets::generate(argument_count == 2 ? arguments[1] : RASTERBOOK_ASSETS);
         return 0;

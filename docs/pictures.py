@@ -207,7 +207,7 @@ def copied_tree() -> Iterator[Path]:
 
 
 def copy_code(tree: Path) -> None:
-    for name in ("CMakeLists.txt", "assets", "docs"):
+    for name in ("CMakeLists.txt", "assets", "docs", "tests"):
         if not (tree / name).exists():
             (tree / name).symlink_to(ROOT / name)
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "02_triangle_fill/flat_color.hpp"
 #include "common/image/image.hpp"
 #include "common/math/numerics.hpp"
 #include "support/ascii_picture.hpp"
@@ -555,6 +556,15 @@ TEST(TriangleFill, HardCase_ZeroAreaCoversNothing) {
         << "only after snapping";
 }
 
+TEST(TriangleFill, HardCase_SmallestTriangleCoversTheCentreThatItOwns) {
+    look_up("Eq. 2.7");
+    constexpr float step = 1.0f / 256;
+    const vec2 p(2.5f, 3.5f), q = p + vec2(step, step), r = p + vec2(step, 0);
+    EXPECT_EQ(snap_triangle(p, q, r).twice_area, 1) << "half a square of the snapped grid";
+    EXPECT_TRUE(same_pixels(covered(p, q, r, {8, 8}), {{2, 3}}))
+        << "a vertex on a centre, between a left and a top side";
+}
+
 TEST(TriangleFill, HardCase_SliversThinnerThanASubpixelAreExact) {
     look_up("Eq. 2.8, and what snapping does to thin triangles");
     constexpr ivec2 size(40, 30);
@@ -630,6 +640,19 @@ TEST(TriangleFill, HardCase_TriangleFromAMillionPixelsAwayCoversTheWholePicture)
     }
     EXPECT_EQ(covered({-1e6f, -1e6f}, {0, 2e6f}, {1e6f, -1e6f}, size).size(), all)
         << "pixels of 64 x 48 that (-1e6, -1e6), (0, 2e6), (1e6, -1e6) covers";
+}
+
+TEST(TriangleFill, HardCase_TriangleOfNoAreaFacesUp) {
+    look_up("Robust, Triangles that collapse");
+    const Triangle of_points{{{{0}, {1}, {2}}}};
+    const auto normal_of = [&](const std::vector<vec3>& positions) {
+        Mesh mesh;
+        mesh.positions = positions;
+        return flat_normal(mesh, of_points);
+    };
+    EXPECT_EQ(normal_of({{1, 2, 3}, {4, 2, 3}, {1, 2, -5}}), vec3(0, 1, 0)) << "it lies flat";
+    EXPECT_EQ(normal_of({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}), vec3(0, 1, 0)) << "one point";
+    EXPECT_EQ(normal_of({{1, 2, 3}, {2, 4, 6}, {3, 6, 9}}), vec3(0, 1, 0)) << "one line";
 }
 
 TEST(TriangleFill, HardCase_EmptyPictureVisitsNothing) {

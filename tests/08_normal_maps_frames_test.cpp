@@ -776,6 +776,19 @@ TEST(NormalMaps, HardCase_NegativeZeroIsTheSamePosition) {
     EXPECT_GT(degrees_between(patch.frame(0, 0).tangent, along_x), 10) << "a mean of two";
 }
 
+TEST(NormalMaps, HardCase_VerticesOfTinyModelsAreNotTheSame) {
+    look_up("Robust: Which vertices are the same");
+    // Two triangles that have nothing in common but uvs and normals; in one, the texture is turned.
+    for (const float size : {1.0f, 0x1p-30f, 0x1p-100f}) {
+        const auto at = [&](float x, float y) { return size * vec3(x, y, 0); };
+        const Patch patch({at(0, 0), at(1, 0), at(0, 1), at(8, 0), at(8, 1), at(7, 0)},
+                          {{0, 0}, {1, 0}, {0, 1}, {0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}, {3, 4, 5}},
+                          std::vector<vec3>(6, along_z));
+        EXPECT_TRUE(are_near(patch.frame(0, 0).tangent, along_x)) << "of a model of size " << size;
+        EXPECT_TRUE(are_near(patch.frame(1, 0).tangent, along_y)) << "of a model of size " << size;
+    }
+}
+
 TEST(NormalMaps, HardCase_AnyVertexMayComeFirst) {
     look_up("Robust: The order must not matter");
     // Needles, in space and in the texture: what is left of Eq. 8.3's difference is mostly

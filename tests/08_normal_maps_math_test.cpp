@@ -313,6 +313,7 @@ TEST(NormalMaps, Eq8_6_TheNormalOfAFragmentTakesTheStepsOfTheText) {
         mesh.normals = {some(), some(), some()};
         for (std::uint32_t k = 0; k < 3; ++k) mesh.triangles[0].vertices[k].normal = k;
         mapped.set_uvs({vec2(some()), vec2(some()), vec2(some())});
+        if (i % 7 == 0) mapped.set_uvs({vec2(0), vec2(0), vec2(0)});  // it has no handedness
         complete_normals(mesh);
         mapped.make_tangents();
         NormalMapVariant variant;

@@ -22,6 +22,7 @@
 #include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_09.hpp"
+#include "support/lesson_process.hpp"
 #include "support/light_maps.hpp"
 #include "support/look_up.hpp"
 #include "support/names.hpp"
@@ -481,6 +482,19 @@ TEST(ShadowMaps, HardCase_ModelsOfAllSizes) {
             EXPECT_LT(differing, 60) << name_of(kind) << ", scale " << scale;  // at edges
         }
     }
+}
+
+TEST(ShadowMaps, HardCase_TheSmallestAndTheLargestShadowMap) {
+    look_up("Eq. 9.5");
+    const std::string out = (fresh_folder("shadow_size") / "picture.bmp").string();
+    const auto exit_status = [&](const char* texels) {
+        return run_program("09_shadow_maps",
+                           {"--size", "32x18", "--shadow-size", texels, "--out", out})
+            .exit_status;
+    };
+    EXPECT_EQ(exit_status("16"), 0);
+    EXPECT_NE(exit_status("15"), 0) << "smaller maps are refused";
+    EXPECT_NE(exit_status("8193"), 0) << "larger maps are refused";
 }
 
 TEST(ShadowMaps, PictureOfADirectionalLight) {

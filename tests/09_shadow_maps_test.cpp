@@ -233,6 +233,8 @@ TEST(ShadowMaps, HardCase_WithoutACasterOrAReceiverBehindItThereIsNoMap) {
     EXPECT_EQ(light_views(lights[1], some, beside, 256).count, 0u) << "beside its cone";
     EXPECT_EQ(light_views(lights[1], above, some, 256).count, 0u) << "behind the spotlight";
     EXPECT_EQ(light_views(lights[1], some, above, 256).count, 0u) << "behind the spotlight";
+    EXPECT_EQ(light_views(lights[2], box(vec3(50), vec3(51)), some, 256).count, 0u)
+        << "all casters are farther from the point light than what receives";
 }
 
 TEST(ShadowMaps, HardCase_AFlatCasterEdgeOnHasAMap) {
@@ -246,6 +248,16 @@ TEST(ShadowMaps, HardCase_AFlatCasterEdgeOnHasAMap) {
         EXPECT_TRUE(std::abs(in_ndc.x) < 1 && std::abs(in_ndc.y) < 1 && std::abs(in_ndc.z) < 1)
             << testing::PrintToString(vec3(in_ndc));
     }
+}
+
+TEST(ShadowMaps, HardCase_ASceneOfOnePointHasAMap) {
+    look_up("Eq. 9.3");
+    const Bounds point = box(vec3(2, 1, -3), vec3(2, 1, -3));
+    const LightViews views = light_views(directional_light({0, 1, 0}), point, point, 64);
+    ASSERT_EQ(views.count, 1u);
+    const dvec3 in_ndc = ndc(views.clip_from_world[0], dvec3(point.min));
+    // Not a number where the map's box has no size.
+    EXPECT_LT(glm::length(in_ndc), float_tolerance) << "the point is the box's centre";
 }
 
 TEST(ShadowMaps, Eq9_4_ASpotlightsMapReachesToTheBorderOfItsCone) {
@@ -275,6 +287,25 @@ TEST(ShadowMaps, Eq9_4_ASpotlightsMapReachesToTheBorderOfItsCone) {
                 << "in NDC, of a point a little outside of a cone of " << half_angle
                 << " degrees from its axis (seed 3, case " << i << ")";
         }
+}
+
+TEST(ShadowMaps, Eq9_4_DepthsReachALittleBeyondWhatTheyAreFor) {
+    const DepthRange range = depth_range(2, 10);
+    EXPECT_TRUE(range.near < 2 && range.near > 1.98) << range.near << " for a caster at 2";
+    EXPECT_TRUE(range.far > 10 && range.far < 10.1) << range.far << " for casters up to 10";
+    EXPECT_GT(depth_range(0, 10).near, 0) << "the light is in a caster";
+}
+
+TEST(ShadowMaps, Eq9_4_ASpotlightsDepthsRunFromItsNearToItsFarPlane) {
+    const Bounds around = box({-1, -2, -1}, {1, 1, 1});
+    const LightViews views = light_views(spotlight({0, 5, 0}, {0, 0, 0}, 40), around, around, 64);
+    ASSERT_EQ(views.count, 1u);
+    const DepthRange range = depth_range(4, 7);
+    const auto depth_at = [&](double distance) {
+        return ndc(views.clip_from_world[0], {0, 5 - distance, 0}).z;
+    };
+    EXPECT_NEAR(depth_at(range.near), -1, float_tolerance) << "the near plane, as fitted";
+    EXPECT_NEAR(depth_at(range.far), 1, float_tolerance) << "the far plane, as fitted";
 }
 
 TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsCutDownToCastersAndReceivers) {
@@ -554,6 +585,27 @@ TEST(ShadowMaps, HardCase_BehindASpotlightAllIsLit) {
     EXPECT_EQ(pcf_visibility<0>(map, {}, {0, 0, 2}), 1);
     EXPECT_EQ(pcf_visibility<0>(map, {}, {0, 0, 0}), 1) << "in the light itself";
     EXPECT_EQ(pcf_visibility<0>(map, {}, {1, 1, 0}), 1) << "beside it";
+}
+
+TEST(ShadowMaps, Eq9_9_TheConstantBiasIsThatOfASlopeOf2InTheMiddle) {
+    const vec3 middle(1, 0, -2);
+    const Bounds around = box(middle - 1.0f, middle + 1.0f);
+    for (const Light& light :
+         {directional_light({0, 1, 0}), spotlight(middle + vec3(0, 5, 0), middle, 20)}) {
+        const LightViews views = light_views(light, around, around, 64);
+        ASSERT_EQ(views.count, 1u);
+        const ShadowMap map(views.clip_from_world[0], views.is_perspective, 64, around);
+        // From a point a little on one side of the middle to one on the other.
+        const dvec3 step(1e-3, -2e-3, 0);
+        const dvec3 way = ndc(map.texels_from_world, dvec3(middle) + step) -
+                          ndc(map.texels_from_world, dvec3(middle) - step);
+        const double slope = std::abs(way.z) / (std::abs(way.x) + std::abs(way.y));
+        for (const int radius : {0, 2})
+            EXPECT_NEAR(receiver(map, Bias::constant, radius, {}, {0, 1, 0}).bias,
+                        (radius + 0.5) * slope, 1e-3 * slope)
+                << "half a texel and " << radius << " of a surface that goes down by 2 a unit; "
+                << name_of(light.kind);
+    }
 }
 
 TEST(ShadowMaps, Eq9_13_AShareOfTexelsIsLit) {

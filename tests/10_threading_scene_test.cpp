@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -117,9 +118,9 @@ std::size_t number_of(const ProjectedTriangle& projected, const Scene& scene) {
 std::vector<std::size_t> listed(const BinnedTriangles& triangles, std::size_t tile,
                                 const Scene& scene) {
     std::vector<std::size_t> numbers;
-    for (const TriangleBatch& batch : triangles.batches)
-        for (const std::size_t i : batch.of(tile))
-            numbers.push_back(number_of(batch.triangles[i], scene));
+    triangles.for_each_in(tile, [&](const ProjectedTriangle& projected) {
+        numbers.push_back(number_of(projected, scene));
+    });
     return numbers;
 }
 
@@ -130,6 +131,15 @@ std::vector<const Mesh*> pointers_to(const std::vector<Mesh>& meshes) {
 }
 
 }  // namespace
+
+TEST(Threading, HardCase_TilesGrowWhereThereWouldBeTooMany) {
+    look_up("Large triangles and slivers");
+    ThreadOptions options;
+    options.tile = 8;
+    EXPECT_EQ(options.tiling_of({2048, 2048}, 2).count(), 65536u);
+    EXPECT_EQ(options.tiling_of({2049, 2048}, 2).count(), 129u * 128u);
+    EXPECT_EQ(options.tiling_of({16384, 16384}, 2).count(), 65536u);
+}
 
 TEST(Threading, Eq10_7_ABatchListsItsTrianglesByTiles) {
     // Two tiles beside each other; triangle 0 lies in the left one, 1 in both, 2 in the right one.
@@ -144,7 +154,7 @@ TEST(Threading, Eq10_7_ABatchListsItsTrianglesByTiles) {
     const Tiling tiling(Split::tiles, {32, 16}, 1, 16);
     ThreadPool pool(1);
     WorkerCounters<NoCounters> counters(1);
-    const BinnedTriangles binned(pool, meshes, mat4(1), tiling, Culling::none, counters);
+    const BinnedTriangles binned(pool, Scene(), meshes, mat4(1), tiling, Culling::none, counters);
     ASSERT_EQ(binned.batches.size(), 1u);
     ASSERT_EQ(binned.batches[0].triangles.size(), 3u);
     for (std::size_t tile = 0; tile < 2; ++tile) {
@@ -155,6 +165,72 @@ TEST(Threading, Eq10_7_ABatchListsItsTrianglesByTiles) {
             << "triangles listed for the tile on the " << (tile == 0 ? "left" : "right")
             << ", in the scene's order: 0 lies on the left, 1 on both sides, 2 on the right";
     }
+}
+
+TEST(Threading, HardCase_LargeTrianglesAreInNoTilesList) {
+    look_up("Large triangles and slivers");
+    // In 4,096 tiles; triangles 1 and 3 reach over half of the picture.
+    const Mesh mesh = mesh_of({{-0.95f, -0.95f, 0},
+                               {-0.9f, -0.95f, 0},
+                               {-0.95f, -0.9f, 0},
+                               {-1, -1, 0},
+                               {1, -1, 0},
+                               {-1, 1, 0}},
+                              {{0, 1, 2}, {3, 4, 5}, {0, 1, 2}, {3, 4, 5}, {0, 1, 2}});
+    const std::array<const Mesh*, 1> meshes = {&mesh};
+    const Tiling tiling(Split::tiles, {512, 512}, 1, 8);
+    ThreadPool pool(1);
+    WorkerCounters<NoCounters> counters(1);
+    const BinnedTriangles binned(pool, Scene(), meshes, mat4(1), tiling, Culling::none, counters);
+    const TriangleBatch& batch = binned.batches.at(0);
+    std::size_t with_small = 0;
+    for (std::size_t tile = 0; tile < tiling.count(); ++tile) {
+        std::vector<std::size_t> expected = {1, 3};
+        if (!batch.of(tile).empty()) expected = {0, 1, 2, 3, 4}, ++with_small;
+        std::vector<std::size_t> numbers;
+        binned.for_each_in(tile, [&](const ProjectedTriangle& projected) {
+            numbers.push_back(
+                static_cast<std::size_t>(&projected.triangle - mesh.triangles.data()));
+        });
+        ASSERT_EQ(numbers, expected) << "in the scene's order, in tile " << tile;
+        ASSERT_EQ(binned.count_in(tile), expected.size()) << "triangles in tile " << tile;
+        ASSERT_LE(batch.of(tile).size(), 3u) << "the large ones are in no list, tile " << tile;
+    }
+    EXPECT_EQ(with_small, 9u) << "tiles that list the small triangles";
+    double work = 0;
+    for (const ProjectedTriangle& projected : batch.triangles)
+        work += drawing_work(projected.on_screen);
+    const double area = 2 * 512 * 512 / 2 + 3 * 12.8 * 12.8 / 2;
+    const double borders = 4 * (2 * 2 * 512 + 3 * 2 * 13);
+    EXPECT_NEAR(work, area + borders, 4 * 6) << "pixels that are looked at";
+}
+
+TEST(Threading, HardCase_ASliverIsListedWhereItIs) {
+    look_up("Large triangles and slivers");
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> anywhere(-3, 303);
+    const Tiling tiling(Split::tiles, {300, 200}, 1, 8);
+    std::size_t listed = 0, in_boxes = 0;
+    for (int i = 0; i < 500; ++i) {
+        const vec2 a(anywhere(random), anywhere(random)), b(anywhere(random), anywhere(random));
+        const bool is_sliver = i % 2 == 0;
+        const vec2 c = is_sliver ? b + vec2(1, -1) : vec2(anywhere(random), anywhere(random));
+        const ScreenTriangle triangle = snap_triangle(a, b, c);
+        std::set<std::size_t> tiles;
+        tiling.for_each_in(triangle, [&](std::size_t tile) {
+            ASSERT_TRUE(tiles.insert(tile).second) << "tile " << tile << " is taken twice";
+        });
+        fill_triangle(triangle, ivec2(0), tiling.size() - 1, [&](ivec2 pixel, Barycentrics) {
+            const auto tile = static_cast<std::size_t>(pixel.y / 8 * 38 + pixel.x / 8);
+            ASSERT_TRUE(tiles.contains(tile))
+                << "tile " << tile << " lacks triangle " << i << ", which covers its pixel "
+                << testing::PrintToString(pixel);
+        });
+        if (!is_sliver) continue;
+        listed += tiles.size();
+        tiling.for_each_in(box_around(triangle), [&](std::size_t) { ++in_boxes; });
+    }
+    EXPECT_LT(4 * listed, in_boxes) << "tiles that list a sliver, and those in the boxes";
 }
 
 TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
@@ -172,7 +248,7 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
                 scene, clip_from_world, size, culling, serial,
                 [&](const ProjectedTriangle& projected) {
                     if (projected.on_screen.twice_area == 0) return;
-                    tiling.for_each_in(box_around(projected.on_screen), [&](std::size_t tile) {
+                    tiling.for_each_in(projected.on_screen, [&](std::size_t tile) {
                         expected[tile].push_back(number_of(projected, scene));
                     });
                 });
@@ -182,8 +258,8 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
             for (const std::size_t workers : {1u, 2u, 7u, 61u}) {
                 ShuffledPool pool(workers, 5);
                 WorkerCounters<Counters> counters(workers);
-                const BinnedTriangles triangles(pool, meshes, clip_from_world, tiling, culling,
-                                                counters);
+                const BinnedTriangles triangles(pool, scene, meshes, clip_from_world, tiling,
+                                                culling, counters);
                 EXPECT_EQ(triangles.batches.size(), batches_of(count));
                 for (std::size_t tile = 0; tile < tiling.count(); ++tile)
                     ASSERT_EQ(listed(triangles, tile, scene), expected[tile])
@@ -202,7 +278,7 @@ TEST(Threading, HardCase_NothingToDraw) {
     const Tiling tiling(Split::tiles, {64, 64}, 3, 16);
     ThreadPool pool(3);
     WorkerCounters<NoCounters> counters(3);
-    const BinnedTriangles none(pool, {}, mat4(1), tiling, Culling::none, counters);
+    const BinnedTriangles none(pool, Scene(), {}, mat4(1), tiling, Culling::none, counters);
     EXPECT_TRUE(none.batches.empty());
     // A mesh without triangles, one that is not taken, and one that nothing is left of.
     std::vector<Mesh> meshes(3);
@@ -213,7 +289,7 @@ TEST(Threading, HardCase_NothingToDraw) {
                            {{Vertex{1}, Vertex{1}, Vertex{1}}, 0},
                            {{Vertex{2}, Vertex{2}, Vertex{2}}, 0}};
     const BinnedTriangles empty(
-        pool, pointers_to(meshes), mat4(1), tiling, Culling::none,
+        pool, Scene(), pointers_to(meshes), mat4(1), tiling, Culling::none,
         [](std::size_t material) { return material == 0; }, counters);
     ASSERT_EQ(empty.batches.size(), 1u);
     EXPECT_TRUE(empty.batches[0].triangles.empty());
@@ -452,22 +528,8 @@ TEST(Threading, PictureOfTheSceneIsLesson09sByteForByte) {
 }
 
 TEST(Threading, PictureOfWhoDrewWhat) {
-    // Threads would share out the tiles anew each time; these pools do not.
-    lesson_10::Options options;
-    options.size = {960, 540};
-    options.threads.show = true, options.threads.tile = 64;
-    const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-    Counters ignored;
-    ShuffledPool shuffled(4, 1);
-    EXPECT_TRUE(
-        equals_golden(lesson_10::render(options, assets, shuffled, ignored), "10_threading"));
-    struct {
-        std::size_t size() const { return 4; }
-        void run(std::size_t tasks, const std::function<void(std::size_t, std::size_t)>& task) {
-            for (std::size_t i = 0; i < tasks; ++i) task(i, i % 4);
-        }
-    } in_turn;
-    options.threads.split = Split::rows;
-    EXPECT_TRUE(
-        equals_golden(lesson_10::render(options, assets, in_turn, ignored), "10_threading_rows"));
+    // Threads would share out the tiles anew each time; this program's pool does not.
+    EXPECT_TRUE(equals_golden("who_drew_what", "10_threading", {"--show-threads", "--tile", "64"}));
+    EXPECT_TRUE(equals_golden("who_drew_what", "10_threading_rows",
+                              {"--show-threads", "--tile", "64", "--split", "rows"}));
 }

@@ -21,6 +21,7 @@
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "common/image/backdrop.hpp"
+#include "common/image/input_error.hpp"
 #include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_10.hpp"
@@ -109,6 +110,67 @@ class Squares {
 };
 
 }  // namespace
+
+TEST(SceneFiles, HardCase_LightsWithoutRoomForTheirShadowMapsAreNamed) {
+    look_up("Too many lights");
+    Scene scene = loaded("scene_bumpy.obj");
+    const vec3 middle = scene.bounds().center();  // where a point light has maps on all sides
+    for (const char* const name : {"red", "green", "blue", "sun"})
+        scene.lights.push_back({name, SceneLight::Kind::point, vec3(1), middle, {0, -1, 0}, 100});
+    scene.lights.back().kind = SceneLight::Kind::directional;
+    lesson_11::Options options;
+    options.shadow.size = 64;
+    const SceneAssets assets = make_scene_assets(scene, options);
+    const std::vector casts(assets.lit_by.casts.begin(), assets.lit_by.casts.begin() + 4);
+    EXPECT_EQ(casts, (std::vector{true, true, false, false})) << "two times six maps are there";
+    const auto named = [&](const std::string& name) {
+        return std::ranges::count(
+            assets.scene.warnings,
+            "light \"" + name + "\" casts no shadows: no more than 12 shadow maps are drawn");
+    };
+    EXPECT_EQ(named("red") + named("green"), 0);
+    EXPECT_EQ(named("blue"), 1);
+    EXPECT_EQ(named("sun"), 1);
+}
+
+TEST(SceneFiles, HardCase_PanesAreBlendedAlikeInPartsOfATile) {
+    look_up("Memory");
+    Squares squares;
+    for (int i = 0; i < 300; ++i) {  // they cut through each other
+        const float share = static_cast<float>(i * 37 % 300) / 300;
+        squares.add_glass(share, vec3(share, 1 - share, 0.5f), 0.3f, 0.5f - share);
+    }
+    lesson_11::Options options = small_picture({160, 90});
+    const Image<vec3> in_tiles = drawn(squares.scene, options).picture;
+    options.threads.split = Split::rows;
+    std::size_t parts = 0;
+    for_each_part(Tile{{{0, 0}, {159, 44}}}, 600, [&](const Tile&) { ++parts; });
+    ASSERT_GT(parts, 1u) << "what two threads draw of the picture is too much at once";
+    EXPECT_TRUE(have_the_same_bits(drawn(squares.scene, options).picture, in_tiles));
+}
+
+TEST(SceneFiles, HardCase_TooMuchOverdrawIsAnError) {
+    look_up("lesson 10: Large triangles and slivers");
+    Squares squares;
+    for (int i = 0; i < 10; ++i) squares.add(0, vec3(1));
+    squares.scene.file = "ten.obj";
+    lesson_11::Options options = small_picture({1024, 1024});
+    squares.scene.budget.set(Resource::overdraw, 11);  // ten, and something for their borders
+    EXPECT_NO_THROW(drawn(squares.scene, options));
+    options.size = {512, 256};
+    squares.scene.budget.set(Resource::overdraw, 2);  // a small picture may have more
+    EXPECT_NO_THROW(drawn(squares.scene, options));
+    options.size = {1024, 1024};
+    squares.scene.budget.set(Resource::overdraw, 10);
+    try {
+        drawn(squares.scene, options);
+        FAIL() << "no error";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(),
+                     "ten.obj: covers a picture 11 times, more than the 10 that are "
+                     "accepted; see --limit overdraw=N");
+    }
+}
 
 TEST(SceneFiles, HardCase_UnusedEffectsTakeNoWork) {
     look_up("Eq. 11.3");

@@ -22,6 +22,7 @@
 #include "11_scenes/shaders.hpp"
 #include "11_scenes/toon_material.hpp"
 #include "support/look_up.hpp"
+#include "support/name_of_split.hpp"
 #include "support/printers.hpp"
 
 using namespace rasterbook;
@@ -112,6 +113,35 @@ TEST(Scenes, HardCase_LightsBeyondTheLimitAreNamed) {
     ASSERT_EQ(own.lights.size(), 2u) << "those of lesson 09";
     EXPECT_EQ(own.lights[0].kind, LightKind::spot);
     EXPECT_TRUE(own.casts[0] && !own.casts[1] && !own.are_of_file);
+}
+
+TEST(Scenes, HardCase_ATileOfTooMuchGlassIsDrawnInParts) {
+    look_up("Memory");
+    for (const Split split : {Split::rows, Split::interleaved, Split::tiles})
+        for (const std::size_t triangles : {std::size_t{0}, std::size_t{1}, max_transparent / 1000,
+                                            max_transparent / 7, 2 * max_transparent}) {
+            const ivec2 size(61, 37);
+            const Tiling tiling(split, size, 3, 40);
+            Image<int> visits(size, 0);
+            std::size_t parts = 0;
+            for (std::size_t i = 0; i < tiling.count(); ++i)
+                for_each_part(tiling[i], triangles, [&](const Tile& part) {
+                    ++parts;
+                    std::size_t pixels = 0;
+                    for_each_strip(part, [&](const PixelBox& strip) {
+                        for (int y = strip.first.y; y <= strip.last.y; ++y)
+                            for (int x = strip.first.x; x <= strip.last.x; ++x)
+                                ++visits[{x, y}], ++pixels;
+                    });
+                    ASSERT_TRUE(pixels == 1 || pixels * triangles <= max_transparent)
+                        << pixels << " pixels of a part, of " << triangles << " triangles, "
+                        << name_of(split);
+                });
+            ASSERT_EQ(std::ranges::count(visits.pixels(), 1), visits.pixels().size())
+                << "pixels that are in just one part, " << triangles << " triangles, "
+                << name_of(split);
+            if (triangles <= 1) { EXPECT_EQ(parts, tiling.count()) << "a part is a whole tile"; }
+        }
 }
 
 TEST(Scenes, Eq11_12_LightsOfAnyUnitAreScaledDownTogether) {

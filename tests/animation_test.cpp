@@ -25,32 +25,13 @@
 
 using namespace rasterbook;
 using rasterbook::test::ProcessResult, rasterbook::test::run_program,
-    rasterbook::test::fresh_folder, rasterbook::test::read_text;
+    rasterbook::test::fresh_folder, rasterbook::test::read_text, rasterbook::test::expect_error,
+    rasterbook::test::Files, rasterbook::test::files_in, rasterbook::test::differing;
 
 namespace {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
-
-using Files = std::map<std::string, std::string>;  // bytes by name
-
-Files files_in(const fs::path& folder) {
-    Files files;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.is_regular_file())
-            files[entry.path().filename().string()] = read_text(entry.path());
-    return files;
-}
-
-/// The names of those that are in one folder only, or not the same in both.
-std::string differing(const Files& a, const Files& b) {
-    std::string names;
-    for (const auto& [name, bytes] : a)
-        if (!b.contains(name) || b.at(name) != bytes) names += name + ' ';
-    for (const auto& [name, bytes] : b)
-        if (!a.contains(name)) names += name + ' ';
-    return names;
-}
 
 /// Runs a lesson once for each list of options, all writing into one new folder.
 Files sequence_of(const std::string& lesson, const std::vector<Words>& runs) {
@@ -71,14 +52,6 @@ std::vector<long> counters_of(const ProcessResult& result) {
     std::vector<long> counters;
     for (const auto name : counter_names) counters.push_back(stats.at(std::string(name)));
     return counters;
-}
-
-void expect_error(const ProcessResult& result, int exit_status, const std::string& text) {
-    EXPECT_EQ(result.exit_status, exit_status);
-    EXPECT_EQ(result.err.rfind("error: ", 0), 0u) << result.err;
-    EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_EQ(result.out, "");
 }
 
 }  // namespace

@@ -8,23 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "support/lesson_process.hpp"
+#include "support/stand_in_programs.hpp"
 #include "support/texts.hpp"
 
 namespace fs = std::filesystem;
 using namespace rasterbook::test;
 
 namespace {
-
-/// A folder with a program of each lesson's name, which writes "drawn" in place of a picture.
-fs::path stand_in_programs() {
-    const fs::path folder = fresh_folder("programs");
-    for (const std::string& lesson : lessons()) {
-        std::ofstream(folder / lesson) << "#!/bin/sh\nwhile [ \"$1\" != --out ]; do shift; done\n"
-                                          "echo drawn >\"$2\"\necho '{ \"render_ms\": 12.34 }'\n";
-        fs::permissions(folder / lesson, fs::perms::owner_all);
-    }
-    return folder;
-}
 
 ProcessResult make_gallery(const fs::path& programs, const fs::path& gallery) {
     return run_program(root / "lessons/make_gallery", {programs, gallery});

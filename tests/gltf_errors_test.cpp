@@ -151,6 +151,7 @@ TEST(GltfErrors, AccessorsOutOfRange) {
              accessor(made, indices)["type"] = "VEC3", accessor(made, indices)["count"] = 1;
          },
          "no whole numbers, one by one"},
+        {"normalised indices", is(indices, "normalized", true), "which indices must not be"},
         {"indices with fractions",
          [](GltfBuilder& made) {
              made.primitive()["indices"] = made.add({0, 1, 2}, "SCALAR", gl_float);

@@ -291,6 +291,19 @@ TEST(Gltf, PointsThatDifferInColourAloneStayApart) {
     }
 }
 
+TEST(Gltf, ColoursAreBroughtIntoTheirRange) {
+    GltfBuilder made = one_triangle();
+    made.primitive()["attributes"]["COLOR_0"] =
+        made.add({3e38, -3e38, 0.5, 7, 1, 0, -0.5, -1, 1, 1, 1, 0.25}, "VEC4", gl_float);
+    made.material()["emissiveFactor"] = {3e38, 1, 0};
+    const Scene scene = read(made);
+    const Mesh& mesh = scene.meshes.at(0);
+    EXPECT_EQ(mesh.colors.at(mesh.vertices.at(0).position), vec4(1, 0, 0.5f, 1));
+    EXPECT_EQ(mesh.colors.at(mesh.vertices.at(1).position), vec4(1, 0, 0, 0));
+    EXPECT_EQ(mesh.colors.at(mesh.vertices.at(2).position), vec4(1, 1, 1, 0.25f));
+    EXPECT_EQ(scene.materials.at(1).emission, vec3(max_color, 1, 0));
+}
+
 TEST(Gltf, PrimitivesOfAMeshShareItsPointsAndKeepTheirMaterials) {
     GltfBuilder made = one_triangle();
     json second = made.primitive();

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,20 +18,11 @@
 
 using namespace rasterbook;
 using rasterbook::test::ProcessResult, rasterbook::test::run_program,
-    rasterbook::test::fresh_folder;
+    rasterbook::test::fresh_folder, rasterbook::test::expect_error;
 
 namespace {
 
 const char* const lesson = "03_z_buffer";
-
-/// One line on stderr that starts with "error: " and holds `text`; nothing on stdout.
-void expect_error(const ProcessResult& result, int exit_status, const std::string& text) {
-    EXPECT_EQ(result.exit_status, exit_status);
-    EXPECT_EQ(result.err.rfind("error: ", 0), 0u) << result.err;
-    EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_EQ(result.out, "");
-}
 
 }  // namespace
 
@@ -161,6 +153,71 @@ TEST(LessonApp, LimitsSayWhatAModelMayAskFor) {
                                "accepted; see --limit vertices=N"),
               std::string::npos)
         << refused.err;
+}
+
+TEST(LessonApp, HardCase_ASandboxedModelReadsNoFileOutsideOfItsFolder) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fresh_folder("sandbox"), inside = folder / "inside";
+    fs::create_directories(inside / "deeper");
+    const auto write = [](const fs::path& file, const std::string& text) {
+        std::ofstream(file, std::ios::binary) << text;
+    };
+    const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
+    const std::string face = "usemtl m\nf 1/1 2/1 3/1\n";
+    const std::string gltf =
+        R"({"asset":{"version":"2.0"},"buffers":[{"uri":"BUFFER","byteLength":36}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":36}],"images":[{"uri":"IMAGE"}],)"
+        R"("textures":[{"source":0}],"materials":[{"pbrMetallicRoughness":)"
+        R"({"baseColorTexture":{"index":0}}}],)"
+        R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":0},"material":0}]}],)"
+        R"("nodes":[{"mesh":0}]})";
+    const auto gltf_with = [&](const std::string& buffer, const std::string& image) {
+        std::string text = gltf;
+        text.replace(text.find("BUFFER"), 6, buffer);
+        return text.replace(text.find("IMAGE"), 5, image);
+    };
+    for (const fs::path& place : {folder, inside, inside / "deeper"}) {
+        write(place / "m.mtl", "newmtl m\n");
+        write(place / "triangle.bin", std::string(36, '\0'));
+        write_image(place / "black.bmp", Image<u8vec3>({1, 1}, u8vec3(0)));
+    }
+    write(inside / "up.mtl", "newmtl m\nmap_Kd ../black.bmp\n");
+    write(inside / "deep.mtl", "newmtl m\nmap_Kd deeper/../deeper/black.bmp\n");
+    fs::create_symlink(folder / "m.mtl", inside / "link.mtl");
+    fs::create_symlink(folder, inside / "link");
+    const auto draw = [&](const std::string& name, const std::string& text,
+                          std::vector<std::string> options = {"--sandbox"}) {
+        write(inside / name, text);
+        options.insert(options.end(), {"--size", "8x8", "--out", (folder / "a.png").string(),
+                                       "--model", (inside / name).string()});
+        return run_program("11_scenes", options);
+    };
+    const auto obj_with = [&](const std::string& library) {
+        return "mtllib " + library + "\n" + triangle + face;
+    };
+    for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+             {"dots.obj", obj_with("../m.mtl")},
+             {"dots_within.obj", obj_with("deeper/../../m.mtl")},
+             {"backslashes.obj", obj_with("..\\m.mtl")},
+             {"whole_path.obj", obj_with((folder / "m.mtl").string())},
+             {"link_to_a_file.obj", obj_with("link.mtl")},
+             {"link_to_a_folder.obj", obj_with("link/m.mtl")},
+             {"map.obj", obj_with("up.mtl")},
+             {"buffer.gltf", gltf_with("../triangle.bin", "black.bmp")},
+             {"image.gltf", gltf_with("triangle.bin", "../black.bmp")},
+             {"image_in_code.gltf", gltf_with("triangle.bin", "%2e%2e%2Fblack.bmp")},
+             {"image_of_whole_path.gltf",
+              gltf_with("triangle.bin", (folder / "black.bmp").string())}}) {
+        EXPECT_EQ(draw(name, text, {}).exit_status, 0) << name << " is sound without --sandbox";
+        expect_error(draw(name, text), 1, "lies outside of the model's folder");
+    }
+    expect_error(draw("missing.obj", obj_with("../none.mtl")), 1, "outside");
+    for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+             {"beside.obj", obj_with("m.mtl")},
+             {"below.obj", obj_with("deep.mtl")},
+             {"below.gltf", gltf_with("deeper/triangle.bin", "deeper/black.bmp")}})
+        EXPECT_EQ(draw(name, text).exit_status, 0) << name;
 }
 
 TEST(LessonApp, HardCase_OutputIntoAMissingFolderIsAnError) {

@@ -2,6 +2,7 @@
 // The variants of lesson 08 that docs/accuracy/08_normal_maps.md measures: each keeps what its
 // comment says.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,7 @@
 #include "support/lesson_process.hpp"
 #include "support/normal_mapped_torus.hpp"
 #include "support/printers.hpp"
+#include "support/sanitizer.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -247,4 +249,19 @@ TEST(NormalMapVariants, FewerBitsAreLessAccurate) {
             last = squares;
         }
     }
+}
+
+TEST(NormalMapVariants, HardCase_MillionsOfTrianglesMayShareAVertex) {
+    if (is_sanitized) GTEST_SKIP() << "takes a gigabyte there";
+    const std::array<vec2, 3> uvs = {vec2(0, 0), vec2(1, 0), vec2(-1, 0.01f)};
+    const auto tangents_of = [&](std::size_t triangles) {  // nearly pi at the first vertex
+        Mesh mesh;
+        mesh.positions = {{0, 0, 0}, {1, 0, 0}, {-1, 0.01f, 0}};
+        mesh.normals.assign(3, vec3(0, 0, 1));
+        mesh.triangles.assign(triangles, {{Vertex{0, 0, 0}, Vertex{1, 1, 1}, Vertex{2, 2, 2}}, 0});
+        return vertex_tangents(mesh, [&](const Triangle&) { return uvs; });
+    };
+    const std::vector<vec4> of_one = tangents_of(1), of_many = tangents_of(2'800'000);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_LT(glm::distance(of_one[i], of_many[i]), 1e-6) << "the tangent of vertex " << i;
 }

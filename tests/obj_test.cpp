@@ -341,6 +341,13 @@ TEST(Obj, MaterialsAreReadWithAllThatTheCourseUses) {
     EXPECT_EQ(halo.diffuse_map.file, folder / "2 planks.png");
 }
 
+TEST(Obj, ColoursAreBroughtIntoTheirRange) {
+    const Scene scene = load_obj(data / "good/bright.obj");
+    const Material& bright = scene.materials.at(1);
+    EXPECT_EQ(bright.diffuse, vec3(max_color, -max_color, 0.5f));
+    EXPECT_EQ(bright.emission, vec3(max_color));
+}
+
 TEST(Obj, AMaterialMayHaveNoName) {
     const Scene scene = load_obj(data / "good/material_without_name.obj");
     const Face& face = scene.meshes.at(0).faces.at(0);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cstdio>
 #include <iostream>
 #include <mutex>
 #include <new>
@@ -20,6 +21,7 @@
 #include "common/image/backdrop.hpp"
 #include "common/image/image_io.hpp"
 #include "common/image/input_error.hpp"
+#include "common/image/interruption.hpp"
 #include "common/math/color.hpp"
 #include "common/model/model_file.hpp"
 
@@ -81,6 +83,12 @@ std::filesystem::path find_model(const std::filesystem::path& name) {
     throw InputError(name, "there is no such file; tried " +
                                std::filesystem::absolute(name).string() +
                                (own == name ? "" : " and " + own.string()));
+}
+
+/// A message as it is printed: a file may have a name of a million letters.
+std::string shortened(const std::string& message) {
+    constexpr std::size_t longest = 1000;
+    return message.size() <= longest ? message : message.substr(0, longest) + "...";
 }
 
 double elapsed_ms(std::chrono::steady_clock::time_point start) {
@@ -171,11 +179,13 @@ Tally make_film(const LessonProgram& program) {
 void make_pictures(const LessonProgram& program) {
     LessonOptions& options = program.options;
     const auto start = std::chrono::steady_clock::now();
-    const Scene& scene = program.prepare(load_model(find_model(options.model), options.budget));
+    const std::filesystem::path model = find_model(options.model);
+    if (options.is_sandboxed) options.budget.confine_to(model.parent_path());
+    const Scene& scene = program.prepare(load_model(model, options.budget));
     const double load_ms = elapsed_ms(start);
     constexpr std::size_t most_warnings = 200;
     for (std::size_t i = 0; i < std::min(scene.warnings.size(), most_warnings); ++i)
-        std::cerr << "warning: " << scene.warnings[i] << '\n';
+        std::cerr << "warning: " << shortened(scene.warnings[i]) << '\n';
     if (scene.warnings.size() > most_warnings)
         std::cerr << "warning: and " << scene.warnings.size() - most_warnings << " more\n";
 
@@ -194,6 +204,13 @@ void make_pictures(const LessonProgram& program) {
         std::cout << "wrote " << tally.pictures << " pictures, " << first << " and so on\n";
     else
         std::cout << "wrote " << first << '\n';
+}
+
+/// @throws std::runtime_error  When something that was said could not be written, now or before:
+///         what an osyncstream hands on is buffered, and may be lost, in stdout alone.
+void flush_output() {
+    if (!std::cout.flush() || std::ferror(stdout))
+        throw std::runtime_error("standard output cannot be written");
 }
 
 }  // namespace
@@ -269,8 +286,7 @@ void Knobs::add_choice(const char* name, const char* help, void* value,
     preset_ = "";
 }
 
-int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
-    keep_freed_memory();
+std::optional<int> read_command_line(const LessonProgram& program, int argc, char** argv) {
     LessonOptions& options = program.options;
     options.jobs = threads_of_the_machine();
     options.out = program.name + ".png";
@@ -298,8 +314,10 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
                 for (const std::string& text : texts) set_limit(options.budget, text);
             },
             "How much the model's files may ask for, such as pixels=1000000000; or bytes, "
-            "vertices, primitives, objects, materials")
+            "vertices, primitives, objects, materials, overdraw")
         ->type_name("WHAT=NUMBER");
+    line.add_flag("--sandbox", options.is_sandboxed,
+                  "Read no file that lies outside of the model's folder");
     line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
     Knobs knobs(line);
     knobs.choice(
@@ -328,6 +346,10 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
                    "Show the depth buffer: near is bright, nothing is black");
     program.declare_knobs(knobs);
 
+    line.footer(
+        "Exit status: 0 for success, 1 when something cannot be read or written, 2 for wrong "
+        "usage");
+
     try {
         line.parse(argc, argv);
         const bool is_film = options.frames.of_turn > 1;
@@ -339,20 +361,32 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
         if (is_film && line.count("--jobs") == 0)
             options.jobs = frames_at_once(program.threads ? *program.threads : options.jobs,
                                           options.frames, options.size * options.samples_per_side);
-        make_pictures(program);
-        if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
-        return 0;
+        return {};
     } catch (const CLI::CallForHelp&) {
         std::cout << line.help();
         return 0;
     } catch (const CLI::ParseError& error) {
         std::cerr << "error: " << error.what() << " (--help lists what there is)\n";
         return 2;
+    }
+}
+
+int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
+    protect_files();
+    keep_freed_memory();
+    try {
+        if (const std::optional<int> status = read_command_line(program, argc, argv)) {
+            if (*status == 0) flush_output();
+            return *status;
+        }
+        make_pictures(program);
+        flush_output();
+        return 0;
     } catch (const std::bad_alloc&) {
         std::cerr << "error: not enough memory for this model at this size\n";
         return 1;
     } catch (const std::exception& error) {
-        std::cerr << "error: " << error.what() << '\n';
+        std::cerr << "error: " << shortened(error.what()) << '\n';
         return 1;
     }
 }

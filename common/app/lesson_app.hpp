@@ -30,6 +30,7 @@ struct LessonOptions {
     ivec2 size{1280, 720};      ///< Pixels to render, each side 1 to 16384 for one sample a pixel.
     int samples_per_side = 1;   ///< The picture is rendered this many times as wide and as high.
     LoadBudget budget;          ///< What the model's files may ask for.
+    bool is_sandboxed = false;  ///< Only files in the model's folder are read.
     bool stats = false;
     Frames frames;
     int jobs = 0;  ///< Frames that are drawn and written at once; 0: as many as there are threads.
@@ -124,7 +125,15 @@ const Scene& scene_of(const Assets& assets) {
     return assets.scene;
 }
 
-/// @return  The exit status: 0, 1 for bad input, 2 for bad usage; errors are one line on stderr.
+/// Reads the command line into the program's options.
+///
+/// @return  The exit status, where that is all: 0 after --help, 2 for bad usage, which is one line
+///          on stderr. Else none.
+std::optional<int> read_command_line(const LessonProgram& program, int argc, char** argv);
+
+/// @return  The exit status: 0, 1 for bad input or what cannot be written, 2 for bad usage; errors
+///          are one line on stderr. SIGINT, SIGTERM and SIGHUP end the program as always, but
+///          between files (protect_files()).
 int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 
 /// Runs a lesson: reads the command line and the model, renders, writes the picture.

@@ -33,6 +33,7 @@ Bytes encode_bmp(const Image<u8vec3>& pixels, const std::filesystem::path& file)
 /// @param bytes  A whole file that begins with "BM". 24 or 32 bits a pixel, or 8 with a palette;
 ///               not compressed; the bottom or the top row first.
 /// @param file   Named in the error.
+/// @param max_pixels  As many are accepted.
 /// @throws InputError  When the file is truncated or of another kind.
 Image<u8vec4> decode_bmp(ByteView bytes, const std::filesystem::path& file,
                          std::uint64_t max_pixels = any_number);

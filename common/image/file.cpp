@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "common/image/input_error.hpp"
+#include "common/image/interruption.hpp"
 
 namespace rasterbook {
 namespace {
@@ -57,19 +58,25 @@ mode_t current_umask() {
 
 /// The permissions that the file has, or that a new one gets.
 fs::perms permissions_of(const fs::path& target) {
-    std::error_code error;
-    if (fs::exists(target, error)) return fs::status(target, error).permissions();
+    std::error_code error;  // asked once: another program may remove the file at any time
+    const fs::file_status status = fs::status(target, error);
+    if (fs::is_regular_file(status)) return status.permissions();
     return fs::perms{0666u & ~current_umask()};
 }
 
 /// The file that a name stands for, once it is certain that a file may be put there.
 fs::path writable_target(const fs::path& file) {
     std::error_code error;
-    const fs::path target = fs::exists(file, error) ? fs::canonical(file, error) : file;
+    fs::path target = fs::exists(file, error) ? fs::canonical(file, error) : file;
+    if (error == std::errc::no_such_file_or_directory) {  // another program has just removed it
+        target = file;
+        error.clear();
+    }
     if (error) throw InputError(file, "cannot be written: " + error.message());
     if (!fs::exists(file, error) && fs::is_symlink(file, error))
         throw InputError(file, "cannot be written: a link that leads nowhere");
-    if (fs::exists(target, error) && !fs::is_regular_file(target, error))
+    const fs::file_status status = fs::status(target, error);
+    if (fs::exists(status) && !fs::is_regular_file(status))
         throw InputError(file, "cannot be written: not a regular file");
 
     const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
@@ -113,6 +120,7 @@ std::vector<std::uint8_t> read_whole_file(const fs::path& file, std::uintmax_t m
 
 void write_whole_file(const fs::path& file, std::span<const std::uint8_t> bytes) {
     const fs::path target = writable_target(file);
+    const UninterruptedWrite until_it_is_whole;  // or removed
     const TemporaryFile temporary(target);
 
     std::ofstream stream(temporary.path(), std::ios::binary);

@@ -29,7 +29,9 @@ std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file,
 ///
 /// When anything fails, an older file of that name stays as it was and nothing new is left behind.
 /// A new file takes the older one's permissions. A symbolic link is followed, so that it still is
-/// one afterwards; one that leads nowhere is refused.
+/// one afterwards; one that leads nowhere is refused. Several threads and programs may write the
+/// same file at once: the last one's stays. If the program has called protect_files(), a signal
+/// that ends it waits for the file.
 ///
 /// @throws InputError  When the folder is missing, the name belongs to something else than a
 ///          regular file, or the bytes cannot be written (no permission, no space).

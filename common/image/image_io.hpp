@@ -17,6 +17,7 @@ namespace rasterbook {
 ///
 /// No memory is set aside for a claim that the file's bytes cannot hold.
 ///
+/// @param max_pixels  As many are accepted.
 /// @return  Red, green, blue, opacity as stored (colours in files are sRGB), the top row first.
 ///          A missing opacity is 255; grey becomes three equal values; 16 bits a channel are
 ///          reduced to 8.
@@ -29,6 +30,7 @@ Image<u8vec4> read_image(const std::filesystem::path& file, std::uint64_t max_pi
 ///
 /// @param bytes  Fewer than 2^31.
 /// @param name   Named in errors.
+/// @param max_pixels  As many are accepted.
 Image<u8vec4> decode_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& name,
                            std::uint64_t max_pixels = any_number);
 

@@ -10,6 +10,7 @@ namespace rasterbook {
 
 /// @param bytes  A whole file that begins with FF D8 FF; fewer than 2^31 bytes.
 /// @param file   Named in the error.
+/// @param max_pixels  As many are accepted.
 /// @throws InputError  When the file is truncated, damaged or claims more than its bytes can hold,
 ///          or has more than 100 scans (each one is a pass over the whole picture, however short).
 Image<u8vec4> decode_jpeg(ByteView bytes, const std::filesystem::path& file,

@@ -17,6 +17,7 @@ Bytes encode_png(const Image<u8vec3>& pixels, const std::filesystem::path& file)
 
 /// @param bytes  A whole file that begins with PNG's signature.
 /// @param file   Named in the error.
+/// @param max_pixels  As many are accepted.
 /// @throws InputError  When the file is truncated, damaged or claims more than its bytes can hold.
 Image<u8vec4> decode_png(ByteView bytes, const std::filesystem::path& file,
                          std::uint64_t max_pixels = any_number);

@@ -22,6 +22,7 @@ Bytes encode_tga(const Image<u8vec3>& pixels, const std::filesystem::path& file)
 /// @param bytes  A whole file: palette, true colour or grey (types 1, 2, 3) or the same in runs
 ///               (types 9, 10, 11); 8, 24 or 32 bits; rows and columns in either order.
 /// @param file   Named in the error.
+/// @param max_pixels  As many are accepted.
 /// @throws InputError  When the file is no picture, truncated or of another kind.
 Image<u8vec4> decode_tga(ByteView bytes, const std::filesystem::path& file,
                          std::uint64_t max_pixels = any_number);

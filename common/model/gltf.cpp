@@ -345,7 +345,9 @@ Vertex GltfReader::add_vertex(const Arrays& arrays, std::uint32_t element, const
     const vec3 position = narrowed(place.world_from_node * arrays.positions->vector(element),
                                    where_ + ": a position") +
                           0.0f;
-    const vec4 color = arrays.colors ? vec4(arrays.colors->vector(element)) + 0.0f : vec4(1);
+    // Colours are brought into 0 to 1, as the specification has it.
+    const vec4 color =
+        arrays.colors ? vec4(glm::clamp(arrays.colors->vector(element), 0.0, 1.0)) + 0.0f : vec4(1);
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
     const PointKey key{{bits(position.x), bits(position.y), bits(position.z), bits(color.r),
                         bits(color.g), bits(color.b), bits(color.a)}};

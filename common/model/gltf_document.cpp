@@ -36,9 +36,7 @@ constexpr std::size_t max_bytes = std::numeric_limits<int>::max();  // tinygltf 
 
 /// All bytes of a file, charged before they are read.
 Bytes read_charged(const fs::path& file, LoadBudget& budget) {
-    std::error_code missing;  // read_whole_file() says what is wrong
-    const std::uintmax_t size = fs::file_size(file, missing);
-    if (!missing) budget.charge(Resource::bytes, size, file);
+    budget.charge_file(file);
     return read_whole_file(file, max_bytes);
 }
 

@@ -305,8 +305,10 @@ Material MaterialMaker::make(std::size_t index) {
                 find_extension(from.extensions, "KHR_materials_emissive_strength"))
             strength = finite(number_in(*emissive, "emissiveStrength", 1), "emissiveStrength");
         for (int i = 0; i < 3; ++i)
-            material.emission[i] = finite(
-                strength * from.emissiveFactor[static_cast<std::size_t>(i)], "emissiveFactor");
+            material.emission[i] =
+                std::clamp(finite(strength * from.emissiveFactor[static_cast<std::size_t>(i)],
+                                  "emissiveFactor"),
+                           -max_color, max_color);
         if (from.emissiveTexture.index >= 0 && material.emission != vec3(0)) {
             const TextureMap map = map_of(from.emissiveTexture.index,
                                           from.emissiveTexture.extensions, "emissiveTexture");

@@ -66,10 +66,10 @@ struct Bounds {
 /// One group of a model file, with arrays of its own.
 struct Mesh {
     std::string name;
-    std::vector<vec3> positions;   ///< Model space.
-    std::vector<vec2> uvs;         ///< v points up, as in OBJ.
-    std::vector<vec3> normals;     ///< Model space, as in the file: perhaps not of unit length.
-    std::vector<vec4> colors{};    ///< Of the positions, linear, with opacity; empty: all white.
+    std::vector<vec3> positions;  ///< Model space.
+    std::vector<vec2> uvs;        ///< v points up, as in OBJ.
+    std::vector<vec3> normals;    ///< Model space, as in the file: perhaps not of unit length.
+    std::vector<vec4> colors{};   ///< Of the positions, linear, with opacity, 0 to 1; empty: white.
     std::vector<vec4> tangents{};  ///< Of the normals, with handedness; empty until lesson 08.
     std::vector<Vertex> vertices;
     std::vector<Face> faces;
@@ -118,7 +118,12 @@ struct ToonMaterial {
     vec3 outline_color{0.0f};    ///< Linear.
 };
 
-/// What MTL says of a surface, and what glTF says beyond it. Colours are linear, as written.
+/// Loaders bring the colours of materials into -max_color to max_color: a sum of them is finite,
+/// and so is a product with the light of a lesson.
+constexpr float max_color = 1e37f;
+
+/// What MTL says of a surface, and what glTF says beyond it. Colours are linear, as written but for
+/// max_color.
 struct Material {
     std::string name;
     vec3 ambient{1.0f};       ///< Ka
@@ -172,6 +177,7 @@ struct Scene {
     std::vector<SceneLight> lights{};    ///< The same.
     bool is_gltf = false;                ///< The file is of a kind that may have both.
     LoadBudget budget{};                 ///< What is left for its images.
+    std::filesystem::path file{};        ///< That it was read from.
 
     Bounds bounds() const {
         Bounds all;

@@ -12,7 +12,9 @@ namespace rasterbook {
 Scene load_model(const std::filesystem::path& file, const LoadBudget& budget) {
     const std::string ending = ending_of(file);
     const bool is_gltf = ending == ".gltf" || ending == ".glb" || ending == ".vrm";
-    return is_gltf ? load_gltf(file, budget) : load_obj(file, budget);
+    Scene scene = is_gltf ? load_gltf(file, budget) : load_obj(file, budget);
+    scene.file = file;
+    return scene;
 }
 
 }  // namespace rasterbook

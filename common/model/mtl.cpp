@@ -16,6 +16,7 @@ void read_color(const StatementReader& in, const Statement& statement, vec3& col
     if (first == "spectral" || first == "xyz") return;
     const bool is_gray = next_word(words).empty();
     color = is_gray ? vec3(read_vector<1>(in, statement).x) : read_vector<3>(in, statement);
+    color = glm::clamp(color, -max_color, max_color);
 }
 
 TextureMap* find_map(Material& material, std::string_view keyword) {

@@ -199,7 +199,9 @@ void ObjReader::read_libraries(std::string_view names) {
 bool ObjReader::read_library(std::string_view name) {
     const fs::path file = path_beside(in_.file(), bare_name(name));
     std::error_code ignored;
-    if (bare_name(name).empty() || !fs::exists(file, ignored)) return false;
+    if (bare_name(name).empty()) return false;
+    budget_.check_place(file);  // not even whether it exists is told
+    if (!fs::exists(file, ignored)) return false;
     if (libraries_.insert(file.lexically_normal()).second) materials_.read(file);
     return true;
 }

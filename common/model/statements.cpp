@@ -16,10 +16,8 @@ namespace rasterbook {
 namespace fs = std::filesystem;
 
 StatementReader::StatementReader(const fs::path& file, LoadBudget& budget) : file_(file) {
+    budget.charge_file(file);
     check_regular_file(file);
-    std::error_code ignored;  // what cannot be opened says so below
-    const std::uintmax_t bytes = fs::file_size(file, ignored);
-    if (!ignored) budget.charge(Resource::bytes, bytes, file);
     in_.open(file, std::ios::binary);
     if (!in_) throw InputError(file, "cannot be opened");
 

@@ -17,11 +17,7 @@ Image<u8vec4> chessboard() {
 }  // namespace
 
 Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget& budget) {
-    if (!map.embedded) {
-        std::error_code missing;  // read_image() says what is wrong
-        const std::uintmax_t bytes = std::filesystem::file_size(map.file, missing);
-        if (!missing) budget.charge(Resource::bytes, bytes, map.file);
-    }
+    if (!map.embedded) budget.charge_file(map.file);
     const std::uint64_t most = budget.left(Resource::pixels);
     Image<u8vec4> image =
         map.embedded ? decode_image(*map.embedded, map.file, most) : read_image(map.file, most);

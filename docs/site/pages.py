@@ -50,6 +50,7 @@ OTHERS = [
     Page("working_on_your_own", "Working on your own", ROOT / "docs/working_on_your_own.md"),
     Page("where_next", "Where to go from here", ROOT / "docs/where_next.md"),
     Page("animation", "Animation", ROOT / "docs/animation.md"),
+    Page("reliability", "Reliability", ROOT / "docs/reliability.md"),
     Page("assets", "Assets", ROOT / "assets/README.md"),
 ]
 PAGE_OF = {page.text: page for page in [*sum(COURSE, []), *OTHERS] if page.text}

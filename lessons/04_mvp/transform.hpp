@@ -110,7 +110,8 @@ glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3,
 ///                       and far are close, within (2 + 1 / (2 (1 - near/far))) eps.
 template <std::floating_point T>
 glm::mat<4, 4, T> perspective(T fov_y_radians, T aspect, T near, T far) {
-    const T f = 1 / std::tan(fov_y_radians / 2);
+    // In double, as the last bit of a tangent in float is not the same on all processors.
+    const T f = 1 / static_cast<T>(std::tan(double{fov_y_radians} / 2));
     const T ratio = near / far;  // 0 when far is infinite
     const T a = -(1 + ratio) / (1 - ratio), b = -2 * near / (1 - ratio);
     return matrix_from_rows<T>({f / aspect, 0, 0, 0}, {0, f, 0, 0}, {0, 0, a, b}, {0, 0, -1, 0});

@@ -79,15 +79,15 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Po
         });
     };
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    const BinnedTriangles triangles(pool, meshes_in_view(scene, clip_from_world, total),
+    const BinnedTriangles triangles(pool, scene, meshes_in_view(scene, clip_from_world, total),
                                     clip_from_world, tiling, options.shading.culling(),
                                     counters_of);
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
         clear_tile(color, depth, tile);
-        for (const TriangleBatch& batch : triangles.batches)
-            for (const std::size_t index : batch.of(i))
-                draw(batch.triangles[index], tile, counters_of[worker]);
+        triangles.for_each_in(i, [&](const ProjectedTriangle& projected) {
+            draw(projected, tile, counters_of[worker]);
+        });
         if (options.threads.show) tint(color, tile, worker);
     });
     counters_of.add_to(total);

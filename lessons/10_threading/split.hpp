@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "02_triangle_fill/triangle.hpp"
 #include "common/math/types.hpp"
@@ -27,6 +29,30 @@ inline PixelBox box_around(const ScreenTriangle& triangle) {
     const auto [a, b, c] = triangle.vertices;
     const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
     return {(low + (subpixels / 2 - 1)) >> subpixel_bits, (high - subpixels / 2) >> subpixel_bits};
+}
+
+/// About as many pixels are looked at to draw a triangle: its own, and a few in each row and column
+/// of its box.
+inline double drawing_work(const ScreenTriangle& triangle) {
+    const auto [first, last] = box_around(triangle);
+    const double area =
+        std::abs(static_cast<double>(triangle.twice_area)) / (2.0 * subpixels * subpixels);
+    return area + 4.0 * (last.x - first.x + last.y - first.y + 2);
+}
+
+/// A box around what a triangle covers of some rows: all that it may cover there, and some more.
+inline PixelBox box_in_rows(const ScreenTriangle& triangle, int first_row, int last_row) {
+    const double top = double{subpixels} * first_row, bottom = double{subpixels} * (last_row + 1);
+    double left = std::numeric_limits<double>::max(), right = -left;
+    const auto reaches = [&](double x) { left = std::min(left, x), right = std::max(right, x); };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const dvec2 a = triangle.vertices[i], b = triangle.vertices[(i + 1) % 3];
+        if (a.y >= top && a.y <= bottom) reaches(a.x);
+        for (const double y : {top, bottom})
+            if ((a.y < y) != (b.y < y)) reaches(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    }
+    if (left > right) return {ivec2(0), ivec2(-1)};
+    return {{std::floor(left / subpixels), first_row}, {std::floor(right / subpixels), last_row}};
 }
 
 /// What two boxes have in common.
@@ -78,6 +104,17 @@ class Tiling {
         }
         const int height = size_.y / rows_;  // Eq. 10.3
         return {{{0, row * height}, {end.x, row + 1 < rows_ ? (row + 1) * height - 1 : end.y}}};
+    }
+
+    /// Calls take(tile) once for each tile that a triangle may reach into: of a large one in each
+    /// row of tiles those from the triangle's leftmost point there to its rightmost one.
+    template <typename Take>
+    void for_each_in(const ScreenTriangle& triangle, Take&& take) const {
+        const PixelBox box = common_box(box_around(triangle), {ivec2(0), size_ - 1});
+        const ivec2 tiles = (box.last - box.first) / tile_size_;
+        if (split_ != Split::tiles || tiles.x * tiles.y < 16) return for_each_in(box, take);
+        for (int y = box.first.y / tile_size_ * tile_size_; y <= box.last.y; y += tile_size_)
+            for_each_in(common_box(box, box_in_rows(triangle, y, y + tile_size_ - 1)), take);
     }
 
     /// Calls take(tile) once for each tile that has a pixel in the box.

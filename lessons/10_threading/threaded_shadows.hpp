@@ -58,19 +58,17 @@ void draw_map(Pool& pool, ShadowMap& map, const Scene& scene, const Tiling& tili
     const auto casts = [&](std::size_t material) {
         return casts_shadows(scene.materials[material]);
     };
-    const BinnedTriangles casters(pool, meshes, map.clip_from_world, tiling, Culling::none, casts,
-                                  uncounted);
+    const BinnedTriangles casters(pool, scene, meshes, map.clip_from_world, tiling, Culling::none,
+                                  casts, uncounted);
     pool.run(tiling.count(), [&](std::size_t tile, std::size_t worker) {
         CounterPolicy& own_counters = counters[worker];
         clear_tile(map, tiling[tile]);
-        for (const TriangleBatch& batch : casters.batches)
-            for (const std::size_t i : batch.of(tile)) {
-                const ProjectedTriangle& caster = batch.triangles[i];
-                fill_tile(caster.on_screen, tiling[tile], [&](ivec2 texel, Barycentrics at) {
-                    own_counters.add(Counter::shadow_fragments);
-                    map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(at));
-                });
-            }
+        casters.for_each_in(tile, [&](const ProjectedTriangle& caster) {
+            fill_tile(caster.on_screen, tiling[tile], [&](ivec2 texel, Barycentrics at) {
+                own_counters.add(Counter::shadow_fragments);
+                map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(at));
+            });
+        });
     });
 }
 

@@ -54,11 +54,12 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     const std::vector<Mesh> outlines = outlines_of(assets, camera);
     const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world, total);
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    std::vector<BinnedTriangles> passes;
+    std::vector<BinnedTriangles> opaque, blended;
     for (const Pass& pass : passes_of(plan, meshes))
-        passes.emplace_back(
-            pool, pass.meshes, clip_from_world, tiling, pass.culling,
-            [&](std::size_t material) { return pass.takes(plan, material); }, counters_of);
+        (pass.is_blended ? blended : opaque)
+            .emplace_back(
+                pool, scene, pass.meshes, clip_from_world, tiling, pass.culling,
+                [&](std::size_t material) { return pass.takes(plan, material); }, counters_of);
 
     clock.begin("picture");
     const Shaders<CounterPolicy> shaders(plan);
@@ -74,14 +75,17 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         clear_tile(color, depth, tile);
         if (is_on_paper) draw_paper(color, tile);
         TransparentFragments transparent;
-        for (const BinnedTriangles& pass : passes)
-            for (const TriangleBatch& batch : pass.batches)
-                for (const std::size_t index : batch.of(i)) {
-                    const ProjectedTriangle& projected = batch.triangles[index];
-                    shaders[projected.triangle.material](frame, projected, tile, transparent,
-                                                         counters_of[worker]);
-                }
-        transparent.blend_over(color);
+        const auto draw = [&](const BinnedTriangles& pass, const Tile& part) {
+            pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
+                shaders[projected.triangle.material](frame, projected, part, transparent,
+                                                     counters_of[worker]);
+            });
+        };
+        for (const BinnedTriangles& pass : opaque) draw(pass, tile);
+        for_each_part(tile, count_in(blended, i), [&](const Tile& part) {
+            for (const BinnedTriangles& pass : blended) draw(pass, part);
+            transparent.blend_over(color);
+        });
         if (options.threads.show) tint(color, tile, worker);
     });
     counters_of.add_to(total);

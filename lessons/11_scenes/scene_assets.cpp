@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,24 @@ void add_neutral_inputs(Scene& scene) {
                 material.toon = ToonMaterial{.shade = material.diffuse};
         }
         if (mesh.colors.empty()) mesh.colors.assign(mesh.positions.size(), vec4(1));
+    }
+}
+
+/// Lights for whose maps there is no room cast no shadows, and a warning names them.
+void leave_out_shadows(SceneLights& lit_by, const ShadowBounds& bounds, int shadow_size,
+                       Scene& scene) {
+    std::size_t count = 0;
+    for (std::size_t l = 0; l < lit_by.lights.size(); ++l) {
+        if (!lit_by.casts[l]) continue;
+        const std::size_t maps =
+            make_shadow_maps(lit_by.lights[l], shadow_size, bounds, scene.bounds()).maps.size();
+        lit_by.casts[l] = count + maps <= max_shadow_maps;
+        if (lit_by.casts[l])
+            count += maps;
+        else
+            scene.warnings.push_back("light \"" + lit_by.names[l] +
+                                     "\" casts no shadows: no more than " +
+                                     std::to_string(max_shadow_maps) + " shadow maps are drawn");
     }
 }
 
@@ -86,7 +105,8 @@ ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
 }
 
 SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
-                              const LightOptions& shading, const NormalMapVariant& normal_map) {
+                              const LightOptions& shading, const NormalMapVariant& normal_map,
+                              int shadow_size) {
     const bool all_effects = shading.all_effects;
     Scene scene = with_outline_materials(std::move(from));
     const bool is_on_paper = is_all_toon(scene);
@@ -100,6 +120,7 @@ SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
     }
     const ShadowBounds bounds = shadow_bounds(scene);
     SceneLights lit_by = lights_of(scene, shading.key_light, scene.warnings);
+    leave_out_shadows(lit_by, bounds, shadow_size, scene);
     const PlanInputs inputs{.has_lights = !lit_by.lights.empty(),
                             .has_shadows = bounds.casters.min.x <= bounds.casters.max.x &&
                                            bounds.receivers.min.x <= bounds.receivers.max.x,

@@ -38,14 +38,18 @@ struct SceneAssets {
 };
 
 /// Makes of a scene, as its file has it, all that is drawn.
+///
+/// @param shadow_size  Texels along a shadow map's side.
 SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
-                              const LightOptions& shading, const NormalMapVariant& normal_map);
+                              const LightOptions& shading, const NormalMapVariant& normal_map,
+                              int shadow_size);
 
-/// @param options  Has TextureOptions `texture`, NormalMapVariant `normal_map` and LightOptions
-///                 `shading`.
+/// @param options  Has TextureOptions `texture`, NormalMapVariant `normal_map`, LightOptions
+///                 `shading` and ShadowVariant `shadow`.
 template <typename Options>
 SceneAssets make_scene_assets(Scene from, const Options& options) {
-    return make_scene_assets(std::move(from), options.texture, options.shading, options.normal_map);
+    return make_scene_assets(std::move(from), options.texture, options.shading, options.normal_map,
+                             options.shadow.size);
 }
 
 /// Draws paper behind a part of a picture.
@@ -107,6 +111,13 @@ inline std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* 
             if (!pass.meshes.empty()) passes.push_back(std::move(pass));
         }
     return passes;
+}
+
+/// How many triangles of several passes may reach into a tile.
+inline std::size_t count_in(std::span<const BinnedTriangles> passes, std::size_t tile) {
+    std::size_t count = 0;
+    for (const BinnedTriangles& pass : passes) count += pass.count_in(tile);
+    return count;
 }
 
 }  // namespace rasterbook

@@ -44,7 +44,7 @@ inline float fitting_distance(const Orbit& orbit, const Bounds& bounds, ivec2 si
     const dvec3 back = direction_from_angles(yaw_radians, pitch_radians);
     const dvec3 up = direction_from_angles(yaw_radians, pitch_radians + glm::radians(90.0f));
     const dvec3 right = glm::cross(up, back);
-    const double tangent_y = fitted_share * std::tan(glm::radians(orbit.fov_degrees) / 2);
+    const double tangent_y = fitted_share * std::tan(double{glm::radians(orbit.fov_degrees)} / 2);
     const double tangent_x = tangent_y * size.x / size.y;
     double distance = 0;
     for (int i = 0; i < 8; ++i) {

@@ -132,7 +132,8 @@ inline std::vector<OutlineHull> outline_hulls(const Scene& scene) {
 /// in the world, or by the length that looks so wide where the point is (Eq. 11.6).
 inline Mesh pushed(const OutlineHull& hull, const Camera& camera) {
     Mesh mesh = hull.mesh;
-    const float height_per_distance = 2 * std::tan(camera.fov_y_radians / 2);
+    const float height_per_distance =
+        2 * static_cast<float>(std::tan(double{camera.fov_y_radians} / 2));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         float width = hull.widths[i];
         if (hull.on_screen[i]) {

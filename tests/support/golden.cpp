@@ -92,15 +92,12 @@ testing::AssertionResult equals_golden(const std::string& lesson, const std::str
     const ProcessResult run = run_program(lesson, all);
     if (run.exit_status != 0)
         return testing::AssertionFailure() << lesson << " failed: " << run.err;
+    if (const char* const folder = std::getenv("RASTERBOOK_KEEP_PICTURES"))
+        std::filesystem::copy(actual_file_of(golden), folder);
     return is_golden(golden, may_jump, [&](const auto& actual, const auto& expected) {
         return "\nThe picture: " +
                diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()));
     });
-}
-
-testing::AssertionResult equals_golden(const Image<vec3>& picture, const std::string& golden) {
-    write_image(actual_file_of(golden), srgb8_from_linear(picture));
-    return is_golden(golden, 0, [](const auto&, const auto&) { return std::string(); });
 }
 
 }  // namespace rasterbook::test

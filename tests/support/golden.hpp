@@ -20,7 +20,8 @@ constexpr const char* golden_size = "960x540";
 ///
 /// On a mismatch, expected | actual | difference side by side are written into the build folder and
 /// the failure names that file. With RASTERBOOK_UPDATE_GOLDEN set in the environment, a golden
-/// picture that differs is replaced instead.
+/// picture that differs is replaced instead; RASTERBOOK_KEEP_PICTURES names a folder into which the
+/// lesson's picture is copied, too.
 ///
 /// @param lesson     The program's name, NN_name.
 /// @param golden     The picture's name without ".png".
@@ -29,8 +30,5 @@ constexpr const char* golden_size = "960x540";
 testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
                                        const std::vector<std::string>& arguments = {},
                                        std::size_t may_jump = 0);
-
-/// The same for a picture that the test has drawn itself, in linear colour.
-testing::AssertionResult equals_golden(const Image<vec3>& picture, const std::string& golden);
 
 }  // namespace rasterbook::test

@@ -154,7 +154,8 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
 /// angles there (Eq. 8.6). Vertices with the same position, normal, uv and handedness share one.
 ///
 /// Sums of whole numbers have no order: neither that of the triangles nor that of the vertices
-/// changes a bit. Up to 2^20 triangles may share a vertex.
+/// changes a bit. Where more than 2^21 triangles share a vertex, the last bits of each share do not
+/// count, so that the sum stays in range.
 ///
 /// @param mesh    As complete_normals() leaves it: each vertex has a normal of its own.
 /// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
@@ -172,10 +173,14 @@ std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
 
     std::vector<vec4> tangents(mesh.normals.size(), vec4(0));
     for (auto begin = shares.begin(); begin != shares.end();) {
+        const auto end =
+            std::ranges::upper_bound(begin, shares.end(), begin->key, {}, &TangentShare::key);
+        const int left_out_bits =
+            static_cast<int>(std::bit_width(static_cast<std::size_t>(end - begin) >> 21));
         std::array<std::int64_t, 3> sum{};
-        auto end = begin;
-        for (; end != shares.end() && end->key == begin->key; ++end)
-            sum = end->share;  // TODO: their sum
+        for (auto i = begin; i != end; ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                sum[axis] = i->share[axis] >> left_out_bits;  // TODO: their sum
         const vec3 tangent =
             unit_orthogonal(vec3(sum[0], sum[1], sum[2]), mesh.normals[begin->normal]);
         for (; begin != end; ++begin)

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -20,25 +21,50 @@
 
 namespace rasterbook {
 
+/// A triangle that would be in more lists than this is in none: it is large, and all tiles look at
+/// it.
+constexpr std::size_t max_lists = 1024;
+
 /// Triangles that follow each other in the scene, and for each tile those that may reach into it.
 class TriangleBatch {
   public:
     std::vector<ProjectedTriangle> triangles;  ///< In the scene's order; each has an area.
 
-    /// Lists the triangles by tiles: those whose box has a pixel there.
+    /// Lists the triangles by tiles.
     void bin(const Tiling& tiling) {
         begin_.assign(tiling.count() + 1, 0);
-        // TODO: count, add up, and write from the last triangle to the first.
+        large_.clear();
+        const auto for_each_tile = [&](const ProjectedTriangle& ready, auto&& take) {
+            tiling.for_each_in(ready.on_screen, take);
+        };
+        // TODO: count, add up, and write from the last triangle to the first. What would be in more
+        // than max_lists lists goes into large_ instead.
     }
 
-    /// Indices into `triangles` of those that may reach into a tile, ascending.
+    /// Indices into `triangles` of those in a tile's list, ascending.
     std::span<const std::uint32_t> of(std::size_t tile) const {
         return {indices_.data() + begin_[tile], indices_.data() + begin_[tile + 1]};
+    }
+
+    /// How many triangles may reach into a tile.
+    std::size_t count_in(std::size_t tile) const { return of(tile).size() + large_.size(); }
+
+    /// Calls take(projected) for each triangle that may reach into a tile, in the scene's order.
+    template <typename Take>
+    void for_each_in(std::size_t tile, Take&& take) const {
+        auto next_large = large_.begin();
+        for (const std::size_t i : of(tile)) {
+            for (; next_large != large_.end() && *next_large < i; ++next_large)
+                take(triangles[*next_large]);
+            take(triangles[i]);
+        }
+        for (; next_large != large_.end(); ++next_large) take(triangles[*next_large]);
     }
 
   private:
     std::vector<std::size_t> begin_;  ///< Of each tile's list in indices_, and the last one's end.
     std::vector<std::uint32_t> indices_;
+    std::vector<std::uint32_t> large_;  ///< Indices of the large triangles, ascending.
 };
 
 /// A batch takes at least so many triangles or positions: less is not worth a task.
@@ -75,8 +101,7 @@ std::vector<const Mesh*> meshes_in_view(const Scene& scene, const mat4& clip_fro
 }
 
 /// The triangles of several meshes, on the screen, in batches: in the first one are the scene's
-/// first triangles, and so on. A tile that is drawn batch by batch, and in each by its list, is
-/// drawn in the scene's order (Eq. 10.7).
+/// first triangles, and so on.
 class BinnedTriangles {
   public:
     std::vector<TriangleBatch> batches;
@@ -89,21 +114,23 @@ class BinnedTriangles {
     /// @param pool       Has size() and run() as ThreadPool does.
     /// @param culling    Whether pieces seen from behind are left out.
     /// @param counters   One for each worker of the pool.
+    /// @throws InputError  When drawing them would take more than the scene's budget has.
     template <typename Pool, typename CounterPolicy>
-    BinnedTriangles(Pool& pool, std::span<const Mesh* const> meshes, const mat4& clip_from_world,
-                    const Tiling& tiling, Culling culling, WorkerCounters<CounterPolicy>& counters)
+    BinnedTriangles(Pool& pool, const Scene& scene, std::span<const Mesh* const> meshes,
+                    const mat4& clip_from_world, const Tiling& tiling, Culling culling,
+                    WorkerCounters<CounterPolicy>& counters)
         : BinnedTriangles(
-              pool, meshes, clip_from_world, tiling, culling, [](std::size_t) { return true; },
-              counters) {}
+              pool, scene, meshes, clip_from_world, tiling, culling,
+              [](std::size_t) { return true; }, counters) {}
 
     /// The same of some materials.
     ///
     /// @param takes      Called as takes(material), an index into Scene::materials: whether
     ///                   triangles of it are taken.
     template <typename Pool, typename Takes, typename CounterPolicy>
-    BinnedTriangles(Pool& pool, std::span<const Mesh* const> meshes, const mat4& clip_from_world,
-                    const Tiling& tiling, Culling culling, const Takes& takes,
-                    WorkerCounters<CounterPolicy>& counters) {
+    BinnedTriangles(Pool& pool, const Scene& scene, std::span<const Mesh* const> meshes,
+                    const mat4& clip_from_world, const Tiling& tiling, Culling culling,
+                    const Takes& takes, WorkerCounters<CounterPolicy>& counters) {
         std::vector<std::size_t> first_position = {0}, first_triangle = {0};
         for (const Mesh* mesh : meshes) {
             first_position.push_back(first_position.back() + mesh->positions.size());
@@ -119,6 +146,7 @@ class BinnedTriangles {
                          });
         });
         batches.resize(batches_of(first_triangle.back()));
+        std::vector<double> work(batches.size(), 0.0);
         pool.run(batches.size(), [&](std::size_t batch, std::size_t worker) {
             std::vector<ProjectedTriangle>& triangles = batches[batch].triangles;
             triangles.reserve(begin_of_batch(batch + 1, first_triangle.back()) -
@@ -134,8 +162,27 @@ class BinnedTriangles {
                                      triangles, counters[worker]);
                              }
                          });
-            batches[batch].bin(tiling);
+            for (const ProjectedTriangle& projected : triangles)
+                work[batch] += drawing_work(projected.on_screen);
         });
+        scene.budget.check_overdraw(std::reduce(work.begin(), work.end()), tiling.size(),
+                                    scene.file);
+        pool.run(batches.size(),
+                 [&](std::size_t batch, std::size_t) { batches[batch].bin(tiling); });
+    }
+
+    /// Calls take(projected) for each triangle that may reach into a tile, in the scene's order: it
+    /// is that of the batches, and in each of them that of its list (Eq. 10.7).
+    template <typename Take>
+    void for_each_in(std::size_t tile, Take&& take) const {
+        for (const TriangleBatch& batch : batches) batch.for_each_in(tile, take);
+    }
+
+    /// How many triangles may reach into a tile.
+    std::size_t count_in(std::size_t tile) const {
+        std::size_t count = 0;
+        for (const TriangleBatch& batch : batches) count += batch.count_in(tile);
+        return count;
     }
 
   private:

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "10_threading/split.hpp"
 #include "common/image/image.hpp"
 #include "common/math/types.hpp"
 
@@ -63,5 +64,25 @@ class TransparentFragments {
     std::vector<TransparentFragment> fragments_;
     std::vector<std::uint32_t> order_;
 };
+
+/// As many transparent fragments of a tile are gathered at once; they take 128 MiB.
+constexpr std::size_t max_transparent = std::size_t{1} << 22;
+
+/// Visits a tile in parts, each of which has no more than max_transparent fragments, or one pixel.
+/// That is nearly always the whole tile.
+///
+/// @param triangles  How many transparent ones may reach into the tile.
+/// @param visit      Called as visit(part).
+template <typename Visit>
+void for_each_part(const Tile& tile, std::size_t triangles, Visit&& visit) {
+    const auto [first, last] = tile.box;
+    const auto pixels =
+        static_cast<int>(max_transparent / std::clamp(triangles, std::size_t{1}, max_transparent));
+    const int width = std::min(last.x - first.x + 1, pixels);
+    const int height = tile.row_step * std::min(last.y - first.y + 1, pixels / std::max(width, 1));
+    for (int y = first.y; y <= last.y; y += height)
+        for (int x = first.x; x <= last.x; x += width)
+            visit(Tile{{{x, y}, glm::min(ivec2(x + width, y + height) - 1, last)}, tile.row_step});
+}
 
 }  // namespace rasterbook
