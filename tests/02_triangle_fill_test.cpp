@@ -656,7 +656,7 @@ TEST(TriangleFill, HardCase_TriangleOfNoAreaFacesUp) {
 }
 
 TEST(TriangleFill, HardCase_EmptyPictureVisitsNothing) {
-    look_up("Eq. 2.5 and All steps in their order, step 2");
+    look_up("Eq. 2.5 and All the steps in order, step 2");
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {0, 0}).empty());
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {5, 0}).empty());
     EXPECT_TRUE(covered({-9, -9}, {-9, 9}, {9, -9}, {0, 5}).empty());

@@ -96,7 +96,7 @@ template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
     // TODO, step 1: emit the pixels of the bounding box at which no edge's value is negative.
     // TODO, step 2: with their barycentric coordinates (Eq. 2.4).
-    // TODO, step 3: "All steps in their order" in the derivation.
+    // TODO, step 3: "All the steps in order" in the derivation.
 }
 
 /// The same of a whole image.
