@@ -22,9 +22,6 @@ namespace {
 
 using Vertices = std::array<vec4, 3>;
 
-constexpr float decades = 8;
-constexpr int cases = 100'000;
-
 /// The oracle for Eq. 4.10: left and right are w + x and w - x, and so on.
 Sum distance_inside(int plane, lvec4 point) {
     constexpr int axes[] = {0, 0, 1, 1, 2, 2};
@@ -66,7 +63,7 @@ constexpr real below_range = 0x1p-149L * 1e8L * 16;
 constexpr real of_cut = 1.5L * eps + 2 * of_sums;
 
 /// For EXPECT_TRUE: the vertices lie where their barycentrics say, and inside.
-testing::AssertionResult is_part_of(const ClippedTriangle& part, const Vertices& vertices) {
+testing::AssertionResult is_exact_part_of(const ClippedTriangle& part, const Vertices& vertices) {
     for (const ClippedVertex& vertex : part) {
         real sum = 0;
         for (int i = 0; i < 3; ++i) {
@@ -178,7 +175,7 @@ TEST(Mvp, Eq4_13_WhatIsLeftOfTrianglesOfAllSizes) {
             }
             const ClippedTriangles parts = clip_triangle(vertices);
             for (const ClippedTriangle& part : parts)
-                ASSERT_TRUE(is_part_of(part, vertices))
+                ASSERT_TRUE(is_exact_part_of(part, vertices))
                     << "of the triangle " << testing::PrintToString(vertices) << "; seed " << seed
                     << ", case " << i;
             cut += parts.end() - parts.begin() > 1;

@@ -20,9 +20,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr float decades = 8;
-constexpr int cases = 100'000;
-
 /// What the row of a matrix makes of a point.
 Sum row_times_point(const mat4& m, int row, vec3 point) {
     Sum sum;

@@ -33,8 +33,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr float eps = FLT_EPSILON;
-
 /// How the lesson is asked to draw: as its first step can, without camera and clipping; or wholly.
 enum class By { orthographic, camera };
 
@@ -202,7 +200,7 @@ TEST(Mvp, Eq4_4_AnInstanceIsScaledThenRotatedThenMoved) {
     ASSERT_EQ(positions.size(), 2u);
     const vec3 expected(-3.4f, 3.15f, -3.0f);
     for (int axis = 0; axis < 3; ++axis)  // of numbers below 4, a handful of roundings
-        EXPECT_NEAR(positions[0][axis], expected[axis], 8 * eps)
+        EXPECT_NEAR(positions[0][axis], expected[axis], 8 * FLT_EPSILON)
             << "xyz"[axis] << " of (1, 1, 1): scaled (0.4, 0.75, 0.3), rotated (0.3, 0.75, -0.4), "
             << "moved (-3.4, 3.15, -3)";
     EXPECT_EQ(positions[1], vec3(-3.7f, 2.4f, -2.6f)) << "the model's origin is moved alone";

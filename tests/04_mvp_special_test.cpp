@@ -16,18 +16,17 @@
 #include "04_mvp/transform.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
-using rasterbook::test::look_up;
+using namespace rasterbook::test;
 
 namespace {
 
 using Vertices = std::array<vec4, 3>;
 
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float tiny = std::numeric_limits<float>::denorm_min();
-constexpr int cases = 1'000'000;
+constexpr int many_cases = 1'000'000;
 
 /// Ordinary numbers from -2 to 2, and so often in place of one a special one.
 class Mix {
@@ -156,15 +155,15 @@ TEST(Mvp, HardCase_SpecialNumbersInVerticesReachNoPixel) {
     look_up("Eq. 4.13: what counts as outside, and what rounding leaves there");
     Mix mix(1);
     Drawing drawing;
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < many_cases; ++i) {
         mix.set_rarity(static_cast<unsigned>(i % 8 + 1));
         Vertices vertices;
         for (vec4& vertex : vertices) vertex = mix.homogeneous();
         ASSERT_TRUE(drawing.draw(vertices)) << "seed 1, case " << i;
     }
     EXPECT_TRUE(drawing.keeps_depths());
-    EXPECT_GT(drawing.parts, cases / 10);
-    EXPECT_GT(drawing.pixels, cases / 10);
+    EXPECT_GT(drawing.parts, many_cases / 10);
+    EXPECT_GT(drawing.pixels, many_cases / 10);
 }
 
 TEST(Mvp, HardCase_SpecialNumbersBeforeTheCameraReachNoPixel) {
@@ -172,7 +171,7 @@ TEST(Mvp, HardCase_SpecialNumbersBeforeTheCameraReachNoPixel) {
     Mix mix(2);
     Drawing drawing;
     int culled = 0;
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < many_cases; ++i) {
         mix.set_rarity(static_cast<unsigned>(i % 8 + 1));
         const vec3 eye = mix.vector(), center = mix.vector();
         const mat4 view_from_world = look_at(eye, center, mix.vector());
@@ -193,9 +192,9 @@ TEST(Mvp, HardCase_SpecialNumbersBeforeTheCameraReachNoPixel) {
         culled += is_outside_frustum({mix.vector(), mix.vector()}, clip_from_world);
     }
     EXPECT_TRUE(drawing.keeps_depths());
-    EXPECT_GT(drawing.parts, cases / 100);
-    EXPECT_GT(drawing.pixels, cases / 100);
-    EXPECT_GT(culled, cases / 100);
+    EXPECT_GT(drawing.parts, many_cases / 100);
+    EXPECT_GT(drawing.pixels, many_cases / 100);
+    EXPECT_GT(culled, many_cases / 100);
 }
 
 TEST(Mvp, HardCase_NotANumberInAVertexLeavesNothing) {
@@ -218,7 +217,7 @@ TEST(Mvp, HardCase_NotANumberInAVertexLeavesNothing) {
 TEST(Mvp, HardCase_NormalMatrixOfSpecialNumbersIsFinite) {
     look_up("Eq. 4.15: there is no division in it");
     Mix mix(3);
-    for (int i = 0; i < cases / 10; ++i) {
+    for (int i = 0; i < many_cases / 10; ++i) {
         mix.set_rarity(static_cast<unsigned>(i % 8 + 1));
         mat3 m;
         for (int column = 0; column < 3; ++column)

@@ -22,20 +22,17 @@
 #include "support/any_size.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
-using rasterbook::test::AnySize, rasterbook::test::look_up;
+using namespace rasterbook::test;
 
 namespace {
 
 using lmat3 = glm::mat<3, 3, long double>;
 using lvec3 = glm::vec<3, long double>;
 
-constexpr float eps = FLT_EPSILON;
 constexpr float quarter_turn = std::numbers::pi_v<float> / 2;
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr int cases = 100'000;
 
 /// For EXPECT_TRUE: every element is as near to the exact one as `tolerance` says of it.
 template <int n, typename T>
@@ -86,7 +83,7 @@ testing::AssertionResult sees_in_the_middle(const mat4& view, vec3 eye, vec3 cen
     const double distance = glm::length(dvec3(eye) - dvec3(center));
     // The rotation is within 4 eps, and so is the product with the eye in the last column.
     const double tolerance =
-        8 * double{eps} * (glm::length(dvec3(eye)) + glm::length(dvec3(center)));
+        8 * double{FLT_EPSILON} * (glm::length(dvec3(eye)) + glm::length(dvec3(center)));
     if (glm::length(seen - dvec3(0, 0, -distance)) <= 2 * tolerance)
         return testing::AssertionSuccess();
     return testing::AssertionFailure() << "the center is seen at " << testing::PrintToString(seen)
@@ -109,13 +106,14 @@ std::string of_view(vec3 eye, vec3 center, vec3 up) {
 
 vec3 moved(const mat4& m, vec3 point) { return vec3(m * vec4(point, 1)); }
 
-constexpr float turn_tolerance = eps;  // the cosine of pi/2 in float is -4e-8
+constexpr float turn_tolerance = FLT_EPSILON;  // the cosine of pi/2 in float is -4e-8
 
 /// For EXPECT_TRUE: sines and cosines in float are within 1 ulp, which is at most eps of each.
 testing::AssertionResult is_turn(const mat4& actual, float angle_radians, dvec3 axis) {
     const dmat4 exact = glm::rotate(dmat4(1), double{angle_radians}, axis);
-    return near<4>(actual, exact,
-                   [&](int row, int column) { return double{eps} * std::abs(exact[column][row]); });
+    return near<4>(actual, exact, [&](int row, int column) {
+        return double{FLT_EPSILON} * std::abs(exact[column][row]);
+    });
 }
 
 }  // namespace
@@ -216,14 +214,14 @@ TEST(Mvp, Eq4_5_RandomCamerasEqualGlm) {
         dvec3 up_used = up;
         // The difference of eye and center rounds by half an eps, and so do the two unit vectors.
         // Their product has the errors of both, and 1.5 ulp of its own.
-        const double of_product = 1.5 * double{eps};
-        if (std::abs(sine - 64 * eps) <= 2 * of_product) continue;  // either way
-        if (sine < 64 * eps) {
+        const double of_product = 1.5 * double{FLT_EPSILON};
+        if (std::abs(sine - 64 * FLT_EPSILON) <= 2 * of_product) continue;  // either way
+        if (sine < 64 * FLT_EPSILON) {
             const double least = std::min({size.x, size.y, size.z});
             up_used = dvec3(size.x == least, size.y == least, size.z == least);
             const double second =
                 size.x + size.y + size.z - least - std::max({size.x, size.y, size.z});
-            if (second - least <= 4 * double{eps} * second) continue;  // either of the two
+            if (second - least <= 4 * double{FLT_EPSILON} * second) continue;  // either of the two
             sine = glm::length(glm::cross(up_used, back));
             ++replaced;
         }
@@ -231,13 +229,13 @@ TEST(Mvp, Eq4_5_RandomCamerasEqualGlm) {
         // of the product's own rounding and by half an eps. New up has the errors of right and
         // back and another 1.5 ulp. What is of second order is below 3 %, since the sine is above
         // 64 eps. The last column is a dot product with the eye: three roundings more.
-        const double of_axes = 1.03 * (of_product / sine + 4.5 * double{eps});
-        ASSERT_TRUE(
-            near<4>(look_at(eye, center, up), glm::lookAtRH(dvec3(eye), dvec3(center), up_used),
-                    [&](int, int column) {
-                        return column == 3 ? (of_axes + 1.5 * double{eps}) * glm::length(dvec3(eye))
-                                           : of_axes;
-                    }))
+        const double of_axes = 1.03 * (of_product / sine + 4.5 * double{FLT_EPSILON});
+        ASSERT_TRUE(near<4>(
+            look_at(eye, center, up), glm::lookAtRH(dvec3(eye), dvec3(center), up_used),
+            [&](int, int column) {
+                return column == 3 ? (of_axes + 1.5 * double{FLT_EPSILON}) * glm::length(dvec3(eye))
+                                   : of_axes;
+            }))
             << of_view(eye, center, up) << ", seed 4, case " << i;
         ASSERT_TRUE(is_rigid(look_at(eye, center, up)))
             << of_view(eye, center, up) << ", seed 4, case " << i;
@@ -274,7 +272,7 @@ TEST(Mvp, Eq4_6_EqualsTwoTurnsOfTheZAxis) {
         // Two functions within 1 ulp and a product; the turns have some roundings of double.
         for (int axis = 0; axis < 3; ++axis)
             ASSERT_NEAR(direction[axis], turned[axis],
-                        2.5 * double{eps} * std::abs(turned[axis]) + 4 * DBL_EPSILON)
+                        2.5 * double{FLT_EPSILON} * std::abs(turned[axis]) + 4 * DBL_EPSILON)
                 << "xyz"[axis] << " for yaw " << yaw << " and pitch " << pitch
                 << " in radians; seed 5, case " << i;
     }
@@ -284,25 +282,27 @@ TEST(Mvp, Eq4_7_SimilarTrianglesOfTheWorkedExample) {
     const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
     const vec4 clip = clip_from_view * vec4(1, 1, -1, 1);
     // tan(pi/4) in float and a division
-    EXPECT_NEAR(clip.x, 0.5f, 4 * eps) << "x of (1, 1, -1) by 90 degrees, with the aspect 2";
-    EXPECT_NEAR(clip.y, 1, 4 * eps) << "y of (1, 1, -1) by 90 degrees, with the aspect 2";
+    EXPECT_NEAR(clip.x, 0.5f, 4 * FLT_EPSILON)
+        << "x of (1, 1, -1) by 90 degrees, with the aspect 2";
+    EXPECT_NEAR(clip.y, 1, 4 * FLT_EPSILON) << "y of (1, 1, -1) by 90 degrees, with the aspect 2";
     EXPECT_EQ(clip.w, 1) << "w of (1, 1, -1) is its distance, -z";
-    EXPECT_NEAR(perspective(glm::radians(60.0f), 1.0f, 1.0f, 3.0f)[1][1], std::sqrt(3.0f), 4 * eps)
+    EXPECT_NEAR(perspective(glm::radians(60.0f), 1.0f, 1.0f, 3.0f)[1][1], std::sqrt(3.0f),
+                4 * FLT_EPSILON)
         << "f for 60 degrees is 1 / tan(30 degrees)";
 }
 
 TEST(Mvp, Eq4_8_NearFarAndBetweenOfTheWorkedExample) {
     const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
-    EXPECT_NEAR(clip_from_view[2][2], -2, 4 * eps) << "A for near 1 and far 3";
-    EXPECT_NEAR(clip_from_view[3][2], -3, 4 * eps) << "B for near 1 and far 3";
-    EXPECT_NEAR((clip_from_view * vec4(1, 1, -1, 1)).z, -1, 4 * eps)
+    EXPECT_NEAR(clip_from_view[2][2], -2, 4 * FLT_EPSILON) << "A for near 1 and far 3";
+    EXPECT_NEAR(clip_from_view[3][2], -3, 4 * FLT_EPSILON) << "B for near 1 and far 3";
+    EXPECT_NEAR((clip_from_view * vec4(1, 1, -1, 1)).z, -1, 4 * FLT_EPSILON)
         << "z of (1, 1, -1), which is on the near plane";
     const auto z_ndc = [&](float distance) {
         const vec4 clip = clip_from_view * vec4(0, 0, -distance, 1);
         EXPECT_EQ(clip.w, distance) << "w of what is so far away";
         return clip.z / clip.w;
     };
-    constexpr float tolerance = 8 * eps;  // A and B are within 2 eps of 2 and 3
+    constexpr float tolerance = 8 * FLT_EPSILON;  // A and B are within 2 eps of 2 and 3
     EXPECT_NEAR(z_ndc(1), -1, tolerance) << "z/w on the near plane";
     EXPECT_NEAR(z_ndc(1.5f), 0, tolerance) << "z/w at a distance of 1.5";
     EXPECT_NEAR(z_ndc(3), 1, tolerance) << "z/w on the far plane";
@@ -321,10 +321,10 @@ TEST(Mvp, Eq4_8_RandomViewsEqualGlm) {
         // that, it is the share d. A divisor off by a share of d makes the quotient off by
         // d / (1 - d). To that come the rest of the roundings, half an eps each: A has the sum, of
         // which near/far makes a quarter more, the difference and the division.
-        const double d = 0.25 * double{eps} / (1 - double{near_} / far_);
-        const double of_depth = 1.75 * double{eps} + d / (1 - d);
+        const double d = 0.25 * double{FLT_EPSILON} / (1 - double{near_} / far_);
+        const double of_depth = 1.75 * double{FLT_EPSILON} + d / (1 - d);
         // 1 ulp of the tangent, a division, one more by the aspect.
-        const double of_sides = 2 * double{eps};
+        const double of_sides = 2 * double{FLT_EPSILON};
         const dmat4 exact =
             glm::perspectiveRH_NO(double{fov}, double{aspect}, double{near_}, double{far_});
         ASSERT_TRUE(near<4>(perspective(fov, aspect, near_, far_), exact,
@@ -353,7 +353,7 @@ TEST(Mvp, Eq4_8_TheCameraFirstViewsThenProjects) {
         << "what lies at z = 3 is 2 in front of the camera at z = 5: the view acts "
            "first (Eq. 4.4), perspective on what it makes";
     EXPECT_TRUE(is_point(vec3(clip), {4.0f / 3, 1, -10.0f / 8 * -2 - 18.0f / 8},
-                         8 * eps));  // five roundings
+                         8 * FLT_EPSILON));  // five roundings
 }
 
 TEST(Mvp, Eq4_7_TheOneParameterFormDiffersByAScale) {
@@ -391,7 +391,8 @@ TEST(Mvp, Eq4_9_ScreenIsTheViewportAfterTheDivision) {
     EXPECT_EQ(screen_from_clip({3, -3, 3, 3}, {4, 2}), vec3(4, 2, 1))
         << "(1, -1, 1) times a w of 3: the lower right corner, far";
     const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
-    EXPECT_NEAR(screen_from_clip(clip_from_view * vec4(0, 0, -1.5f, 1), {4, 2}).z, 0.5f, 8 * eps)
+    EXPECT_NEAR(screen_from_clip(clip_from_view * vec4(0, 0, -1.5f, 1), {4, 2}).z, 0.5f,
+                8 * FLT_EPSILON)
         << "the depth at a distance of 1.5, between 1 and 3";
     std::mt19937 random(8);
     std::uniform_real_distribution<float> any(-1, 1);
@@ -404,7 +405,7 @@ TEST(Mvp, Eq4_9_ScreenIsTheViewportAfterTheDivision) {
             // Half an eps of the quotient, of the sum and of the product with the size.
             const double span = axis == 2 ? 1 : size[axis];
             const double largest = 1 + std::abs(double{clip[axis]} / clip.w);
-            ASSERT_NEAR(screen[axis], exact[axis], span * largest * double{eps})
+            ASSERT_NEAR(screen[axis], exact[axis], span * largest * double{FLT_EPSILON})
                 << "xyz"[axis] << " of " << testing::PrintToString(clip)
                 << " in 1279 x 719 pixels; "
                 << "seed 8, case " << i;
@@ -578,7 +579,8 @@ TEST(Mvp, HardCase_PerspectiveAtItsLimits) {
                     ASSERT_GT(m[0][0], 0) << of_case;
                     ASSERT_GT(m[1][1], 0) << of_case;
                     // As in Eq4_8_RandomViewsEqualGlm, of two terms up to 2 / (1 - near/far).
-                    const float tolerance = 8 * eps / ((1 - near_ / far_) * (1 - near_ / far_));
+                    const float tolerance =
+                        8 * FLT_EPSILON / ((1 - near_ / far_) * (1 - near_ / far_));
                     const vec4 on_near = m * vec4(0, 0, -near_, 1);
                     ASSERT_NEAR(on_near.z / on_near.w, -1, tolerance) << of_case;
                     if (far_ == infinity) continue;
@@ -604,7 +606,7 @@ TEST(Mvp, HardCase_InfinitelyFarPlane) {
 TEST(Mvp, HardCase_WholeSceneLiesBetweenNearAndFar) {
     look_up("Eq. 4.6: the scene in a sphere around its centre");
     std::mt19937 random(14);
-    std::uniform_real_distribution<float> yaw(-720, 720), pitch(-90, 90), decades(0, 6),
+    std::uniform_real_distribution<float> yaw(-720, 720), pitch(-90, 90), power(0, 6),
         place(-50, 50), side(0, 2);
     for (int i = 0; i < 20'000; ++i) {
         const float scale = std::pow(10.0f, place(random) / 5);
@@ -614,7 +616,7 @@ TEST(Mvp, HardCase_WholeSceneLiesBetweenNearAndFar) {
         Orbit orbit;
         orbit.yaw_degrees = yaw(random);
         orbit.pitch_degrees = i % 3 ? pitch(random) : i % 2 ? 90.0f : -90.0f;
-        orbit.distance = 1 + 0.3f * std::pow(10.0f, decades(random));
+        orbit.distance = 1 + 0.3f * std::pow(10.0f, power(random));
         const Camera camera = orbit_camera(orbit, bounds);
         std::ostringstream text;
         text << "a scene from " << testing::PrintToString(bounds.min) << " to "
@@ -647,10 +649,11 @@ TEST(Mvp, HardCase_OrbitAroundScenesOfNoSize) {
     for (const Bounds& bounds : {Bounds(), point}) {
         const Camera camera = orbit_camera(Orbit(), bounds);
         const vec3 center = bounds.min.x <= bounds.max.x ? vec3(1, 2, 3) : vec3(0);
-        EXPECT_NEAR(glm::distance(camera.position_world, center), Orbit().distance, 8 * eps);
+        EXPECT_NEAR(glm::distance(camera.position_world, center), Orbit().distance,
+                    8 * FLT_EPSILON);
         EXPECT_TRUE(is_rigid(camera.view_from_world));
-        EXPECT_NEAR(camera.near, 0.999f * (Orbit().distance - 1), 4 * eps);
-        EXPECT_NEAR(camera.far, 1.001f * (Orbit().distance + 1), 4 * eps);
+        EXPECT_NEAR(camera.near, 0.999f * (Orbit().distance - 1), 4 * FLT_EPSILON);
+        EXPECT_NEAR(camera.far, 1.001f * (Orbit().distance + 1), 4 * FLT_EPSILON);
     }
 }
 

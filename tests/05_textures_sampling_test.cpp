@@ -18,14 +18,13 @@
 #include "support/near.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
 
 namespace {
 
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float tiny = std::numeric_limits<float>::denorm_min();
 constexpr float feps = FLT_EPSILON;
 constexpr std::array all_wraps = {Wrap::repeat, Wrap::mirror, Wrap::clamp};

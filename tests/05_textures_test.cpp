@@ -29,7 +29,7 @@ namespace {
 
 using lvec2 = glm::vec<2, real>;
 
-constexpr ivec2 size(64, 48);
+constexpr ivec2 small(64, 48);
 
 /// The vertices of a triangle that is not clipped. Of their positions only w counts.
 ClippedTriangle whole(vec3 w) {
@@ -166,8 +166,8 @@ class AnyTriangle {
     ScreenTriangle on_screen() {
         for (;;) {
             const auto point = [this] {
-                const float x = between(-8, size.x + 8.0f);
-                return vec2(x, between(-8, size.y + 8.0f));
+                const float x = between(-8, small.x + 8.0f);
+                return vec2(x, between(-8, small.y + 8.0f));
             };
             const vec2 a = point(), b = point();
             const ScreenTriangle triangle = snap_triangle(a, b, point());
@@ -204,7 +204,7 @@ int compare(const ScreenTriangle& on_screen, const ClippedTriangle& piece, Toler
             Compared compared = Compared::derivatives_too) {
     const PerspectiveSetup setup = perspective_setup(on_screen, piece);
     int pixels = 0;
-    fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
+    fill_triangle(on_screen, small, [&](ivec2 pixel, vec3 screen_barycentrics) {
         if (pixels < 0) return;
         ++pixels;
         const auto result =
@@ -316,7 +316,7 @@ TEST(Textures, HardCase_EqualWLeavesTheBarycentricsOnTheScreen) {
         const float w = any.of_sizes(1e-38f, 1e38f);
         const ScreenTriangle on_screen = any.on_screen();
         const PerspectiveSetup setup = perspective_setup(on_screen, whole(vec3(w)));
-        fill_triangle(on_screen, size, [&](ivec2, vec3 screen_barycentrics) {
+        fill_triangle(on_screen, small, [&](ivec2, vec3 screen_barycentrics) {
             const vec3 here = perspective_correct(setup, screen_barycentrics).here;
             // The sum of fill_triangle's barycentrics is 1 within 2 eps; two sums, a quotient, a
             // product.
@@ -373,7 +373,7 @@ TEST(Textures, HardCase_SubnormalWBesideAHugeOne) {
                             of_whole.coordinate * eps * exact.here[k] + 0x1p-80L / near_coordinate))
                     << "here[" << k << "]; " << what;
         };
-        fill_triangle(on_screen, size, check);
+        fill_triangle(on_screen, small, check);
         ASSERT_FALSE(HasFatalFailure());
         // Centres on a lower side belong to the triangle below; here they are asked for.
         for (int x = 1; x < 60 && !HasFatalFailure(); ++x) {
@@ -448,7 +448,7 @@ real displacement_px(const std::array<vec4, 3>& vertices, const ClippedTriangle&
             greatest = std::max(greatest, std::abs(real{vertex[axis]}));
     for (const ClippedVertex& vertex : piece)
         least_w = std::min(least_w, real{vertex.position_clip.w});
-    return 1.0L / 512 + size.x * (2 * eps + 39 * eps * greatest / least_w);
+    return 1.0L / 512 + small.x * (2 * eps + 39 * eps * greatest / least_w);
 }
 
 }  // namespace
@@ -468,17 +468,17 @@ TEST(Textures, Eq5_3_HardCase_PiecesHaveTheBarycentricsOfTheWholeTriangle) {
         int visited = 0;
         for (const ClippedTriangle& piece : clip_triangle(vertices)) {
             const auto [mesh, triangle, clipped, on_screen, depth, is_back_facing] =
-                projected(piece, size);
+                projected(piece, small);
             if (is_back_facing) continue;
             const PerspectiveSetup setup = perspective_setup(on_screen, piece);
             const real reach_px = displacement_px(vertices, piece);
-            fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
+            fill_triangle(on_screen, small, [&](ivec2 pixel, vec3 screen_barycentrics) {
                 const vec3 here = perspective_correct(setup, screen_barycentrics).here;
                 // A quotient of linear functions is greatest and least in the corners of a square.
                 lvec3 least(2), most(-2);
                 for (int corner = 0; corner < 4; ++corner) {
                     const lvec2 way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1);
-                    const lvec2 place = (lvec2(pixel) + 0.5L + reach_px * way) / lvec2(size);
+                    const lvec2 place = (lvec2(pixel) + 0.5L + reach_px * way) / lvec2(small);
                     const lvec3 there =
                         barycentrics_of_whole(vertices, {2 * place.x - 1, 1 - 2 * place.y});
                     least = glm::min(least, there), most = glm::max(most, there);
@@ -529,7 +529,7 @@ TEST(Textures, Eq5_7_DerivativesLeadToTheNextPixelWhereThereIsNoPerspective) {
         const PerspectiveSetup setup = perspective_setup(on_screen, whole(vec3(2)));
         FragmentBarycentrics last{};
         ivec2 last_pixel(-2);
-        fill_triangle(on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
+        fill_triangle(on_screen, small, [&](ivec2 pixel, vec3 screen_barycentrics) {
             const FragmentBarycentrics barycentrics =
                 perspective_correct(setup, screen_barycentrics);
             const bool is_next = pixel == last_pixel + ivec2(1, 0);

@@ -26,8 +26,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr float decades = 8;
-constexpr int cases = 100'000;
 constexpr real u = eps / 2;
 constexpr real u_of_double = 0x1p-53L;
 constexpr real least = 0x1p-149L;  // below the normal numbers, rounding is off by half of that

@@ -23,7 +23,7 @@ namespace {
 
 using Quad = std::array<std::uint32_t, 4>;
 
-constexpr vec3 up(0, 1, 0);
+constexpr vec3 upwards(0, 1, 0);
 
 /// Quads cut along the diagonal from their first vertex, or along the other one where a bit is set.
 Mesh cut(const std::vector<vec3>& positions, const std::vector<Quad>& quads, unsigned other) {
@@ -36,11 +36,6 @@ Mesh cut(const std::vector<vec3>& positions, const std::vector<Quad>& quads, uns
             triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
     }
     return mesh_of(positions, triangles);
-}
-
-double degrees_between(vec3 a, vec3 b) {
-    const dvec3 u = a, v = b;
-    return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
 /// A ball of radius 1 of so many segments from pole to pole, and twice as many around.
@@ -79,9 +74,9 @@ Mesh ball(std::uint32_t segments) {
 
 TEST(Phong, Eq6_9_AFaceIsCounterClockwiseSeenFromItsFront) {
     const Mesh floor = mesh_of({vec3(0), {0, 0, 1}, {1, 0, 0}}, {{0, 1, 2}, {0, 2, 1}});
-    EXPECT_EQ(face_normal(floor, floor.triangles[0]), up)
+    EXPECT_EQ(face_normal(floor, floor.triangles[0]), upwards)
         << "of the vertices (0, 0, 0), (0, 0, 1), (1, 0, 0)";
-    EXPECT_EQ(face_normal(floor, floor.triangles[1]), -up)
+    EXPECT_EQ(face_normal(floor, floor.triangles[1]), -upwards)
         << "of the vertices (0, 0, 0), (1, 0, 0), (0, 0, 1)";
 }
 
@@ -130,9 +125,9 @@ TEST(Phong, Eq6_9_FacesBeyondASharpEdgeDoNotCount) {
         complete_normals(mesh);
         const vec3 at_edge = mesh.normals[mesh.triangles[0].vertices[0].normal];
         const vec3 apart = mesh.normals[mesh.triangles[0].vertices[1].normal];
-        ASSERT_EQ(apart, up)
+        ASSERT_EQ(apart, upwards)
             << "complete_normals() at a vertex where only this face is: its own, of length 1";
-        ASSERT_NEAR(degrees_between(at_edge, up), bend < 50 ? 0.5 * bend : 0, 1e-4)
+        ASSERT_NEAR(degrees_between(at_edge, upwards), bend < 50 ? 0.5 * bend : 0, 1e-4)
             << "degrees by which the normal at an edge of " << bend << " degrees leans, "
             << shown(at_edge) << " for the face whose own is (0, 1, 0)";
     }
@@ -160,7 +155,7 @@ TEST(Phong, Eq6_9_AnyCutOfPolygonsGivesTheSameNormals) {
             }
     }
     // And they are the roof's: the upper corners' normals lean out evenly.
-    const vec3 vertex = normalize_or(first.at(0, up), up);
+    const vec3 vertex = normalize_or(first.at(0, upwards), upwards);
     EXPECT_NEAR(vertex.x, vertex.z, 2 * FLT_EPSILON);
     EXPECT_GT(vertex.x, 0.1f);
 }
@@ -215,8 +210,9 @@ TEST(Phong, HardCase_SomeVerticesWithoutNormals) {
     ASSERT_EQ(mesh.normals.size(), 3u);
     EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[0].normal], vec3(0.6f, 0.8f, 0))
         << "of (3, 4, 0) in the file";
-    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[1].normal], up);  // of length 0: the face's
-    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[2].normal], up);
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[1].normal],
+              upwards);  // of length 0: the face's
+    EXPECT_EQ(mesh.normals[mesh.triangles[0].vertices[2].normal], upwards);
 }
 
 TEST(Phong, HardCase_TrianglesOfNoAreaChangeNoNormals) {
@@ -228,14 +224,14 @@ TEST(Phong, HardCase_TrianglesOfNoAreaChangeNoNormals) {
     const Mesh with_line =
         mesh_of(positions, {{0, 1, 4}, {1, 2, 3}, {1, 3, 4}, {0, 2, 1}, {1, 1, 1}});
     const vec3 of_face = face_normal(slope, slope.triangles[0]);
-    EXPECT_GT(glm::dot(of_face, up), cos_sharp);
+    EXPECT_GT(glm::dot(of_face, upwards), cos_sharp);
     for (std::uint32_t position = 0; position < 5; ++position)
         EXPECT_EQ(SmoothNormals(slope).at(position, of_face),
                   SmoothNormals(with_line).at(position, of_face))
             << "position " << position << ", without triangles of no area and with two of them";
     Mesh lone = mesh_of({vec3(1), vec3(2), vec3(3)}, {{0, 1, 2}});
     complete_normals(lone);
-    for (const vec3 normal : lone.normals) EXPECT_EQ(normal, up);
+    for (const vec3 normal : lone.normals) EXPECT_EQ(normal, upwards);
 }
 
 TEST(Phong, HardCase_FacesThatCancel) {
@@ -245,8 +241,8 @@ TEST(Phong, HardCase_FacesThatCancel) {
     complete_normals(sheet);
     ASSERT_EQ(sheet.normals.size(), 6u);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(sheet.normals[sheet.triangles[0].vertices[i].normal], up);
-        EXPECT_EQ(sheet.normals[sheet.triangles[1].vertices[i].normal], -up);
+        EXPECT_EQ(sheet.normals[sheet.triangles[0].vertices[i].normal], upwards);
+        EXPECT_EQ(sheet.normals[sheet.triangles[1].vertices[i].normal], -upwards);
     }
 }
 

@@ -22,7 +22,7 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr int cases = 1'000'000;
+constexpr int many_cases = 1'000'000;
 
 /// Special numbers, and lights of such.
 class Mix : public SpecialNumbers {
@@ -82,7 +82,7 @@ TEST(Phong, HardCase_SpecialNumbersHaveADirectionOrNone) {
     look_up("Eq. 6.8");
     Mix mix(1);
     const vec3 fallback(0, 0, 1);
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < many_cases; ++i) {
         const vec3 v = mix.any_three();
         ASSERT_TRUE(is_direction(unit_or(v, fallback))) << "seed 1, case " << i;
         const bool has_direction = std::isfinite(v.x + 0.0) && std::isfinite(v.y + 0.0) &&
@@ -94,7 +94,7 @@ TEST(Phong, HardCase_SpecialNumbersHaveADirectionOrNone) {
 TEST(Phong, HardCase_SpecialNumbersOfLights) {
     look_up("Eq. 6.6");
     Mix mix(2);
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < many_cases; ++i) {
         const Light light = mix.light();
         vec3 position = mix.any_three();  // infinite ones, too
         for (int axis = 0; axis < 3; ++axis)
@@ -110,7 +110,7 @@ TEST(Phong, HardCase_SpecialNumbersOfLights) {
 TEST(Phong, HardCase_SpecialNumbersOfHighlights) {
     look_up("Eq. 6.3");
     Mix mix(3);
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < many_cases; ++i) {
         // Not even of length 1.
         const SurfacePoint<float> point{vec3(0), mix.any_three(), mix.any_three()};
         const vec3 toward_light = mix.any_three();
@@ -133,7 +133,7 @@ TEST(Phong, HardCase_SpecialNumbersOfReflectedLight) {
     look_up("Eq. 6.5");
     Mix mix(4);
     const Lights some_lights(mix);
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < many_cases; ++i) {
         const std::span lights = some_lights.two(mix);
         const float shininess = mix.amount();
         const SurfacePoint<float> point{mix.place(), mix.direction(), mix.direction()};
@@ -174,7 +174,7 @@ TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
     material.specular = vec3(1);
     OneTriangle triangle({vec3(0), vec3(1), vec3(2)}, {vec3(0), vec3(1), vec3(2)}, material);
     int lit = 0;
-    for (int i = 0; i < cases; ++i) {
+    for (int i = 0; i < many_cases; ++i) {
         Mesh& mesh = triangle.mesh();
         mesh.positions = {mix.place(), mix.place(), mix.place()};
         mesh.normals = {mix.any_three(), mix.any_three(), mix.any_three()};
@@ -200,5 +200,5 @@ TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
         ASSERT_TRUE(are_within("specular", light.specular, 0, most)) << "seed 5, case " << i;
         lit += light.diffuse.x > 0;
     }
-    EXPECT_GT(lit, cases / 20);
+    EXPECT_GT(lit, many_cases / 20);
 }

@@ -19,14 +19,12 @@
 #include "support/look_up.hpp"
 #include "support/near.hpp"
 #include "support/printers.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
 
 namespace {
-
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// A float from 2^-31 to 1 as a whole number over 2^55.
 std::int64_t over_2_to_55(float x) { return static_cast<std::int64_t>(std::ldexp(x, 55)); }

@@ -20,6 +20,7 @@
 #include "06_phong/normals.hpp"
 #include "08_normal_maps/tangent_frame.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 
@@ -31,7 +32,7 @@ namespace {
 constexpr vec3 along_x(1, 0, 0), along_y(0, 1, 0), along_z(0, 0, 1);
 
 /// A few roundings of numbers up to 1.
-constexpr float roundings = 4 * FLT_EPSILON;
+constexpr float few_roundings = 4 * FLT_EPSILON;
 
 /// What the lesson promises of every frame.
 constexpr double most_off_a_right_angle = 1e-6;
@@ -55,7 +56,7 @@ testing::AssertionResult is_orthonormal(const TangentFrame& frame) {
     return testing::AssertionSuccess();
 }
 
-testing::AssertionResult are_near(vec3 actual, vec3 expected, float tolerance = roundings) {
+testing::AssertionResult are_near(vec3 actual, vec3 expected, float tolerance = few_roundings) {
     const vec3 off = glm::abs(actual - expected);
     if (std::max({off.x, off.y, off.z}) <= tolerance) return testing::AssertionSuccess();
     return testing::AssertionFailure()
@@ -78,7 +79,7 @@ struct Directions {
 /// For EXPECT_TRUE: the directions that uv_directions() finds; not yet their handedness.
 testing::AssertionResult has_directions(const std::array<vec3, 3>& positions,
                                         const std::array<vec2, 3>& uvs, const Directions& expected,
-                                        float tolerance = roundings) {
+                                        float tolerance = few_roundings) {
     const UvDirections found = uv_directions(positions, uvs);
     const auto wrong = [&](const char* what) {
         return testing::AssertionFailure()
@@ -108,11 +109,6 @@ testing::AssertionResult has_frame(vec3 tangent, vec3 normal, float handedness,
     if (const auto is = are_near(found.normal, expected.normal); !is)
         return wrong("normal") << is.message();
     return testing::AssertionSuccess();
-}
-
-double degrees_between(vec3 a, vec3 b) {
-    const dvec3 u = a, v = b;
-    return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
 /// A mesh as the scene has it when tangents are built: each vertex has its own normal.
@@ -617,7 +613,7 @@ TEST(NormalMaps, HardCase_TangentAlongTheNormal) {
             ASSERT_TRUE(is_orthonormal(frame));
             ASSERT_EQ(frame.tangent, any_orthogonal(frame.normal))
                 << "the tangent is " << length << " times the normal " << testing::PrintToString(n);
-            ASSERT_LT(glm::length(frame.normal - n), roundings);
+            ASSERT_LT(glm::length(frame.normal - n), few_roundings);
         }
     // A file may have normals that are parallel to the surface's tangent.
     const Patch patch({vec3(0), along_x, along_y}, {vec2(0), {1, 0}, {0, 1}}, {{0, 1, 2}},

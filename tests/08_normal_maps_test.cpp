@@ -15,6 +15,7 @@
 #include "common/image/image_io.hpp"
 #include "support/first_difference.hpp"
 #include "support/look_up.hpp"
+#include "support/near.hpp"
 #include "support/printers.hpp"
 
 using namespace rasterbook;
@@ -30,11 +31,6 @@ constexpr float one_rounding = FLT_EPSILON, roundings = 4 * FLT_EPSILON;
 /// Not parallel to the axes, so that nothing is right by chance.
 TangentFrame some_frame(float handedness = 1) {
     return {vec3(2, 2, 1) / 3.0f, handedness / 3.0f * vec3(-2, 1, 2), vec3(1, -2, 2) / 3.0f};
-}
-
-double degrees_between(vec3 a, vec3 b) {
-    const dvec3 u = a, v = b;
-    return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
 constexpr std::array all_filters = {Filter::nearest, Filter::bilinear, Filter::trilinear};

@@ -27,7 +27,6 @@ using namespace rasterbook::test;
 namespace {
 
 constexpr std::array fitted = {Bias::slope, Bias::plane, Bias::normal};
-constexpr std::array kinds = {LightKind::directional, LightKind::point, LightKind::spot};
 constexpr std::array tilts = {0.0f, 0.1f, 1.0f, 3.0f, 10.0f, 50.0f};
 
 /// A square of 2 x 2 around a point, cut into triangles of different sizes, and a light on it.
@@ -178,7 +177,7 @@ TEST(ShadowMaps, Eq9_10_HardCase_LitPlanesAtSlopesFrom0To50HaveNoShadow) {
     std::uniform_real_distribution<float> any(-20, 20);
     long asked = 0;
     for (const int size : {256, 512, 1024, 2048, 4096})
-        for (const LightKind kind : kinds)
+        for (const LightKind kind : light_kinds)
             for (const float tilt : tilts) {
                 const float x = any(random), y = any(random), z = any(random);
                 const TiltedPlane plane(random, kind, tilt, size == 512 ? vec3(x, y, z) : vec3(0));
@@ -533,7 +532,7 @@ TEST(ShadowMaps, Eq9_15_RoundingsStayBelowWhatIsAllowedForThem) {
     std::uniform_real_distribution<float> any(-1, 1);
     double greatest = 0;
     for (int i = 0; i < 60; ++i) {
-        const LightKind kind = kinds[static_cast<std::size_t>(i) % 3];
+        const LightKind kind = light_kinds[static_cast<std::size_t>(i) % 3];
         const float x = any(random), y = any(random), z = any(random);
         const TiltedPlane plane(random, kind, 1, 50.0f * vec3(x, y, z));
         const LightViews views =

@@ -36,8 +36,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr std::array kinds = {LightKind::directional, LightKind::point, LightKind::spot};
-
 lesson_09::Options small_picture() {
     lesson_09::Options options;
     options.size = {320, 180};
@@ -85,8 +83,6 @@ Mesh closed_box(vec3 low, vec3 high) {
                                {1, 3, 7},
                                {1, 7, 5}});
 }
-
-Light point_light(vec3 position) { return {LightKind::point, vec3(1), vec3(0, 1, 0), position}; }
 
 /// The shadow maps of two lights, of which the first casts shadows, and what they say of points of
 /// a scene's first triangle.
@@ -157,7 +153,7 @@ TEST(ShadowMaps, Eq9_16_LightFadesAlikeInAllFacesOfAPointLight) {
 
 TEST(ShadowMaps, Eq9_16_NormalMapsDoNotChangeWhichShadowTestsAreMade) {
     // On the pot's dark side bumps lean towards the light, on its bright side away from it.
-    for (const LightKind kind : kinds) {
+    for (const LightKind kind : light_kinds) {
         lesson_09::Options options = small_picture();
         options.shading.key_light = kind;
         const Scene scene = loaded("scene_bumpy.obj");
@@ -186,7 +182,7 @@ TEST(ShadowMaps, HardCase_OnlyWhatCallsForShadowsGetsThem) {
           Row{"floor", loaded("floor.obj"), true, true},
           Row{"unlit", with_materials(loaded("scene.obj"), unlit), false, false},
           Row{"glass", with_materials(loaded("scene.obj"), glass), false, true}})
-        for (const LightKind kind : kinds) {
+        for (const LightKind kind : light_kinds) {
             lesson_09::Options options = small_picture();
             options.shading.key_light = kind;
             const Drawn planned = drawn(scene, options);
@@ -215,7 +211,7 @@ TEST(ShadowMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
     for (const Scene& scene : {loaded("scene_bumpy.obj"), loaded("scene.obj"), loaded("crate.obj"),
                                with_materials(loaded("scene.obj"), glass),
                                with_materials(loaded("scene_bumpy.obj"), some_unlit)})
-        for (const LightKind kind : kinds) {
+        for (const LightKind kind : light_kinds) {
             lesson_09::Options options = small_picture();
             options.shading.key_light = kind;
             const Drawn planned = drawn(scene, options);
@@ -295,7 +291,7 @@ TEST(ShadowMaps, HardCase_ShadowsOfTheSceneAgreeWithRaysAwayFromTheirEdges) {
     ASSERT_GT(points.size(), 5000u);
     const double size = scene.bounds().radius();
     constexpr int texels = 1024, radius = 1;
-    for (const LightKind kind : kinds) {
+    for (const LightKind kind : light_kinds) {
         const Light light = raking_lights(kind, scene.bounds())[0];
         const LightMaps maps(light, scene.meshes, texels);
         const LightRays rays(light, RayCaster::of(scene.meshes, [](std::size_t) { return true; }),
@@ -427,7 +423,7 @@ TEST(ShadowMaps, HardCase_SpecialNumbersAtTheEntry) {
     constexpr std::size_t finite = std::size(special) - 3, all = std::size(special);
     int with_maps = 0;
     for (int i = 0; i < 20000; ++i) {
-        Light light{kinds[random() % 3], vec3(1), unit_or(any_vector(finite), vec3(0, 1, 0)),
+        Light light{light_kinds[random() % 3], vec3(1), unit_or(any_vector(finite), vec3(0, 1, 0)),
                     any_vector(finite)};
         light.cos_full = std::clamp(any(finite), -0.9f, 1.0f);
         light.cos_none =
@@ -453,7 +449,7 @@ TEST(ShadowMaps, HardCase_SpecialNumbersAtTheEntry) {
 
 TEST(ShadowMaps, HardCase_ModelsOfAllSizes) {
     look_up("Eq. 9.6");
-    for (const LightKind kind : kinds) {
+    for (const LightKind kind : light_kinds) {
         lesson_09::Options options = small_picture();
         options.shading.key_light = kind;
         const auto picture_of = [&](float scale) {

@@ -11,11 +11,13 @@
 
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
+#include "support/light_maps.hpp"
 #include "support/look_up.hpp"
 #include "support/names.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -34,8 +36,6 @@ Light spotlight(vec3 position, vec3 target, float half_angle_degrees) {
     light.cos_full = 1;
     return light;
 }
-
-Light point_light(vec3 position) { return {LightKind::point, vec3(1), vec3(0, 1, 0), position}; }
 
 dvec3 ndc(const mat4& clip_from_world, dvec3 point) {
     const dvec4 clip = dmat4(clip_from_world) * dvec4(point, 1);
@@ -107,9 +107,6 @@ testing::AssertionResult is_dark_under_a_large_roof(const Light& light, int size
         }
     return testing::AssertionSuccess();
 }
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 

@@ -43,10 +43,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr std::array thread_counts = {1, 2, 3, 4, 7, 8, 16, 61};
-constexpr std::array splits = {Split::rows, Split::interleaved, Split::tiles};
-constexpr std::array kinds = {LightKind::directional, LightKind::point, LightKind::spot};
-
 constexpr int repeats = is_sanitized ? 2 : 100;
 constexpr ivec2 middling_size = is_sanitized ? ivec2(96, 54) : ivec2(160, 90);
 
@@ -321,7 +317,7 @@ TEST(Threading, Eq10_7_HardCase_AnyThreadsAndSplitGiveTheSameBitsAHundredTimes) 
 TEST(Threading, Eq10_7_HardCase_AnyOrderOfTheTasksGivesTheSameBits) {
     lesson_10::Options options = small_picture(middling_size);
     Counters ignored;
-    for (const LightKind kind : kinds) {
+    for (const LightKind kind : light_kinds) {
         options.shading.key_light = kind;
         const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
         const Image<vec3> expected = expected_of(options, assets, ignored);
@@ -443,7 +439,7 @@ TEST(Threading, HardCase_MapsHaveTheSameBitsAndNothingAroundThem) {
     const auto casts = [&](std::size_t material) {
         return casts_shadows(scene.materials[material]);
     };
-    for (const LightKind kind : kinds)
+    for (const LightKind kind : light_kinds)
         for (const int size : {16, 61}) {
             const Light light = raking_lights(kind, scene.bounds())[0];
             const LightViews views = light_views(light, bounds.casters, bounds.receivers, size);

@@ -35,9 +35,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr std::array thread_counts = {1, 2, 3, 4, 7, 8, 16, 61};
-constexpr std::array splits = {Split::rows, Split::interleaved, Split::tiles};
-
 /// What a task throws: all of it has to arrive.
 struct Trouble : std::runtime_error {
     Trouble(std::size_t of, std::vector<int> with)

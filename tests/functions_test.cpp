@@ -17,6 +17,7 @@
 
 #include "support/printers.hpp"
 #include "support/reference.hpp"
+#include "support/special_numbers.hpp"
 
 /// Four floats side by side, as a processor's registers hold them: what a number type has to bring.
 namespace lanes {
@@ -99,9 +100,6 @@ using namespace rasterbook::test;
 using lanes::Lanes;
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 float from_bits(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 std::uint32_t bits_of(float x) { return std::bit_cast<std::uint32_t>(x); }

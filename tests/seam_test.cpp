@@ -24,6 +24,7 @@
 #include "08_normal_maps/tangent_frame.hpp"
 #include "common/math/functions.hpp"
 #include "support/float8.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -31,8 +32,6 @@ using namespace rasterbook::test;
 namespace {
 
 constexpr std::size_t fragments = 100'000, numbers = 1'000'000;
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 /// What stages give, each number with the stage's name.
 template <typename F>

@@ -10,11 +10,15 @@
 
 namespace rasterbook::test {
 
-/// Sizes from 10^-decades to 10^decades, each order of magnitude as often as the others, with
+/// What most of these tests take, and how often.
+inline constexpr float decades = 8;
+inline constexpr int cases = 100'000;
+
+/// Sizes from 10^-power to 10^power, each order of magnitude as often as the others, with
 /// either sign.
 class AnySize {
   public:
-    AnySize(unsigned seed, float decades) : random_(seed), exponent_(-decades, decades) {}
+    AnySize(unsigned seed, float power) : random_(seed), exponent_(-power, power) {}
 
     float positive() { return std::pow(10.0f, exponent_(random_)); }
     float number() { return random_() & 1 ? positive() : -positive(); }

@@ -3,6 +3,7 @@
 /// Lights and points of surfaces in words, for tests that fail.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "06_phong/light.hpp"
@@ -20,6 +21,10 @@ constexpr const char* name_of(Shading shading) {
            : shading == Shading::gouraud ? "Gouraud shading"
                                          : "Phong shading";
 }
+
+inline constexpr std::array light_kinds = {LightKind::directional, LightKind::point,
+                                           LightKind::spot};
+
 constexpr const char* name_of(LightKind kind) {
     return kind == LightKind::directional ? "directional light"
            : kind == LightKind::point     ? "point light"

@@ -22,6 +22,10 @@ inline Vertices vertices_in(const Mesh& mesh, const Triangle& triangle) {
             mesh.positions[triangle.vertices[2].position]};
 }
 
+inline Light point_light(vec3 position) {
+    return {LightKind::point, vec3(1), vec3(0, 1, 0), position};
+}
+
 /// Shadow maps in which all of the meshes cast shadows.
 struct LightMaps {
     Light light;

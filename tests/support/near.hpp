@@ -49,6 +49,11 @@ inline std::string apart(float actual, float expected) {
            (ulps > 0 ? "more" : "less");
 }
 
+inline double degrees_between(vec3 a, vec3 b) {
+    const dvec3 u = a, v = b;
+    return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
+}
+
 /// For EXPECT_TRUE: each component within the tolerance.
 template <glm::length_t n>
 testing::AssertionResult are_near(const glm::vec<n, float>& actual,

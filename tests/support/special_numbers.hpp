@@ -13,6 +13,9 @@
 
 namespace rasterbook::test {
 
+inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+
 /// Ordinary numbers from -2 to 2, and special ones as often.
 class SpecialNumbers {
   public:
