@@ -353,6 +353,26 @@ TEST(ZBuffer, HardCase_InterpenetratingTrianglesMeetOnTheExactLine) {
     EXPECT_GT(crossings, 50) << "too few pairs cross in the picture: the test would see nothing";
 }
 
+TEST(ZBuffer, NearestIsShownWhiteTheFarthestDarkAndEmptyBlack) {
+    look_up("Eq. 3.1: what the buffer holds in the end");
+    for (const float extent : {0.5f, 0x1p-19f}) {  // as many greys for depths that differ little
+        SCOPED_TRACE("depths from 0.25 to 0.25 + " + test::text_of(extent));
+        DepthBuffer depth({2, 2});
+        depth.test_and_write({0, 0}, 0.25f);
+        depth.test_and_write({1, 0}, 0.25f + extent / 2);
+        depth.test_and_write({1, 1}, 0.25f + extent);
+        const Image<vec3> shown = depth_picture(depth);
+        EXPECT_EQ(shown[ivec2(0, 0)], vec3(1)) << "the nearest";
+        EXPECT_EQ(shown[ivec2(0, 1)], vec3(0)) << "an empty pixel";
+        constexpr float rounding = 1e-6f;  // of a few products and sums below 1
+        EXPECT_NEAR(shown[ivec2(1, 0)].g, 0.55f * 0.55f, rounding) << "midway";
+        EXPECT_NEAR(shown[ivec2(1, 1)].g, 0.1f * 0.1f, rounding) << "the farthest";
+    }
+    DepthBuffer of_one_depth({2, 1});
+    of_one_depth.test_and_write(origin, 0.5f);
+    EXPECT_EQ(depth_picture(of_one_depth)[origin], vec3(1)) << "nearest and farthest at once";
+}
+
 TEST(ZBuffer, PictureOfTheLesson) {
     EXPECT_TRUE(test::equals_golden("03_z_buffer", "03_z_buffer"));
 }

@@ -259,19 +259,20 @@ TEST(Textures, OneImageMayBeClampedByOneMaterialAndRepeatedByAnother) {
     Scene scene;
     const Model model(plain);
     scene.materials.resize(5);
-    for (std::size_t i = 1; i < 5; ++i) {
+    Mesh& mesh = scene.meshes.emplace_back();
+    for (std::uint32_t i = 0; i < 5; ++i) mesh.triangles.push_back({{}, i});
+    for (std::size_t i = 0; i < 4; ++i) {
         scene.materials[i].diffuse_map.file = model.folder / "red.png";
         scene.materials[i].diffuse_map.clamp = i % 2;
     }
-    Mesh& mesh = scene.meshes.emplace_back();
-    for (std::uint32_t i = 1; i < 5; ++i) mesh.triangles.push_back({{}, i});
     const MaterialTextures textures = load_diffuse_textures(scene, {});
-    ASSERT_EQ(textures.size(), 5u);
-    EXPECT_EQ(textures[0], nullptr);
+    ASSERT_EQ(textures.size(), 5u) << "one for each material";
+    for (std::size_t i = 0; i < 4; ++i) ASSERT_NE(textures[i], nullptr) << "of material " << i;
+    EXPECT_EQ(textures[0]->wrap, Wrap::repeat);
     EXPECT_EQ(textures[1]->wrap, Wrap::clamp);
-    EXPECT_EQ(textures[2]->wrap, Wrap::repeat);
+    EXPECT_EQ(textures[0], textures[2]) << "read once";
     EXPECT_EQ(textures[1], textures[3]) << "read once";
-    EXPECT_EQ(textures[2], textures[4]);
+    EXPECT_EQ(textures[4], nullptr) << "the last material names none";
 }
 
 TEST(Textures, Eq5_1_OffsetAndScaleOfTheMap) {

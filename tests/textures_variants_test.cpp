@@ -84,7 +84,7 @@ void expect_same(const FragmentBarycentrics& a, const FragmentBarycentrics& b) {
 
 float greatest(vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-constexpr int spans[] = {64, 32, 16, 8, 4};
+constexpr int spans[] = {64, 32, 16, 8, 4, 2};  // those of --mapping, and the shortest
 
 /// Draws a case's rows with a division every so many pixels, and checks each fragment: spans begin
 /// with the exact barycentrics and are straight from there to the exact ones at their end.

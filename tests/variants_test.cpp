@@ -25,6 +25,11 @@ namespace {
 constexpr LineMethod all_methods[] = {LineMethod::bresenham, LineMethod::dda_float,
                                       LineMethod::dda_fixed, LineMethod::wu};
 
+std::string name(LineMethod method) {
+    constexpr const char* names[] = {"bresenham", "dda-float", "dda-fixed", "wu"};
+    return names[static_cast<std::size_t>(method)];
+}
+
 Image<float> drawn_line(LineMethod method, ivec2 a, ivec2 b, ivec2 size,
                         LineEnd end = LineEnd::included) {
     Image<float> coverage(size, 0.0f);
@@ -50,24 +55,39 @@ std::array<dvec2, 3> random_vertices(std::mt19937& random, double low, double hi
 
 }  // namespace
 
-TEST(Variants, EveryStepOfALineHasACoverageOfOne) {
+TEST(Variants, EveryStepOfALineHasACoverageOfOneAroundTheLine) {
     constexpr ivec2 size(64);
+    // Of 61 steps at most: dda-fixed drifts most, by half of 2^-16 rows a step; Wu's two shares are
+    // floats, and its row drifts by less than they are rounded.
+    constexpr double nearest_row = 0.5 + 61 * 0x1p-17, shares = 0x1p-23;
     std::mt19937 random(1);
     std::uniform_int_distribution<int> inside(1, 62);
     for (int i = 0; i < 500; ++i) {
-        const ivec2 a(inside(random), inside(random)), b(inside(random), inside(random));
+        const ivec2 a(inside(random), inside(random));
+        const ivec2 b = i == 0 ? a : ivec2(inside(random), inside(random));  // also of one pixel
         const bool steep = std::abs(b.x - a.x) < std::abs(b.y - a.y);
+        const ivec2 from = steep ? ivec2(a.y, a.x) : a, to = steep ? ivec2(b.y, b.x) : b;
+        const auto [low, high] = std::minmax(from.x, to.x);
+        const double slope = from.x == to.x ? 0 : 1.0 * (to.y - from.y) / (to.x - from.x);
         for (const LineMethod method : all_methods) {
-            const Image<float> line = drawn_line(method, a, b, size);
+            const std::string line = name(method) + ", the line " + testing::PrintToString(a) +
+                                     " -> " + testing::PrintToString(b);
+            const Image<float> coverage = drawn_line(method, a, b, size);
             for (int major = 0; major < 64; ++major) {
-                float sum = 0;
-                for (int minor = 0; minor < 64; ++minor)
-                    sum += line[steep ? ivec2(minor, major) : ivec2(major, minor)];
-                const auto [low, high] = steep ? std::minmax(a.y, b.y) : std::minmax(a.x, b.x);
-                EXPECT_FLOAT_EQ(sum, major >= low && major <= high ? 1.0f : 0.0f);
+                const double ideal = from.y + slope * (major - from.x);
+                double sum = 0, beside = 0;
+                for (int minor = 0; minor < 64; ++minor) {
+                    const float share = coverage[steep ? ivec2(minor, major) : ivec2(major, minor)];
+                    sum += share, beside += share * (minor - ideal);
+                }
+                ASSERT_NEAR(sum, major >= low && major <= high ? 1 : 0, shares)
+                    << "the coverage of step " << major - low << "; " << line;
+                ASSERT_LE(std::abs(beside), method == LineMethod::wu ? shares : nearest_row)
+                    << "from the line to the middle of what covers step " << major - low << ", "
+                    << "in pixels; " << line;
             }
             const Image<float> open = drawn_line(method, a, b, size, LineEnd::excluded);
-            EXPECT_EQ(open[b], 0.0f) << "the excluded end";
+            ASSERT_EQ(open[b], 0.0f) << "the coverage of the excluded end; " << line;
         }
     }
 }
@@ -90,7 +110,10 @@ TEST(Variants, FixedPointDriftsByAtMostHalfAStepOfItsFraction) {
         FixedRow<16> row(LineSteps({3, 5}, {30'003, 5 + rise}), 0);
         for (int step = 0; step <= 30'000; ++step) {
             const double ideal = 5 + 1.0 * rise * step / 30'000;
-            ASSERT_NEAR(static_cast<double>(row.row) / 65536, ideal, 0x1p-17 * step + 1e-9);
+            const double actual = static_cast<double>(row.row) / 65536;
+            ASSERT_NEAR(actual, ideal, 0x1p-17 * step + 1e-9) << "the row of step " << step;
+            ASSERT_EQ(static_cast<double>(row.above()) + row.beyond_above(), actual)
+                << "the whole row above and what lies beyond it, of step " << step;
             row.step();
         }
     }
@@ -186,6 +209,41 @@ TEST(Variants, WhatIsKeptOfDepthsStaysInOrder) {
                               (range == 100.0f && format != DepthFormat::unorm16);
             EXPECT_EQ(kept.size() == 1001, fine) << static_cast<int>(format) << ", " << range;
         }
+}
+
+TEST(Variants, WhatIsKeptOfADepthIsThatDepthInTheFarthestPartOfAll) {
+    EXPECT_EQ(DepthVariant{}.kept(0.3f), 0.3f) << "unasked, a depth is kept as it is";
+    struct Case {
+        const char* name;
+        DepthFormat format;
+        float farthest;   ///< What is kept of 1.
+        float tolerance;  ///< A whole number is off by half a step, and the greatest becomes 1.
+    };
+    for (const auto& [name, format, farthest, tolerance] :
+         {Case{"float", DepthFormat::float32, 1, 0}, Case{"reversed", DepthFormat::reversed, 0, 0},
+          Case{"reversed-ndc", DepthFormat::reversed_ndc, 0, 0},
+          Case{"unorm16", DepthFormat::unorm16, 1, 1.5f * 0x1p-16f},
+          Case{"unorm24", DepthFormat::unorm24, 1, 1.5f * 0x1p-24f}})
+        for (const float range : {1.0f, 4.0f})
+            for (const float depth : {0.0f, 0.5f, 1.0f}) {
+                const float kept = DepthVariant{format, range}.kept(depth);
+                EXPECT_NEAR(kept, farthest - (1 - depth) / range, tolerance)
+                    << name << " of the depth " << depth << " in the farthest 1/" << range;
+            }
+}
+
+TEST(Variants, RangeOfDepthsIsTheNumberOnTheCommandLine) {
+    for (const std::string number : {"1", "100", "10000", "1000000"}) {
+        DepthVariant variant{.range = 7};
+        LessonOptions options;
+        std::string words[] = {"03_z_buffer", "--range", number};
+        char* arguments[] = {words[0].data(), words[1].data(), words[2].data()};
+        const auto declare = [&](Knobs& knobs) { variant.declare(knobs); };
+        EXPECT_FALSE(read_command_line(
+            {words[0], "", options, nullptr, nullptr, nullptr, declare, {}, {}}, 3, arguments))
+            << "--range " << number << " is no choice";
+        EXPECT_EQ(variant.range, std::stof(number)) << "of --range " << number;
+    }
 }
 
 TEST(Variants, DepthsAreRoundedToTheNearestOfTheirBits) {
