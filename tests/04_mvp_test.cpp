@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -499,6 +500,15 @@ TEST(Mvp, HardCase_LookAtWithUpThatIsNoUp) {
                           look_at(sign * axis, vec3(0), vec3(0)))
                     << of_view(sign * axis, vec3(0), size * axis) << ": as with up (0, 0, 0)";
             }
+    // Where it looks from, and the axis that is least parallel: of equals y first, then x.
+    const std::pair<vec3, vec3> least_parallel[] = {{{1, 1, 1}, {0, 1, 0}}, {{1, 1, 2}, {0, 1, 0}},
+                                                    {{2, 1, 1}, {0, 1, 0}}, {{2, 1, 3}, {0, 1, 0}},
+                                                    {{1, 2, 1}, {1, 0, 0}}, {{0, 1, 0}, {1, 0, 0}},
+                                                    {{1, 2, 3}, {1, 0, 0}}, {{1, 2, 2}, {1, 0, 0}},
+                                                    {{2, 3, 1}, {0, 0, 1}}, {{2, 2, 1}, {0, 0, 1}}};
+    for (const auto& [eye, axis] : least_parallel)
+        ASSERT_EQ(look_at(eye, vec3(0), vec3(0)), look_at(eye, vec3(0), axis))
+            << of_view(eye, vec3(0), vec3(0)) << ": as with up " << testing::PrintToString(axis);
     const mat4 level = look_at(vec3(0, 0, 1), vec3(0), vec3(0));
     EXPECT_EQ(level, glm::translate(mat4(1), vec3(0, 0, -1)))
         << "up is y where that is least parallel";

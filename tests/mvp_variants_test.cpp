@@ -145,20 +145,46 @@ TEST(MvpVariants, TrianglesInsideAreLeftAsTheyAre) {
         if (!is_inside) continue;
         const ClippedTriangles near = clip({.clipping = Clipping::near_plane}, vertices, size);
         ASSERT_EQ(near.end() - near.begin(), 1);
-        for (std::size_t i = 0; i < 3; ++i)
-            EXPECT_EQ((*near.begin())[i].position_clip, vertices[i]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            ASSERT_EQ((*near.begin())[i].position_clip, vertices[i]) << "vertex " << "abc"[i];
+            ASSERT_EQ((*near.begin())[i].barycentrics, vec3(i == 0, i == 1, i == 2))
+                << "vertex " << "abc"[i];
+        }
     }
 }
 
 TEST(MvpVariants, NearCuttingLeavesNothingThatFillTriangleRefuses) {
-    // Inside the guard band of 4 million pixels, and beyond it: there cut by six planes.
-    for (const float reach : {1e4f, 8e4f}) {
-        const ClipVertices vertices = {vec4(-reach, -1.1f, 0, 1), vec4(reach, -1.1f, 0, 1),
-                                       vec4(0, reach, 0, 1)};
+    // fill_triangle takes 4 million pixels: about 65,500 times half of the picture's width, and
+    // 131,000 times half of its height. What reaches farther is cut by six planes.
+    struct Case {
+        const char* name;
+        vec2 reach;
+        bool is_whole;
+    };
+    for (const auto& [name, reach, is_whole] :
+         {Case{"within both", {1e4f, 1e4f}, true}, Case{"too wide", {8e4f, 2}, false},
+          Case{"too high", {2, 16e4f}, false}, Case{"too wide and too high", vec2(16e4f), false},
+          Case{"high, but within", {2, 8e4f}, true}}) {
+        const ClipVertices vertices = {vec4(-reach.x, -1.1f, 0, 1), vec4(reach.x, -1.1f, 0, 1),
+                                       vec4(0, reach.y, 0, 1)};
         const ClippedTriangles parts = clip({.clipping = Clipping::near_plane}, vertices, size);
-        EXPECT_EQ(parts.end() - parts.begin() == 1, reach == 1e4f);
+        EXPECT_EQ(parts.end() - parts.begin() == 1, is_whole) << name;
         const Drawn result = drawn(Clipping::near_plane, vertices);
-        for (const int hits : result.hits.pixels()) ASSERT_EQ(hits, 1) << reach;
+        for (const int hits : result.hits.pixels()) ASSERT_EQ(hits, 1) << name;
+    }
+}
+
+TEST(MvpVariants, NearCuttingForgetsTheTriangleBefore) {
+    // The near plane leaves four corners of the first, of which the last, a million halves of the
+    // picture to the right, is too far. The second only leaves the picture.
+    const ClipVertices too_far = {vec4(2e6f, -1, 0, 1), vec4(1, 0, 0, 1), vec4(0, 1, -2, 1)};
+    const ClipVertices near_enough = {vec4(-4, -4, 0, 1), vec4(4, -4, 0, 1), vec4(0, 4, 0, 1)};
+    for (const ClipVertices& vertices : {near_enough, too_far, near_enough}) {
+        const ClippedTriangles parts = clip({.clipping = Clipping::near_plane}, vertices, size);
+        if (vertices == too_far) continue;
+        ASSERT_EQ(parts.end() - parts.begin(), 1) << "parts of what is all before the near plane";
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ((*parts.begin())[i].position_clip, vertices[i]) << "vertex " << "abc"[i];
     }
 }
 
@@ -219,6 +245,80 @@ TEST(MvpVariants, BackFacesAndDegenerateTrianglesAreNotDrawn) {
     }
 }
 
+TEST(MvpVariants, TrianglesInTheNearAndTheFarPlaneAreDrawn) {
+    // All of its numbers are sums of a few powers of two: nothing rounds.
+    const auto visited = [](float z, float expected_depth) {
+        int pixels = 0;
+        const ClipVertices vertices = {vec4(-0.5f, -0.5f, z, 1), vec4(0.5f, -0.5f, z, 1),
+                                       vec4(0, 0.5f, z, 1)};
+        fill_homogeneous(whole_triangle(vertices), size, [&](ivec2, float depth) {
+            ++pixels;
+            EXPECT_EQ(depth, expected_depth) << "with z = " << z << " and w = 1";
+        });
+        return pixels;
+    };
+    const int between = visited(0, 0.5f);
+    EXPECT_GT(between, 500);
+    EXPECT_EQ(visited(-1, 0), between) << "pixels of a triangle in the near plane";
+    EXPECT_EQ(visited(1, 1), between) << "pixels of a triangle in the far plane";
+}
+
+TEST(MvpVariants, NeedlesBesideThePictureAndBehindTheCameraAreNotDrawn) {
+    // Each is so thin that its volume and a pixel's shares in it are what rounding leaves; those of
+    // the pixel named here come out as if it were inside.
+    const ClipVertices beside = {vec4(-0x1.bfp+4f, -0x1.62ep-3f, 0, 1),
+                                 vec4(-0x1.35p+2f, -0x1.ce2p-3f, 0, 1),
+                                 vec4(-0x1.a19cdp+6f, 0x1.8ecc98p-29f, 0, 1)};
+    const ClipVertices behind = {vec4(0x1.9cp+1f, -0x1.fp-3f, 0, 0),
+                                 vec4(-0x1.2e4p+3f, 0x1.688p-1f, 0, -0.5f),
+                                 vec4(-0x1.24c1ecp-2f, -0x1.ac1dd4p-30f, 0, -0x1.a1dd2ep+0f)};
+    const auto visited = [](const ClipVertices& vertices) {
+        std::vector<ivec2> pixels;
+        fill_homogeneous(whole_triangle(vertices), size,
+                         [&](ivec2 pixel, float) { pixels.push_back(pixel); });
+        return pixels;
+    };
+    EXPECT_EQ(visited(beside), std::vector<ivec2>{})
+        << "left of the picture, on a line through pixel (1, 39)";
+    EXPECT_EQ(visited(behind), std::vector<ivec2>{})
+        << "two vertices behind the camera, one beside it, in a plane through pixel (88, 32)";
+}
+
+TEST(MvpVariants, RelativeIsFloatAroundTheCameraAndDoubleRoundsOnce) {
+    // It looks at the origin, as cameras do of which nothing else is said.
+    const Camera camera = {{0, 0, 5}, translation(vec3(0, 0, -5)), 1, 0.5f, 20};
+    const Camera at_origin = {vec3(0), mat4(1), 1, 0.5f, 20, {0, 0, -5}};
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> any(-4096, 4096);
+    std::vector<vec3> positions, around_camera;
+    for (int i = 0; i < 1000; ++i) {  // multiples of 1/1024: no difference of them rounds
+        positions.push_back(vec3(any(random), any(random), any(random)) / 1024.0f);
+        around_camera.push_back(positions.back() - camera.position_world);
+    }
+    const std::vector<vec4> float_around_camera =
+        transform(at_origin.clip_from_world(size), around_camera);
+    const dmat4 clip_from_view = perspective(1.0, 2.0, 0.5, 20.0);
+    for (const double offset : {0.0, 1e3, 1e7}) {
+        EXPECT_EQ(transform({Precision::relative, offset}, camera, size, positions),
+                  float_around_camera)
+            << "relative, moved by " << offset;
+        const std::vector<vec4> by_double =
+            transform({Precision::float64, offset}, camera, size, positions);
+        // Before they are rounded to float: a few products with coordinates of that size.
+        const double of_double = 8 * std::numeric_limits<double>::epsilon() * (offset + 10);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const dvec4 exact = clip_from_view * dvec4(around_camera[i], 1);
+            for (int axis = 0; axis < 4; ++axis) {
+                const float computed = by_double[i][axis], size_of_it = std::abs(computed);
+                const double ulp = double{std::nextafter(size_of_it, 100.0f)} - size_of_it;
+                ASSERT_LE(std::abs(computed - exact[axis]), ulp / 2 + of_double)
+                    << "xyzw"[axis] << " of " << testing::PrintToString(positions[i])
+                    << " in clip space by double, moved by " << offset << "; seed 1, case " << i;
+            }
+        }
+    }
+}
+
 TEST(MvpVariants, OnlyFloatDependsOnWhereTheWorldIs) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-4, 4);
@@ -249,6 +349,42 @@ TEST(MvpVariants, OnlyFloatDependsOnWhereTheWorldIs) {
     }
     EXPECT_EQ(transform({}, camera, size, positions),
               transform(camera.clip_from_world(size), positions));
+}
+
+TEST(MvpVariants, WhatIsFlattenedToALineHasTheColorOfWhatFacesUp) {
+    // x and y become (x, 0.3 x): a line, that faces nowhere. Far from the origin floats are 2
+    // apart; there rounding gives the line an area: (0, 0), (8, 2) and (4, 2).
+    constexpr float far_away = 0x1p24f;
+    const mat4 flatten(vec4(1, 0.3f, 0, 0), vec4(0), vec4(0, 0, 1, 0),
+                       vec4(far_away, far_away, 0, 1));
+    Scene scene;
+    scene.materials.resize(1);
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.positions = {{0, 0, 0}, {8, 1, 0}, {4, 5, 0}};
+    mesh.vertices = {Vertex{0}, Vertex{1}, Vertex{2}};
+    mesh.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0}};
+    ASSERT_EQ(flat_normal(mesh, mesh.triangles[0]), vec3(0, 0, 1)) << "before it is flattened";
+
+    struct {
+        ivec2 size = ::size;
+        bool show_depth = false;
+        MvpVariant mvp{.precision = Precision::float64, .clipping = Clipping::pixels};
+    } const options;
+    const vec3 center(far_away + 4, far_away + 2, 0), eye = center + vec3(0, 0, 4);
+    const Camera camera = {eye, look_at(eye, center, vec3(0, 1, 0)), 1.5f, 1, 10, center};
+    NoCounters ignored;
+    const Image<vec3> picture =
+        render_by_pixels(options, scene, {{mesh, flatten}}, camera, ignored);
+    const Image<vec3> nothing = backdrop(size);
+    const vec3 expected = flat_color(vec3(0, 1, 0), scene.materials[0]);
+    int seen = 0;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            if (picture[{x, y}] == nothing[{x, y}]) continue;
+            ++seen;
+            ASSERT_EQ((picture[{x, y}]), expected) << "pixel " << x << ", " << y;
+        }
+    EXPECT_GT(seen, 100);
 }
 
 TEST(MvpVariants, EveryKnobDraws) {
