@@ -269,6 +269,9 @@ TEST(MvpVariants, NeedlesBesideThePictureAndBehindTheCameraAreNotDrawn) {
     const ClipVertices beside = {vec4(-0x1.bfp+4f, -0x1.62ep-3f, 0, 1),
                                  vec4(-0x1.35p+2f, -0x1.ce2p-3f, 0, 1),
                                  vec4(-0x1.a19cdp+6f, 0x1.8ecc98p-29f, 0, 1)};
+    const ClipVertices far_left = {vec4(-0x1.097p+5f, 0x1.77p-5f, 0, 1),
+                                   vec4(-0x1.db8p+2f, -0x1.b5p-5f, 0, 1),
+                                   vec4(-0x1.549aa4p+4f, 0x1.dd3432p-33f, 0, 1)};
     const ClipVertices behind = {vec4(0x1.9cp+1f, -0x1.fp-3f, 0, 0),
                                  vec4(-0x1.2e4p+3f, 0x1.688p-1f, 0, -0.5f),
                                  vec4(-0x1.24c1ecp-2f, -0x1.ac1dd4p-30f, 0, -0x1.a1dd2ep+0f)};
@@ -280,6 +283,8 @@ TEST(MvpVariants, NeedlesBesideThePictureAndBehindTheCameraAreNotDrawn) {
     };
     EXPECT_EQ(visited(beside), std::vector<ivec2>{})
         << "left of the picture, on a line through pixel (1, 39)";
+    EXPECT_EQ(visited(far_left), std::vector<ivec2>{})
+        << "left of the picture, on a line through pixel (0, 34)";
     EXPECT_EQ(visited(behind), std::vector<ivec2>{})
         << "two vertices behind the camera, one beside it, in a plane through pixel (88, 32)";
 }

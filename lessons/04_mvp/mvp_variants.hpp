@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <vector>
 
 #include "02_triangle_fill/flat_color.hpp"
@@ -245,7 +246,7 @@ void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) 
     const HomogeneousTriangle of(triangle);
     if (!(of.volume > 0)) return;
     // The box around the vertices, or the whole picture if one of them is not in front.
-    dvec2 low(size), high(0);
+    dvec2 low(std::numeric_limits<double>::max()), high(-low);
     bool all_in_front = true, all_behind = true;
     for (const ClippedVertex& vertex : triangle) {
         const dvec4 p(vertex.position_clip);
