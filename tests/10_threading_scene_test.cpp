@@ -256,7 +256,17 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
                 WorkerCounters<Counters> counters(workers);
                 const BinnedTriangles triangles(pool, scene, meshes, clip_from_world, tiling,
                                                 culling, counters);
-                EXPECT_EQ(triangles.batches.size(), batches_of(count));
+                const std::size_t batches = triangles.batches.size();
+                ASSERT_EQ(batches, batches_of(count));
+                for (std::size_t b = 0; b < batches; ++b)
+                    for (const ProjectedTriangle& projected : triangles.batches[b].triangles) {
+                        const std::size_t number = number_of(projected, scene);
+                        ASSERT_TRUE(b * count / batches <= number &&
+                                    number < (b + 1) * count / batches)
+                            << "batch " << b << " of " << batches << " has the scene's triangle "
+                            << number << " of " << count
+                            << ": each has as many as the others, the first ones in the first";
+                    }
                 for (std::size_t tile = 0; tile < tiling.count(); ++tile)
                     ASSERT_EQ(listed(triangles, tile, scene), expected[tile])
                         << "the scene's triangles by number, in the order in which they are drawn, "
@@ -272,10 +282,13 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
 TEST(Threading, HardCase_NothingToDraw) {
     look_up("Eq. 10.7");
     const Tiling tiling(Split::tiles, {64, 64}, 3, 16);
-    ThreadPool pool(3);
     WorkerCounters<NoCounters> counters(3);
-    const BinnedTriangles none(pool, Scene(), {}, mat4(1), tiling, Culling::none, counters);
+    MeasuredPool idle(3);
+    const BinnedTriangles none(idle, Scene(), {}, mat4(1), tiling, Culling::none, counters);
     EXPECT_TRUE(none.batches.empty());
+    for (const std::vector<double>& tasks_ms : idle.jobs_ms)
+        EXPECT_TRUE(tasks_ms.empty()) << "without positions and triangles there is no task";
+    ThreadPool pool(3);
     // A mesh without triangles, one that is not taken, and one that nothing is left of.
     std::vector<Mesh> meshes(3);
     meshes[1].positions = {vec3(0), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0)};

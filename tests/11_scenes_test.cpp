@@ -231,6 +231,26 @@ TEST(Scenes, Eq11_3_EachSetOfEffectsHasAPermutationWithAllOfThem) {
     EXPECT_EQ(used.size(), all_permutations.size()) << "none is compiled for nothing";
 }
 
+TEST(Scenes, HardCase_MaterialsThatNoTriangleHasDoNotCount) {
+    look_up("Eq. 11.3");
+    // Seen or not, with a toon's paint or not: two materials, in all pairs of the four.
+    for (unsigned bits = 0; bits < 16; ++bits) {
+        ScenePlan plan{std::vector<MaterialPlan>(2)};
+        int seen = 0, seen_toons = 0;
+        for (unsigned m = 0; m < 2; ++m) {
+            const bool is_seen = bits >> (2 * m) & 1, is_toon = bits >> (2 * m + 1) & 1;
+            plan.materials[m].is_seen = is_seen;
+            plan.materials[m].effects.set(Effect::toon, is_toon);
+            seen += is_seen, seen_toons += is_seen && is_toon;
+        }
+        ASSERT_EQ(plan.any(Effect::toon), seen_toons > 0)
+            << "whether any seen material is a toon's: " << seen_toons << " of " << seen << " are";
+        ASSERT_EQ(plan.all(Effect::toon), seen_toons > 0 && seen_toons == seen)
+            << "whether all seen materials are a toon's: " << seen_toons << " of " << seen
+            << " are";
+    }
+}
+
 TEST(Scenes, Eq11_4_TheShadingBorderOfAToonMaterial) {
     const auto look = [](float toony, float shift) {
         return ToonMaterial{.toony = toony, .shift = shift};
