@@ -250,7 +250,7 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
                 });
             std::size_t count = 0;
             for (const Mesh& mesh : scene.meshes) count += mesh.triangles.size();
-            ASSERT_GT(count, 2 * min_batch) << "several batches";
+            ASSERT_GT(count, 2 * batch_size) << "several batches";
             for (const std::size_t workers : {1u, 2u, 7u, 61u}) {
                 ShuffledPool pool(workers, 5);
                 WorkerCounters<Counters> counters(workers);

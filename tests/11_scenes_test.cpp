@@ -245,9 +245,6 @@ TEST(Scenes, HardCase_MaterialsThatNoTriangleHasDoNotCount) {
         }
         ASSERT_EQ(plan.any(Effect::toon), seen_toons > 0)
             << "whether any seen material is a toon's: " << seen_toons << " of " << seen << " are";
-        ASSERT_EQ(plan.all(Effect::toon), seen_toons > 0 && seen_toons == seen)
-            << "whether all seen materials are a toon's: " << seen_toons << " of " << seen
-            << " are";
     }
 }
 

@@ -83,15 +83,16 @@ class TriangleBatch {
     std::vector<std::uint32_t> large_;  ///< Indices of the large triangles, ascending.
 };
 
-/// A batch takes at least so many triangles or positions: less is not worth a task.
-constexpr std::size_t min_batch = 256;
+/// A batch has at most so many triangles or positions, until there are max_batches: a task for far
+/// fewer is not worth it.
+constexpr std::size_t batch_size = 256;
 /// More than this many batches would take memory for their lists, and hardly share out the work
 /// better.
 constexpr std::size_t max_batches = 64;
 
 /// How many batches to make of so many things. It does not depend on the number of workers.
 inline std::size_t batches_of(std::size_t things) {
-    return std::min((things + min_batch - 1) / min_batch, max_batches);
+    return std::min((things + batch_size - 1) / batch_size, max_batches);
 }
 
 /// The first thing of a batch; behind the last batch, the end of all.

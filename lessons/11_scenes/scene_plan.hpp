@@ -47,13 +47,6 @@ struct ScenePlan {
         return std::ranges::any_of(
             materials, [&](const MaterialPlan& plan) { return plan.is_seen && plan[effect]; });
     }
-
-    /// Whether it runs for all of them, and there are some.
-    bool all(Effect effect) const {
-        return any(effect) && std::ranges::all_of(materials, [&](const MaterialPlan& plan) {
-                   return !plan.is_seen || plan[effect];
-               });
-    }
 };
 
 /// What a plan depends on beside the scene itself.
