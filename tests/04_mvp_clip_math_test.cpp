@@ -52,7 +52,7 @@ Sum distance_inside(int plane, const Vertices& vertices, lvec3 barycentrics) {
 
 /// A crossing of a crossing and so on, up to six. Each rounds its shares by 1 eps, which are the
 /// same for positions and for barycentrics, and products and sums by half an eps.
-constexpr real crossings = 6, of_shares = crossings * eps, of_sums = crossings * eps;
+constexpr real most_crossings = 6, of_shares = most_crossings * eps, of_sums = most_crossings * eps;
 
 /// What a product below the range of float loses, times the greatest number.
 constexpr real below_range = 0x1p-149L * 1e8L * 16;

@@ -233,7 +233,6 @@ TEST(Textures, HardCase_NotANumberSeesTheTexelAtZero) {
 }
 
 TEST(Textures, Eq5_5_EqualsTheExactOracleForAllSizes) {
-    constexpr int cases = 100'000;
     AnySize any(1, 9), any_little(1, 3);
     int left_out = 0;
     for (const int side : {512, 1, 3, 5, 7, 1000}) {
