@@ -56,7 +56,12 @@ struct FixedRow {
 template <typename Row, typename Visit, std::invocable<ivec2, float> Plot>
 void walk_line(ivec2 a, ivec2 b, ivec2 size, LineEnd end, Visit&& visit, Plot&& plot) {
     const LineSteps line(a, b);
-    const StepRange steps = steps_inside(line, size, end);
+    // As if there were another row on each side: Wu's second pixel may be inside where the line is
+    // not yet.
+    LineSteps line_in_more = line;
+    ++line_in_more.minor_start;
+    const ivec2 two_rows = line.steep ? ivec2(2, 0) : ivec2(0, 2);
+    const StepRange steps = steps_inside(line_in_more, size + two_rows, end);
     if (steps.first > steps.last) return;
     Row row(line, steps.first);
     const int minor_size = line.steep ? size.x : size.y;
@@ -86,7 +91,7 @@ void draw_line_as(LineMethod method, ivec2 a, ivec2 b, ivec2 size, LineEnd end, 
     };
     const auto both_neighbours = [](const FixedRow<32>& row, auto&& plot_inside) {
         const float share = row.beyond_above();
-        plot_inside(row.above(), 1.0f - share);
+        if (share < 1) plot_inside(row.above(), 1.0f - share);
         if (share > 0) plot_inside(row.above() + 1, share);
     };
     switch (method) {
