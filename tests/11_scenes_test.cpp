@@ -415,7 +415,7 @@ TEST(Scenes, Eq11_9_FragmentsAreBlendedBackToFrontInWhateverOrderTheyCome) {
 TEST(Scenes, Eq11_6_OutlinesHaveTheWidthThatIsAskedFor) {
     Scene scene;
     scene.materials.resize(3);
-    scene.materials[1].toon =
+    scene.materials[0].toon =
         ToonMaterial{.outline = ToonMaterial::Outline::world, .outline_width = 0.25f};
     scene.materials[2].toon = ToonMaterial{.outline = ToonMaterial::Outline::screen,
                                            .outline_width = 0.01f,
@@ -434,7 +434,7 @@ TEST(Scenes, Eq11_6_OutlinesHaveTheWidthThatIsAskedFor) {
     EXPECT_EQ(inked.materials[4].diffuse, vec3(0.5f));
     EXPECT_EQ(inked.materials[4].illumination, 0);
     const std::vector<OutlineHull> hulls = outline_hulls(inked);
-    ASSERT_EQ(hulls.size(), 2u) << "the first has none";
+    ASSERT_EQ(hulls.size(), 2u) << "the second has none";
     const Camera camera = orbit_camera({.distance = 6, .fov_degrees = 50}, scene.bounds());
     for (std::size_t h = 0; h < 2; ++h) {
         const Mesh hull = pushed(hulls[h], camera);
