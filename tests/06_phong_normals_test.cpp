@@ -246,6 +246,36 @@ TEST(Phong, HardCase_FacesThatCancel) {
     }
 }
 
+TEST(Phong, HardCase_WhereThousandsOfFacesMeetASheetKeepsItsTwoSides) {
+    look_up("Robust: Which faces count");
+    // A disc of narrow triangles around its middle, each with one of its back.
+    constexpr std::uint32_t sides = 1000;
+    // In double the angles' roundings add up to nothing; the sum is rounded to float.
+    constexpr double tolerance = 1e-6;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<vec3> positions = {vec3(0)};
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const double azimuth = 2 * std::numbers::pi * i / sides;
+            vec3 on_rim(0);
+            on_rim[(axis + 1) % 3] = static_cast<float>(std::cos(azimuth));
+            on_rim[(axis + 2) % 3] = static_cast<float>(std::sin(azimuth));
+            positions.push_back(on_rim);
+            const std::uint32_t a = 1 + i, b = 1 + (i + 1) % sides;
+            triangles.insert(triangles.end(), {{0, a, b}, {0, b, a}});
+        }
+        const SmoothNormals smooth(mesh_of(positions, triangles));
+        for (const float side : {1.0f, -1.0f}) {
+            vec3 of_face(0);
+            of_face[axis] = side;
+            const dvec3 sum = smooth.at(0, of_face);
+            ASSERT_NEAR(glm::length(sum - 2 * std::numbers::pi * dvec3(of_face)), 0, tolerance)
+                << "SmoothNormals::at() the middle of the side whose normal is " << shown(of_face)
+                << " is " << shown(vec3(sum)) << " instead of 2 pi times that";
+        }
+    }
+}
+
 TEST(Phong, HardCase_NormalsOfTinyAndHugeFaces) {
     look_up("Eq. 6.9");
     for (const float size : {1e-45f, 1e-40f, 1e-30f, 1e-19f, 1e19f, 1e30f, 3e38f}) {

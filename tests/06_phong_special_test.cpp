@@ -4,12 +4,14 @@
 #include <cfloat>
 #include <cmath>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "06_phong/phong.hpp"
 #include "06_phong/shading_variants.hpp"
+#include "06_phong/studio_lights.hpp"
 #include "support/light_in_words.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
@@ -201,4 +203,26 @@ TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
         lit += light.diffuse.x > 0;
     }
     EXPECT_GT(lit, many_cases / 20);
+}
+
+TEST(Phong, HardCase_StudioLightsOfAnySizeAreLights) {
+    look_up("Robust: A light at the surface, and scenes of all sizes");
+    for (const LightKind kind : light_kinds)
+        for (const float size : {0.0f, 1e-45f, 1e-30f, 1.0f, 1e30f})
+            for (const float length : {0.0f, 1e-45f, 1e-30f, 1.0f, 1e30f}) {
+                Bounds bounds;
+                bounds.add(vec3(-size));
+                bounds.add(vec3(size));
+                for (const Light& light :
+                     studio_lights(kind, bounds, length * vec3(-0.6f, 0.8f, 0))) {
+                    const std::string what = described(light) + "; of a scene of size " +
+                                             shown(size) + ", key light " + shown(length) + " away";
+                    ASSERT_TRUE(is_direction(light.direction_world)) << what;
+                    ASSERT_TRUE(
+                        are_within("place", light.position_world, -2 * size - 1, 2 * size + 1))
+                        << what;
+                    ASSERT_GE(light.half_distance, FLT_MIN) << what;
+                    ASSERT_LT(light.cos_none, light.cos_full) << what;
+                }
+            }
 }

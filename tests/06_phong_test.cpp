@@ -337,6 +337,9 @@ TEST(Phong, Eq6_6_AnExampleOfDistances) {
         ASSERT_EQ(incoming.toward, up) << "to the light, from the surface below it";
     }
     EXPECT_EQ(distance_attenuation(vec3(0)), 1) << "at the light";
+    const Light plain{LightKind::point, vec3(1), up};
+    EXPECT_EQ(incoming_light(plain, vec3{0, -1, 0}).color, vec3(0.5f))
+        << "at a distance of 1, if no half distance is given, below a " << described(plain);
 }
 
 TEST(Phong, Eq6_7_AnExampleOfSpots) {

@@ -182,6 +182,18 @@ TEST(Toon, Eq7_14_AThresholdIsAShareOfTheDistance) {
     EXPECT_EQ(ones(step_of(10.1f).edges(2)), 0) << what << "10.1; threshold 2%";
     ByHand rows = ByHand::of(size, [](ivec2 p) { return p.y < 4 ? 10.0f : 10.5f; });
     EXPECT_EQ(ones(rows.edges(2)), 2 * size.x) << what << "10.5, below it; threshold 2%";
+    // More than a threshold, not just as much: on a wall straight ahead nothing changes, and a fold
+    // of 90 degrees changes by the root of 2.
+    EXPECT_EQ(ones(step_of(10).edges(2, {0, 0})), 0) << "pixels inked on a wall, thresholds 0";
+    const float root = std::sqrt(2.0f);
+    for (const auto& [threshold, expected] :
+         {std::pair{root, 0}, {std::nextafter(root, 0.0f), 2 * size.y}}) {
+        ByHand fold = step_of(10);
+        for (ivec2 p(0); p.y < size.y; ++p.y)
+            for (p.x = 6; p.x < size.x; ++p.x) fold.normals[p] = vec3(1, 0, 0);
+        EXPECT_EQ(ones(fold.edges(2, {9, threshold})), expected)
+            << "pixels inked in 12 x 9, at a fold of 90 degrees; threshold " << shown(threshold);
+    }
     // Normals 20 and 40 degrees apart: 0.35 and 0.68.
     for (const auto& [degrees, expected] : {std::pair{20.0f, 0}, {40.0f, 2 * size.y}}) {
         ByHand fold = step_of(10);

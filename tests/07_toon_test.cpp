@@ -223,6 +223,19 @@ TEST(Toon, Eq7_5_IsTheMeanOfTheTones) {
     }
 }
 
+TEST(Toon, Eq7_5_BeyondAllTonesTheLevelIsExact) {
+    for (float change = 0.5f; change > 0x1p-60f; change /= 2)
+        for (const float beyond : {0.25f, 0.3f, 0.9f, 1.5f, 1e10f})
+            for (const int n : {2, 3, 4, 7, 255}) {
+                ASSERT_EQ(smoothly_quantised(1 + beyond, change, n), 1)
+                    << "all of the pixel is above 1: brightness " << shown(1 + beyond)
+                    << ", change " << shown(change) << ", of " << n << " tones";
+                ASSERT_EQ(smoothly_quantised(-beyond, change, n), 0)
+                    << "all of the pixel is below 0: brightness " << shown(-beyond) << ", change "
+                    << shown(change) << ", of " << n << " tones";
+            }
+}
+
 TEST(Toon, Eq7_5_WithoutChangeTonesAreHard) {
     for (const float change : {0.0f, -0.0f, not_a_number})
         for (int i = 0; i <= 1000; ++i) {

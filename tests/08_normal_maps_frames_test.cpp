@@ -366,6 +366,25 @@ TEST(NormalMaps, HardCase_LengthsDoNotCountInAFrame) {
     EXPECT_EQ(steep.tangent, along_x);
 }
 
+TEST(NormalMaps, Eq8_5_TakesTheStepsAsTheyAreWhereSquaresAreOrdinary) {
+    // The same bits as by hand, for tangents so short that the square of what is left is just above
+    // 1e-30, so long that their own is just below 1e30, and ordinary ones.
+    std::mt19937 random(11);
+    std::normal_distribution<float> normal;
+    const auto some = [&] { return vec3(normal(random), normal(random), normal(random)); };
+    for (int i = 0; i < 3000; ++i) {
+        const vec3 n = unit_or(some(), along_x), t = unit_or(some(), along_y);
+        const float part_left = glm::length(across(t, n));
+        if (part_left < 0.9f) continue;  // t leans by up to 26 degrees; one step does up to 30
+        for (const float size : {1.05e-15f / part_left, 1.0f, 0.95e15f}) {
+            const vec3 tangent = size * t, left = across(tangent, n);
+            ASSERT_EQ(unit_orthogonal(tangent, n), left * (1 / std::sqrt(glm::dot(left, left))))
+                << "of tangent " << shown(tangent) << ", normal " << shown(n) << ", of which "
+                << shown(left) << " is left (seed 11, case " << i << ")";
+        }
+    }
+}
+
 TEST(NormalMaps, Eq8_5_FramesAreOrthonormal) {
     // One step is exact enough where the tangent is not too near the normal.
     std::mt19937 random(10);
@@ -825,6 +844,23 @@ TEST(NormalMaps, HardCase_TangentsThatCancel) {
         EXPECT_TRUE(is_orthonormal(frame));
         EXPECT_EQ(frame.tangent, any_orthogonal(frame.normal));
     }
+}
+
+TEST(NormalMaps, HardCase_InACrowdOfAMillionTangentsStillCancel) {
+    look_up("Robust: The order must not matter");
+    // Up to 2^21 shares are added as they are, all bits of them: opposite ones leave 0. All but two
+    // of these triangles are points, whose three shares are 0 but count as triangles.
+    std::vector<std::array<std::uint32_t, 3>> faces(0x100000 / 3, {0, 0, 0});
+    faces.insert(faces.end(), {{0, 1, 2}, {0, 3, 4}});
+    const vec3 first(1, 0.3f, 0), second(-0.2f, 1, 0);
+    const Patch patch({vec3(0), first, second, -first, -second},
+                      {vec2(0), {1, 0}, {0, 1}, {1, 0}, {0, 1}}, faces,
+                      std::vector<vec3>(5, along_z));
+    const std::vector<vec4> tangents = patch.tangents();
+    for (const Triangle& triangle : {patch.mesh.triangles.end()[-2], patch.mesh.triangles.back()})
+        EXPECT_EQ(tangents[triangle.vertices[0].normal], vec4(any_orthogonal(along_z), 1))
+            << "at a vertex of two triangles with opposite tangents and a third of a million "
+               "points";
 }
 
 TEST(NormalMaps, HardCase_TransformedModels) {
