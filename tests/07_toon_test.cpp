@@ -234,6 +234,10 @@ TEST(Toon, Eq7_5_BeyondAllTonesTheLevelIsExact) {
                     << "all of the pixel is below 0: brightness " << shown(-beyond) << ", change "
                     << shown(change) << ", of " << n << " tones";
             }
+    EXPECT_NEAR(smoothly_quantised(4e14f, 2e15f, 4), 0.7, 1e-6)
+        << "all of the pixel but three tenths is above 1, by far";
+    EXPECT_LE(smoothly_quantised(0.854115427f, 2.4e-16f, 4), 1)
+        << "a change that is lost in the brightness";
 }
 
 TEST(Toon, Eq7_5_WithoutChangeTonesAreHard) {

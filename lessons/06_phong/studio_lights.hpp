@@ -19,7 +19,8 @@ namespace rasterbook {
 ///
 /// @param key      The key light's kind.
 /// @param bounds   Of the scene, world space.
-/// @param key_way  Where the key light stands as seen from the scene's centre; of any length.
+/// @param key_way  Where the key light stands as seen from the scene's centre; of any length,
+///                 and above where it is 0.
 inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds,
                                           vec3 key_way = {-1.2f, 0.5f, 0.6f}) {
     const vec3 center = bounds.center();

@@ -60,8 +60,8 @@ inline float smoothly_quantised(float brightness, float change, int tones) {
     const double from = brightness - double{change} / 2, to = brightness + double{change} / 2;
     if (!(from < to) || tones == 1) return quantised(brightness, tones);  // also for NaN
     if (to <= 0 || from >= 1) return from >= 1 ? 1.0f : 0.0f;
-    if (!(to - from < 1e15)) return 0.5f;  // as far on both sides of all tones
-    return static_cast<float>((area(to) - area(from)) / (to - from));
+    if (std::isinf(change)) return 0.5f;  // as far on both sides of all tones
+    return static_cast<float>(std::clamp((area(to) - area(from)) / (to - from), 0.0, 1.0));
 }
 
 /// How much of a pixel lies in a highlight, 0 to 1, in the same way.

@@ -172,7 +172,7 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
 /// angles there (Eq. 8.6). Vertices with the same position, normal, uv and handedness share one.
 ///
 /// Sums of whole numbers have no order: neither that of the triangles nor that of the vertices
-/// changes a bit. Where more than 2^21 triangles share a vertex, the last bits of each share do not
+/// changes a bit. Where 2^21 triangles or more share a vertex, the last bits of each share do not
 /// count, so that the sum stays in range.
 ///
 /// @param mesh    As complete_normals() leaves it: each vertex has a normal of its own.
