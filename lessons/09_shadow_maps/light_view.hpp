@@ -121,7 +121,7 @@ inline LightViews directional_light_views(const Light& light, const Bounds& cast
     const LightBox region = shadow_region(caster_box, receiver_box);
     if (!caster_box.is_usable() || !receiver_box.is_usable() || !region.is_usable()) return {};
     const LightBox box = widened(region, size);
-    // Towards the light is near: z changes its sign.
+    // In clip space, less z is nearer to the light: z changes sign.
     const dmat4 clip = scaling(dvec3(1, 1, -1)) * crop(box.low, box.high) * view;
     return {{mat4(clip)}, 1, false};
 }
