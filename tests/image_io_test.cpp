@@ -519,6 +519,20 @@ TEST_F(ImageIo, HardCase_UndefinedPartOfAJpegIsTheSameEachTime) {
     EXPECT_EQ(read(bytes), before);
 }
 
+TEST_F(ImageIo, HardCase_JpegWhoseScansEndEarlyIsAnErrorOrTheSameEachTime) {
+    // Found by random inputs: what is missing of its second scan was read as a shift by 32 bits.
+    const Bytes bytes = bytes_of(data_folder / "scan_ends_early.jpg");
+    const auto outcome = [&]() -> std::string {
+        try {
+            const Image<u8vec4> image = read(bytes);
+            return testing::PrintToString(image.size()) + testing::PrintToString(image.pixels());
+        } catch (const InputError& error) { return error.what(); }
+    };
+    const std::string before = outcome();
+    read_image(data_folder / "color_progressive.jpg");  // leaves other bytes behind in freed memory
+    EXPECT_EQ(outcome(), before);
+}
+
 struct BadFile {
     const char* what;
     Bytes bytes;
