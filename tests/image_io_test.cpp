@@ -521,7 +521,7 @@ TEST_F(ImageIo, HardCase_UndefinedPartOfAJpegIsTheSameEachTime) {
 
 TEST_F(ImageIo, HardCase_JpegWhoseScansEndEarlyIsAnErrorOrTheSameEachTime) {
     // Found by random inputs: what is missing of its second scan was read as a shift by 32 bits.
-    const Bytes bytes = bytes_of(data_folder / "scan_ends_early.jpg");
+    const Bytes bytes = bytes_of(data_folder / "../finds/scan_ends_early.jpg");
     const auto outcome = [&]() -> std::string {
         try {
             const Image<u8vec4> image = read(bytes);
