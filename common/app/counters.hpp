@@ -28,6 +28,7 @@ enum class Counter {
     normal_map_samples,
     meshes_with_tangents,
     shadow_passes,           ///< Depth maps drawn.
+    shadow_parts,            ///< Of depth maps, drawn because a pixel asked for them.
     shadow_fragments,        ///< Compared with a depth map's texel.
     shadow_tests,            ///< Points for which a depth map was asked, with all its texels.
     colored_fragments,       ///< Coloured by the colours of vertices.
@@ -55,6 +56,7 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "normal_map_samples",
     "meshes_with_tangents",
     "shadow_passes",
+    "shadow_parts",
     "shadow_fragments",
     "shadow_tests",
     "colored_fragments",

@@ -191,41 +191,55 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
     return result;
 }
 
-/// The visibility of a light at a point: the share of the taps of a square of texels, around the
-/// point's position in the map, that say lit, 0 to 1 (Eq. 9.7 and 9.13).
+/// Where the taps of a shadow test lie, and the depth that they are compared with.
+struct PcfKernel {
+    bool is_in_map = false;  ///< Else the point is lit.
+    ivec2 middle{0};         ///< The texel in which the point lies.
+    float depth = 0;         ///< The surface's at this texel's centre, less the bias.
+    vec2 slope{0};           ///< As in Receiver.
+};
+
+/// The kernel around a point's position in the map (Eq. 9.6).
 ///
-/// @tparam radius         0 to max_pcf_radius: 1, 9, 25 or 49 taps.
 /// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
-///                        lit.
-template <int radius>
-float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
-    static_assert(radius >= 0 && radius <= max_pcf_radius);
+///                        not in the map.
+inline PcfKernel pcf_kernel(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
     const mat4& m = map.texels_from_world;
     float w = 1, per_w = 1;
     if (map.is_perspective) w = (m * vec4(position_world, 1)).w;  // Eq. 9.12
     const vec3 moved = position_world + receiver.offset + w * receiver.offset_times_w;
     const vec4 place_times_w = m * vec4(moved, 1);  // Eq. 9.6
     if (map.is_perspective) {
-        if (!(place_times_w.w > 0)) return 1;
+        if (!(place_times_w.w > 0)) return {};
         per_w = 1 / place_times_w.w;
     }
     const vec3 place = vec3(place_times_w) * per_w;
     const auto end = static_cast<float>(map.size);
-    if (!(place.x >= 0 && place.y >= 0 && place.x < end && place.y < end)) return 1;
+    if (!(place.x >= 0 && place.y >= 0 && place.x < end && place.y < end)) return {};
 
-    const int column = static_cast<int>(place.x), row = static_cast<int>(place.y);
-    // At the centre of the texel in the middle.
+    const ivec2 middle(place);
     const float depth = place.z - (receiver.bias + receiver.bias_per_w * per_w) +
-                        receiver.slope.x * (static_cast<float>(column) + 0.5f - place.x) +
-                        receiver.slope.y * (static_cast<float>(row) + 0.5f - place.y);
+                        receiver.slope.x * (static_cast<float>(middle.x) + 0.5f - place.x) +
+                        receiver.slope.y * (static_cast<float>(middle.y) + 0.5f - place.y);
+    return {true, middle, depth, receiver.slope};
+}
+
+/// The visibility of a light at a point: the share of the kernel's taps that say lit, 0 to 1
+/// (Eq. 9.7 and 9.13).
+///
+/// @tparam radius  0 to max_pcf_radius: 1, 9, 25 or 49 taps.
+template <int radius>
+float pcf_visibility(const ShadowMap& map, const PcfKernel& kernel) {
+    static_assert(radius >= 0 && radius <= max_pcf_radius);
+    if (!kernel.is_in_map) return 1;
     const Image<float>& depths = map.depths.depths();
     float lit = 0;
     for (int y = -radius; y <= radius; ++y) {
-        const float* const texels = &depths[{column + max_pcf_radius, row + y + max_pcf_radius}];
-        const float depth_in_row = depth + receiver.slope.y * static_cast<float>(y);
+        const float* const texels = &depths[kernel.middle + max_pcf_radius + ivec2(0, y)];
+        const float depth_in_row = kernel.depth + kernel.slope.y * static_cast<float>(y);
         for (int x = -radius; x <= radius; ++x) {
             // Beyond the last caster: as far as nothing.
-            const float at_texel = std::min(depth_in_row + receiver.slope.x * static_cast<float>(x),
+            const float at_texel = std::min(depth_in_row + kernel.slope.x * static_cast<float>(x),
                                             DepthBuffer::cleared);
             lit += at_texel <= texels[x] ? 1.0f : 0.0f;
         }
@@ -234,18 +248,23 @@ float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 positi
     return lit / (side * side);
 }
 
+/// The same at a point.
+template <int radius>
+float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+    return pcf_visibility<radius>(map, pcf_kernel(map, receiver, position_world));
+}
+
 /// The same for a radius that is known only when the program runs.
-inline float pcf_visibility(const ShadowMap& map, int radius, const Receiver& receiver,
-                            vec3 position_world) {
+inline float pcf_visibility(const ShadowMap& map, int radius, const PcfKernel& kernel) {
     switch (radius) {
         case 0:
-            return pcf_visibility<0>(map, receiver, position_world);
+            return pcf_visibility<0>(map, kernel);
         case 1:
-            return pcf_visibility<1>(map, receiver, position_world);
+            return pcf_visibility<1>(map, kernel);
         case 2:
-            return pcf_visibility<2>(map, receiver, position_world);
+            return pcf_visibility<2>(map, kernel);
         default:
-            return pcf_visibility<3>(map, receiver, position_world);
+            return pcf_visibility<3>(map, kernel);
     }
 }
 

@@ -201,9 +201,11 @@ constexpr float full_cosine = 0.1f;
 ///
 /// @param l       The light's number.
 /// @param normal  The surface's own, no map's; of any length.
-template <typename CounterPolicy>
+/// @param before  Called as before(map, kernel) before the taps are read: the map's number, counted
+///                through all lights, and a kernel that is in the map.
+template <typename CounterPolicy, typename Before>
 float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleReceiver& triangle,
-                       vec3 position, vec3 normal, CounterPolicy& counters) {
+                       vec3 position, vec3 normal, CounterPolicy& counters, const Before& before) {
     const LightShadowMaps& of_light = shadow_maps.of_light[l];
     if (of_light.maps.empty()) return 1;
     const vec3 from_light = position - of_light.light.position_world;
@@ -222,7 +224,17 @@ float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleRec
     if (!bias)  // most triangles are seen in one map of a point light, and from one side
         bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
                         is_back ? -triangle.front : triangle.front);
-    return faded * pcf_visibility(map, shadow_maps.radius, *bias, position);
+    const PcfKernel kernel = pcf_kernel(map, *bias, position);
+    if (kernel.is_in_map) before(of_light.first_map + i, kernel);
+    return faded * pcf_visibility(map, shadow_maps.radius, kernel);
+}
+
+/// The same with maps that are drawn.
+template <typename CounterPolicy>
+float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleReceiver& triangle,
+                       vec3 position, vec3 normal, CounterPolicy& counters) {
+    return light_visibility(shadow_maps, l, triangle, position, normal, counters,
+                            [](std::size_t, const PcfKernel&) {});
 }
 
 }  // namespace rasterbook

@@ -123,6 +123,8 @@ class BinnedTriangles {
   public:
     std::vector<TriangleBatch> batches;
 
+    BinnedTriangles() = default;  ///< None.
+
     /// Transforms, clips and bins them.
     ///
     /// Counts as the earlier lessons do: triangles_in each one that is taken, and

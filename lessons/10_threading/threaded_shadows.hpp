@@ -40,35 +40,53 @@ inline void clear_tile(ShadowMap& map, const Tile& tile) {
     });
 }
 
+/// The triangles that cast shadows into a map, binned.
+///
+/// @param pool    Has size() and run() as ThreadPool does.
+/// @param tiling  Of a picture of map.size * map.size.
+template <typename Pool>
+BinnedTriangles casters_of(Pool& pool, const ShadowMap& map, const Scene& scene,
+                           const Tiling& tiling) {
+    std::vector<const Mesh*> meshes;
+    for (const Mesh& mesh : scene.meshes)
+        if (!is_outside_frustum(mesh.bounds, map.clip_from_world)) meshes.push_back(&mesh);
+    WorkerCounters<NoCounters> uncounted(pool.size());
+    const auto casts = [&](std::size_t material) {
+        return casts_shadows(scene.materials[material]);
+    };
+    return {pool, scene, meshes, map.clip_from_world, tiling, Culling::none, casts, uncounted};
+}
+
+/// Clears a tile of a map's texels and draws the depths of the casters into it.
+///
+/// @param i  The tile's number in the tiling.
+template <typename CounterPolicy>
+void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& tiling, std::size_t i,
+               CounterPolicy& counters) {
+    const Tile tile = tiling[i];
+    clear_tile(map, tile);
+    casters.for_each_in(i, [&](const ProjectedTriangle& caster) {
+        fill_tile(caster.on_screen, tile, [&](ivec2 texel, Barycentrics at) {
+            counters.add(Counter::shadow_fragments);
+            map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(at));
+        });
+    });
+}
+
 /// Clears a map and draws the depths of a scene's casters into it: the same bits, and the same
 /// count of fragments, as by draw_casters().
 ///
 /// @param pool      Has size() and run() as ThreadPool does.
-/// @param tiling   Of a picture of map.size * map.size.
+/// @param tiling    Of a picture of map.size * map.size.
 /// @param is_drawn  Else the map is cleared only.
 /// @param counters  One for each worker of the pool.
 template <typename Pool, typename CounterPolicy>
 void draw_map(Pool& pool, ShadowMap& map, const Scene& scene, const Tiling& tiling, bool is_drawn,
               WorkerCounters<CounterPolicy>& counters) {
-    std::vector<const Mesh*> meshes;
-    for (const Mesh& mesh : scene.meshes)
-        if (is_drawn && !is_outside_frustum(mesh.bounds, map.clip_from_world))
-            meshes.push_back(&mesh);
-    WorkerCounters<NoCounters> uncounted(pool.size());
-    const auto casts = [&](std::size_t material) {
-        return casts_shadows(scene.materials[material]);
-    };
-    const BinnedTriangles casters(pool, scene, meshes, map.clip_from_world, tiling, Culling::none,
-                                  casts, uncounted);
-    pool.run(tiling.count(), [&](std::size_t tile, std::size_t worker) {
-        CounterPolicy& own_counters = counters[worker];
-        clear_tile(map, tiling[tile]);
-        casters.for_each_in(tile, [&](const ProjectedTriangle& caster) {
-            fill_tile(caster.on_screen, tiling[tile], [&](ivec2 texel, Barycentrics at) {
-                own_counters.add(Counter::shadow_fragments);
-                map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(at));
-            });
-        });
+    BinnedTriangles casters;
+    if (is_drawn) casters = casters_of(pool, map, scene, tiling);
+    pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
+        draw_tile(map, casters, tiling, i, counters[worker]);
     });
 }
 

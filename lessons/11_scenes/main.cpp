@@ -1,40 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 11: scenes of any file.
-#include <optional>
-
-#include "06_phong/shading_variants.hpp"
-#include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
-#include "11_scenes/explain.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_options.hpp"
+#include "11_scenes/scene_program.hpp"
 #include "11_scenes/shaders.hpp"
-#include "common/app/lesson_app.hpp"
 
 using namespace rasterbook;
 
-struct Options : LessonOptions {
-    Orbit orbit;
-    bool show_depth = false;
-    SceneOptions scene;
-    TextureOptions texture;
-    LightOptions shading{.key_light = LightKind::directional};
-    NormalMapVariant normal_map;
-    ShadowVariant shadow;
-    ThreadOptions threads;
-
-    Options() { model = "bumpy.glb"; }
-    void declare(Knobs& knobs) {
-        scene.declare(knobs, *this);
-        texture.declare(knobs);
-        shading.declare(knobs);
-        normal_map.declare(knobs);
-        shadow.declare(knobs);
-        threads.declare(knobs);
-    }
-};
+using Options = SceneRendererOptions;
 
 template <typename Pool, typename CounterPolicy>
 static Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool,
@@ -54,12 +30,8 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     const std::vector<Mesh> outlines = outlines_of(assets, camera);
     const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world, total);
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    std::vector<BinnedTriangles> opaque, blended;
-    for (const Pass& pass : passes_of(plan, meshes))
-        (pass.is_blended ? blended : opaque)
-            .emplace_back(
-                pool, scene, pass.meshes, clip_from_world, tiling, pass.culling,
-                [&](std::size_t material) { return pass.takes(plan, material); }, counters_of);
+    const BinnedPasses passes =
+        bin_passes(pool, assets, meshes, clip_from_world, tiling, counters_of);
 
     clock.begin("picture");
     const Shaders<CounterPolicy> shaders(plan);
@@ -81,9 +53,9 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
                                                      counters_of[worker]);
             });
         };
-        for (const BinnedTriangles& pass : opaque) draw(pass, tile);
-        for_each_part(tile, count_in(blended, i), [&](const Tile& part) {
-            for (const BinnedTriangles& pass : blended) draw(pass, part);
+        for (const BinnedTriangles& pass : passes.opaque) draw(pass, tile);
+        for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
+            for (const BinnedTriangles& pass : passes.blended) draw(pass, part);
             transparent.blend_over(color);
         });
         if (options.threads.show) tint(color, tile, worker);
@@ -94,17 +66,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "11_scenes", "Draws a scene of any file, and what it calls for.",
-        make_scene_assets<Options>,
-        [](const Options& options, const SceneAssets& assets, Counters& counters) {
-            thread_local std::optional<ThreadPool> pool;
-            if (!pool) pool.emplace(options.threads.threads);  // once for all frames
-            StepClock clock;
-            Image<vec3> picture = render(options, assets, *pool, counters, clock);
-            if (options.scene.explain)
-                explain(assets, camera_of_picture(options, options.scene.camera, assets.scene).name,
-                        counters, clock);
-            return picture;
-        });
+    return run_scene_lesson<Options>(argc, argv, "11_scenes",
+                                     "Draws a scene of any file, and what it calls for.",
+                                     [](auto&... with) { return render(with...); });
 }

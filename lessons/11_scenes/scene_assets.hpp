@@ -113,6 +113,28 @@ inline std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* 
     return passes;
 }
 
+/// The triangles of a picture, binned by passes.
+struct BinnedPasses {
+    std::vector<BinnedTriangles> opaque, blended;
+};
+
+/// Transforms, clips and bins the triangles of each pass.
+///
+/// @param meshes    Those in the camera's view.
+/// @param counters  One for each worker of the pool.
+template <typename Pool, typename CounterPolicy>
+BinnedPasses bin_passes(Pool& pool, const SceneAssets& assets, std::span<const Mesh* const> meshes,
+                        const mat4& clip_from_world, const Tiling& tiling,
+                        WorkerCounters<CounterPolicy>& counters) {
+    BinnedPasses binned;
+    for (const Pass& pass : passes_of(assets.plan, meshes))
+        (pass.is_blended ? binned.blended : binned.opaque)
+            .emplace_back(
+                pool, assets.scene, pass.meshes, clip_from_world, tiling, pass.culling,
+                [&](std::size_t material) { return pass.takes(assets.plan, material); }, counters);
+    return binned;
+}
+
 /// How many triangles of several passes may reach into a tile.
 inline std::size_t count_in(std::span<const BinnedTriangles> passes, std::size_t tile) {
     std::size_t count = 0;

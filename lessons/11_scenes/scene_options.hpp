@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a scene can be asked for beside the knobs of the earlier lessons: `--quality`, `--camera`
-/// and `--explain`.
+/// What a scene can be asked for: `--quality`, `--camera` and `--explain`, and the knobs of the
+/// earlier lessons.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "05_textures/texture_variants.hpp"
+#include "06_phong/shading_variants.hpp"
+#include "08_normal_maps/normal_map_variants.hpp"
 #include "09_shadow_maps/shadow_variants.hpp"
+#include "10_threading/thread_options.hpp"
 #include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
@@ -52,6 +55,24 @@ struct SceneOptions {
             "One of the file's cameras, or our own [the first one, if no orbit is asked for]");
         knobs.flag("--explain", explain,
                    "Say what is drawn, what is left out and why, and how long it takes");
+    }
+};
+
+/// All that this lesson's program can be asked for.
+struct SceneRendererOptions : LessonOptions {
+    Orbit orbit;
+    bool show_depth = false;
+    SceneOptions scene;
+    TextureOptions texture;
+    LightOptions shading{.key_light = LightKind::directional};
+    NormalMapVariant normal_map;
+    ShadowVariant shadow;
+    ThreadOptions threads;
+
+    SceneRendererOptions() { model = "bumpy.glb"; }
+    void declare(Knobs& knobs) {
+        scene.declare(knobs, *this);
+        declare_all(knobs, texture, shading, normal_map, shadow, threads);
     }
 };
 

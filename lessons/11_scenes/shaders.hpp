@@ -59,12 +59,15 @@ inline std::size_t permutation_of(const MaterialPlan& plan) {
 }
 
 /// What a picture is drawn with, and into.
+///
+/// @tparam Maps  ShadowMaps, or other maps that there is a light_visibility() for.
+template <typename Maps = ShadowMaps>
 struct Frame {
     const SceneAssets& assets;
     NormalMapVariant normal_map;
     Filter filter;
     vec3 eye_world;
-    const ShadowMaps& shadow_maps;
+    const Maps& shadow_maps;
     Image<vec3>& color;
     DepthBuffer& depth;
 };
@@ -103,78 +106,95 @@ float opacity_at(const TriangleSurface& surface, const VertexColors& colors,
     return clamp(opacity, 0.0f, 1.0f);
 }
 
-/// Draws what of a triangle lies in a tile.
-///
-/// @param transparent  Takes the transparent fragments.
-template <Permutation with, typename CounterPolicy>
-void draw_triangle(const Frame& frame, const ProjectedTriangle& projected, const Tile& tile,
-                   TransparentFragments& transparent, CounterPolicy& counters) {
+/// What a shader has to know of a triangle: the same for all of its pixels.
+struct TriangleInputs {
+    TriangleSurface surface;
+    PerspectiveSetup setup;
+    VertexColors colors;
+    TriangleNormalMap normal_map;
+    TriangleReceiver receiver;  ///< Keeps the biases that have been fitted.
+};
+
+template <Permutation with, typename Maps>
+TriangleInputs triangle_inputs(const Frame<Maps>& frame, const ProjectedTriangle& projected) {
     const SceneAssets& assets = frame.assets;
-    const std::span<const Light> lights = assets.lit_by.lights;
-    const MaterialPlan& plan = assets.plan.materials[projected.triangle.material];
-    TriangleSurface surface =
-        triangle_surface(assets.scene, assets.textures, plan.effects, projected);
+    const EffectMask effects = assets.plan.materials[projected.triangle.material].effects;
+    TriangleSurface surface = triangle_surface(assets.scene, assets.textures, effects, projected);
     if constexpr (with.model == ShadingModel::toon)
         surface.own_color.ambient = surface.material.toon->shade;
-    const PerspectiveSetup setup = perspective_setup(projected);
-    const VertexColors colors = vertex_colors(plan.effects, projected);
     TriangleNormalMap normal_map;
     if constexpr (with.normal_map)
         normal_map =
             triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
-    TriangleReceiver receiver = triangle_receiver(surface.positions_world);
+    return {surface, perspective_setup(projected), vertex_colors(effects, projected), normal_map,
+            triangle_receiver(surface.positions_world)};
+}
 
-    const auto shaded = [&](const FragmentBarycentrics& at) {
-        SurfaceColor own = surface_color(surface, at, frame.filter, counters);
-        if (colors.are_there) {  // Eq. 11.10
-            counters.add(Counter::colored_fragments);
-            own.tint(vec3(colors.at(at.here)));
-        }
-        if constexpr (with.model == ShadingModel::unlit) {
-            return unlit(own);
+/// The colour of a fragment: the stages of lessons 05 to 11, without those that the permutation
+/// lacks.
+template <Permutation with, typename Maps, typename CounterPolicy>
+vec3 shaded(const Frame<Maps>& frame, TriangleInputs& triangle, const FragmentBarycentrics& at,
+            CounterPolicy& counters) {
+    const TriangleSurface& surface = triangle.surface;
+    const std::span<const Light> lights = frame.assets.lit_by.lights;
+    SurfaceColor own = surface_color(surface, at, frame.filter, counters);
+    if (triangle.colors.are_there) {  // Eq. 11.10
+        counters.add(Counter::colored_fragments);
+        own.tint(vec3(triangle.colors.at(at.here)));
+    }
+    if constexpr (with.model == ShadingModel::unlit) {
+        return unlit(own);
+    } else {
+        const vec3 own_normal = interpolate(surface.normals_world, at.here);
+        vec3 normal = own_normal;
+        if constexpr (with.normal_map)
+            normal = normal_mapped(triangle.normal_map, frame.normal_map, at, own_normal,
+                                   frame.filter, counters);
+        const SurfacePoint<float> point =
+            surface_point(surface, at.here, normal, frame.eye_world, counters);
+        const auto visibility = [&](std::size_t l) {
+            if constexpr (with.shadow)
+                return light_visibility(frame.shadow_maps, l, triangle.receiver,
+                                        point.position_world, own_normal, counters);
+            else
+                return 1.0f;
+        };
+        if constexpr (with.model == ShadingModel::phong) {
+            return phong(own, ambient_light,
+                         reflected_light(lights, point, highlight_of(surface), visibility));
         } else {
-            const vec3 own_normal = interpolate(surface.normals_world, at.here);
-            vec3 normal = own_normal;
-            if constexpr (with.normal_map)
-                normal = normal_mapped(normal_map, frame.normal_map, at, own_normal, frame.filter,
-                                       counters);
-            const SurfacePoint<float> point =
-                surface_point(surface, at.here, normal, frame.eye_world, counters);
-            const auto visibility = [&](std::size_t l) {
-                if constexpr (with.shadow)
-                    return light_visibility(frame.shadow_maps, l, receiver, point.position_world,
-                                            own_normal, counters);
-                else
-                    return 1.0f;
-            };
-            if constexpr (with.model == ShadingModel::phong) {
-                return phong(own, ambient_light,
-                             reflected_light(lights, point, highlight_of(surface), visibility));
-            } else {
-                counters.add(Counter::toon_fragments);
-                const float level = toon_level(lights, point.position_world, normal,
-                                               *surface.material.toon, visibility);
-                return own.emission + toon_paint(own.ambient, own.diffuse, level);
-            }
+            counters.add(Counter::toon_fragments);
+            const float level = toon_level(lights, point.position_world, normal,
+                                           *surface.material.toon, visibility);
+            return own.emission + toon_paint(own.ambient, own.diffuse, level);
         }
-    };
+    }
+}
 
+/// Draws what of a triangle lies in a tile.
+///
+/// @param transparent  Takes the transparent fragments.
+template <Permutation with, typename CounterPolicy>
+void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, const Tile& tile,
+                   TransparentFragments& transparent, CounterPolicy& counters) {
+    const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
+    TriangleInputs triangle = triangle_inputs<with>(frame, projected);
     const bool is_masked = plan[Effect::mask], is_blended = plan[Effect::blend];
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         counters.add(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
         if (!(depth < frame.depth.depths()[pixel])) return;
-        const FragmentBarycentrics at = perspective_correct(setup, on_screen);
+        const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
         float opacity = 1;  // of all that is neither glass nor has holes
         if (is_masked || plan.is_glass)
-            opacity = opacity_at(surface, colors, at, frame.filter, counters);
+            opacity = opacity_at(triangle.surface, triangle.colors, at, frame.filter, counters);
         if (is_masked) {
             counters.add(Counter::alpha_tested_fragments);
-            if (!passes_alpha_test(opacity, surface.material.alpha_cutoff)) return;
+            if (!passes_alpha_test(opacity, triangle.surface.material.alpha_cutoff)) return;
             opacity = 1;
         }
         counters.add(Counter::fragments_shaded);
-        const vec3 color = shaded(at);
+        const vec3 color = shaded<with>(frame, triangle, at, counters);
         if (is_blended) {  // what lies behind stays visible: no depth is written
             counters.add(Counter::blended_fragments);
             transparent.add({pixel, depth, opacity, color});
@@ -189,7 +209,7 @@ void draw_triangle(const Frame& frame, const ProjectedTriangle& projected, const
 template <typename CounterPolicy>
 class Shaders {
   public:
-    using Shader = void (*)(const Frame&, const ProjectedTriangle&, const Tile&,
+    using Shader = void (*)(const Frame<>&, const ProjectedTriangle&, const Tile&,
                             TransparentFragments&, CounterPolicy&);
 
     explicit Shaders(const ScenePlan& plan) {

@@ -29,7 +29,7 @@ struct LitBy : NoCounters {};
 /// Lesson 11's shader of opaque, lit surfaces with these choices. Flat and Gouraud shading test the
 /// shadows at the face's centre or at the vertices, too, and have no place for normal maps.
 template <Shading shading, Power power>
-void draw_lit_by(const Frame& frame, const ProjectedTriangle& projected, const Tile& tile,
+void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const Tile& tile,
                  TransparentFragments&, LitBy<shading, power>& counters) {
     const SceneAssets& assets = frame.assets;
     const std::span<const Light> lights = assets.lit_by.lights;

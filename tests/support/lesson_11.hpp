@@ -5,22 +5,17 @@
 #pragma once
 
 // All that main.cpp includes, so that what is left of it are its own lines.
-#include <optional>
-
-#include "06_phong/shading_variants.hpp"
-#include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
-#include "11_scenes/explain.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_options.hpp"
+#include "11_scenes/scene_program.hpp"
 #include "11_scenes/shaders.hpp"
-#include "common/app/lesson_app.hpp"
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
 namespace lesson_11 {
-using rasterbook::test::run_lesson;
+using rasterbook::test::run_scene_lesson;
 #include "lessons/11_scenes/main.cpp"
 #ifdef RENDER_IS_COMPILED_APART
 Image<vec3> render(const Options&, const SceneAssets&, ThreadPool&, Counters&, StepClock&);

@@ -11,4 +11,9 @@ int run_lesson(Arguments&&...) {
     return 0;
 }
 
+template <typename Options, typename... Arguments>
+int run_scene_lesson(Arguments&&...) {
+    return 0;
+}
+
 }  // namespace rasterbook::test

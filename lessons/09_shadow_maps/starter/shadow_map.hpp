@@ -170,43 +170,64 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
     return result;
 }
 
-/// The visibility of a light at a point: the share of the taps of a square of texels, around the
-/// point's position in the map, that say lit, 0 to 1 (Eq. 9.7 and 9.13).
+/// Where the taps of a shadow test lie, and the depth that they are compared with.
+struct PcfKernel {
+    bool is_in_map = false;  ///< Else the point is lit.
+    ivec2 middle{0};         ///< The texel in which the point lies.
+    float depth = 0;         ///< The surface's at this texel's centre, less the bias.
+    vec2 slope{0};           ///< As in Receiver.
+};
+
+/// The kernel around a point's position in the map (Eq. 9.6).
 ///
-/// @tparam radius         0 to max_pcf_radius: 1, 9, 25 or 49 taps.
 /// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
-///                        lit.
-template <int radius>
-float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
-    static_assert(radius >= 0 && radius <= max_pcf_radius);
-    // TODO: step 1: find the point's position in the map (Eq. 9.6), and make the test of Eq. 9.7
-    // with receiver.bias. Texel (i, j) is
-    //     map.depths.depths()[{i + max_pcf_radius, j + max_pcf_radius}].
-    // Return 1, lit, unless x >= 0, y >= 0, x < R and y < R; in a perspective also unless w > 0,
-    // before anything is divided.
-    //
-    // Step 3: Eq. 9.7 for each tap of the kernel, which may reach into the border, and Eq. 9.13.
+///                        not in the map.
+inline PcfKernel pcf_kernel(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+    // TODO: step 1: find the point's position in the map (Eq. 9.6). It is in the map if x >= 0,
+    // y >= 0, x < R and y < R; in a perspective only if w > 0, too: ask that before anything is
+    // divided. `depth` is z less receiver.bias.
     //
     // Step 5: first move the point by offset + w offset_times_w (Eq. 9.12), where w is that of the
     // point not yet moved, 1 for a directional light. All else is of the moved point. Take bias +
-    // bias_per_w / w off its depth (Eq. 9.10). For each tap, add slope.x times the way from the
-    // point to the centre of the tap's texel, in texels to the right, and slope.y times that down
-    // (Eq. 9.11); then comes the minimum.
+    // bias_per_w / w off its depth (Eq. 9.10). Then add slope.x times the way from the point to the
+    // centre of its texel, in texels to the right, and slope.y times that down (Eq. 9.11).
+    return {};
+}
+
+/// The visibility of a light at a point: the share of the kernel's taps that say lit, 0 to 1
+/// (Eq. 9.7 and 9.13).
+///
+/// @tparam radius  0 to max_pcf_radius: 1, 9, 25 or 49 taps.
+template <int radius>
+float pcf_visibility(const ShadowMap& map, const PcfKernel& kernel) {
+    static_assert(radius >= 0 && radius <= max_pcf_radius);
+    // TODO: step 1: the test of Eq. 9.7 for the texel in the middle. Texel (i, j) is
+    //     map.depths.depths()[{i + max_pcf_radius, j + max_pcf_radius}].
+    // Return 1, lit, where the kernel is not in the map.
+    //
+    // Step 3: Eq. 9.7 for each tap of the kernel, which may reach into the border, and Eq. 9.13.
+    //
+    // Step 5: the depth changes by kernel.slope from tap to tap (Eq. 9.11); then comes the minimum.
     return 1;
 }
 
+/// The same at a point.
+template <int radius>
+float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+    return pcf_visibility<radius>(map, pcf_kernel(map, receiver, position_world));
+}
+
 /// The same for a radius that is known only when the program runs.
-inline float pcf_visibility(const ShadowMap& map, int radius, const Receiver& receiver,
-                            vec3 position_world) {
+inline float pcf_visibility(const ShadowMap& map, int radius, const PcfKernel& kernel) {
     switch (radius) {
         case 0:
-            return pcf_visibility<0>(map, receiver, position_world);
+            return pcf_visibility<0>(map, kernel);
         case 1:
-            return pcf_visibility<1>(map, receiver, position_world);
+            return pcf_visibility<1>(map, kernel);
         case 2:
-            return pcf_visibility<2>(map, receiver, position_world);
+            return pcf_visibility<2>(map, kernel);
         default:
-            return pcf_visibility<3>(map, receiver, position_world);
+            return pcf_visibility<3>(map, kernel);
     }
 }
 

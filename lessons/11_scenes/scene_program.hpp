@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The program around the picture of a scene: lesson_app.hpp's, with a pool of threads and
+/// `--explain`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "10_threading/thread_pool.hpp"
+#include "11_scenes/explain.hpp"
+#include "11_scenes/scene_assets.hpp"
+#include "11_scenes/scene_camera.hpp"
+#include "common/app/lesson_app.hpp"
+
+namespace rasterbook {
+
+/// As run_lesson().
+///
+/// @tparam Options  Derived from SceneRendererOptions.
+/// @param render    Called as render(const Options&, const SceneAssets&, ThreadPool&, Counters&,
+///                  StepClock&).
+template <typename Options, typename Render>
+int run_scene_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
+    return run_lesson<Options>(
+        argc, argv, std::move(name), std::move(title), make_scene_assets<Options>,
+        [render](const Options& options, const SceneAssets& assets, Counters& counters) {
+            thread_local std::optional<ThreadPool> pool;
+            if (!pool) pool.emplace(options.threads.threads);  // once for all frames
+            StepClock clock;
+            Image<vec3> picture = render(options, assets, *pool, counters, clock);
+            if (options.scene.explain)
+                explain(assets, camera_of_picture(options, options.scene.camera, assets.scene).name,
+                        counters, clock);
+            return picture;
+        });
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Which triangle is visible in each pixel. Introduced in lesson 12; derivation:
+/// docs/derivations/12_visibility_buffer.md.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "04_mvp/projection.hpp"
+#include "10_threading/split.hpp"
+
+namespace rasterbook {
+
+/// A triangle's place in the list of its tile, in drawing order.
+using TriangleId = std::uint32_t;
+
+constexpr TriangleId no_triangle = std::numeric_limits<TriangleId>::max();
+
+/// Pixels that follow each other in a row.
+struct PixelRun {
+    ivec2 first;
+    int length;
+};
+
+/// The barycentric coordinates of all of a triangle's pixels, before they are divided by its area:
+/// three planes over the screen (Eq. 12.2).
+class BarycentricPlanes {
+  public:
+    /// @param triangle  With an area.
+    explicit BarycentricPlanes(const ScreenTriangle& triangle)
+        : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
+        const int winding = triangle.twice_area > 0 ? 1 : -1;
+        for (std::size_t i = 0; i < 3; ++i) {  // as fill_triangle() walks: opposite to the vertex
+            const EdgeWalk edge(triangle.vertices[(i + 1) % 3], triangle.vertices[(i + 2) % 3],
+                                winding, ivec2(0));
+            at_origin_[i] = edge.value, step_x_[i] = edge.step_x, step_y_[i] = edge.step_y;
+        }
+    }
+
+    /// Calls take(pixel, Barycentrics) for each pixel of a run: the same bits that fill_triangle()
+    /// gives.
+    template <typename Take>
+    void for_each_in(const PixelRun& run, Take&& take) const {
+        std::array<std::int64_t, 3> share;  // of the area, times two
+        for (std::size_t i = 0; i < 3; ++i)
+            share[i] = at_origin_[i] + run.first.x * step_x_[i] + run.first.y * step_y_[i];
+        for (int x = 0; x < run.length; ++x) {
+            take(run.first + ivec2(x, 0), Barycentrics(share[0], share[1], share[2]) * per_area_);
+            for (std::size_t i = 0; i < 3; ++i) share[i] += step_x_[i];
+        }
+    }
+
+  private:
+    std::array<std::int64_t, 3> at_origin_, step_x_, step_y_;
+    float per_area_;
+};
+
+/// The triangles of a tile in drawing order, and for each of its pixels the one that is nearest so
+/// far.
+class TileVisibility {
+  public:
+    /// @param max_ids  So many triangles can be told apart: 1 to no_triangle.
+    explicit TileVisibility(std::size_t max_ids) : max_ids_(max_ids) {
+        assert(max_ids >= 1 && max_ids <= no_triangle);
+    }
+
+    /// Begins a tile: there is no triangle in it yet.
+    void begin(const Tile& tile) {
+        tile_ = tile;
+        width_ = tile.box.last.x - tile.box.first.x + 1;
+        clear();
+    }
+
+    /// Whether no other triangle can be told apart from those that are there.
+    bool is_full() const { return triangles_.size() == max_ids_; }
+
+    /// The id of the next triangle.
+    ///
+    /// @param projected  Has to be there until take_visible() is called.
+    TriangleId add(const ProjectedTriangle& projected) {
+        assert(!is_full() && "its id would be another triangle's");
+        triangles_.push_back(&projected);
+        return static_cast<TriangleId>(triangles_.size() - 1);
+    }
+
+    /// The triangle is nearer in this pixel than all before it (Eq. 12.1).
+    void write(ivec2 pixel, TriangleId id) { ids_[index(pixel)] = id; }
+
+    /// Visits each triangle that is visible in a pixel, in drawing order, with its pixels row by
+    /// row (Eq. 12.3). Then the tile has no triangles any more.
+    ///
+    /// @param visit  Called as visit(const ProjectedTriangle&, std::span<const PixelRun>).
+    template <typename Visit>
+    void take_visible(Visit&& visit) {
+        // Count, so that each triangle's runs have their place; then put them there.
+        end_.assign(triangles_.size() + 1, 0);
+        found_.clear();
+        for_each_run([&](const PixelRun& run, TriangleId id) {
+            found_.emplace_back(run, id);
+            ++end_[id + 1];
+        });
+        for (std::size_t id = 1; id < end_.size(); ++id) end_[id] += end_[id - 1];
+        runs_.resize(found_.size());
+        for (const auto& [run, id] : found_) runs_[end_[id]++] = run;
+        std::size_t begin = 0;
+        for (std::size_t id = 0; id < triangles_.size(); begin = end_[id++])
+            if (begin < end_[id])
+                visit(*triangles_[id],
+                      std::span<const PixelRun>(runs_).subspan(begin, end_[id] - begin));
+        clear();
+    }
+
+  private:
+    void clear() {
+        triangles_.clear();
+        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) + static_cast<std::size_t>(width_),
+                    no_triangle);
+    }
+
+    /// Of a pixel in ids_, which has only the tile's own rows.
+    std::size_t index(ivec2 pixel) const {
+        const ivec2 from_first = pixel - tile_.box.first;
+        const int row = tile_.row_step == 1 ? from_first.y : from_first.y / tile_.row_step;
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(from_first.x);
+    }
+
+    /// Calls take(run, id) for all pixels of the tile in which there is a triangle.
+    template <typename Take>
+    void for_each_run(Take&& take) const {
+        const auto [first, last] = tile_.box;
+        for (int y = first.y; y <= last.y; y += tile_.row_step) {
+            const TriangleId* const ids = &ids_[index({first.x, y})];
+            for (int x = 0, end = 0; x < width_; x = end) {
+                while (end < width_ && ids[end] == ids[x]) ++end;
+                if (ids[x] != no_triangle) take(PixelRun{{first.x + x, y}, end - x}, ids[x]);
+            }
+        }
+    }
+
+    std::size_t max_ids_;
+    Tile tile_{};
+    int width_ = 0;
+    std::vector<TriangleId> ids_;
+    std::vector<const ProjectedTriangle*> triangles_;
+    std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
+    std::vector<PixelRun> runs_;                          ///< Triangle by triangle.
+    std::vector<std::size_t> end_;                        ///< Of each triangle's in runs_.
+};
+
+}  // namespace rasterbook
