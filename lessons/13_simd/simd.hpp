@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Several numbers that take each step together: a wide number type. Introduced in lesson 13;
+/// derivation: docs/derivations/13_simd.md.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "common/math/functions.hpp"
+
+// How so many bytes are passed to a function depends on the processor: of no concern within one
+// program.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace rasterbook {
+
+/// N numbers of a type T, as g++ and clang have them for any processor: `+` and the like work on
+/// all of them, by as many instructions as this processor takes for N numbers.
+template <typename T, int N>
+struct VectorOf {
+    typedef T Type __attribute__((vector_size(sizeof(T) * N)));
+};
+template <typename T, int N>
+using Vector = typename VectorOf<T, N>::Type;
+
+/// So many floats does one register of this processor hold.
+#if defined(__AVX512F__)
+constexpr int native_width = 16;
+#elif defined(__AVX__)
+constexpr int native_width = 8;
+#else
+constexpr int native_width = 4;
+#endif
+
+/// Whether something holds, for each of N lanes.
+template <int N>
+struct Mask {
+    Vector<std::int32_t, N> lanes;  ///< -1 where it holds, else 0.
+
+    bool operator[](int lane) const { return lanes[lane] != 0; }
+    friend Mask operator&(Mask a, Mask b) { return {a.lanes & b.lanes}; }
+    friend Mask operator|(Mask a, Mask b) { return {a.lanes | b.lanes}; }
+    friend Mask operator!(Mask a) { return {~a.lanes}; }
+};
+
+/// A bit for each lane in which a mask holds.
+template <int N>
+inline std::uint32_t bits_of(Mask<N> mask) {
+    std::uint32_t bits = 0;
+    for (int i = 0; i < N; ++i) bits |= static_cast<std::uint32_t>(mask.lanes[i] & (1 << i));
+    return bits;
+}
+
+template <int N>
+inline bool any_of(Mask<N> mask) {
+    // Halves of halves: each step is one instruction for all lanes.
+    if constexpr (N == 1) {
+        return mask.lanes[0] != 0;
+    } else {
+        Mask<N / 2> low, high;
+        std::memcpy(&low, &mask, sizeof low);
+        std::memcpy(&high, reinterpret_cast<const char*>(&mask) + sizeof low, sizeof high);
+        return any_of(low | high);
+    }
+}
+template <int N>
+inline bool all_of(Mask<N> mask) {
+    return !any_of(!mask);
+}
+
+/// N whole numbers of 32 bits.
+template <int N>
+struct Ints {
+    Vector<std::int32_t, N> lanes;
+
+    Ints() = default;
+    Ints(Vector<std::int32_t, N> of_lanes) : lanes(of_lanes) {}
+    explicit Ints(std::int32_t x) : lanes(x - Vector<std::int32_t, N>{}) {}
+
+    std::int32_t operator[](int lane) const { return lanes[lane]; }
+    void set(int lane, std::int32_t x) { lanes[lane] = x; }
+
+    friend Ints operator+(Ints a, Ints b) { return {a.lanes + b.lanes}; }
+    friend Ints operator-(Ints a, Ints b) { return {a.lanes - b.lanes}; }
+    friend Ints operator*(Ints a, Ints b) { return {a.lanes * b.lanes}; }
+    friend Mask<N> operator<(Ints a, Ints b) { return {a.lanes < b.lanes}; }
+    friend Mask<N> operator==(Ints a, Ints b) { return {a.lanes == b.lanes}; }
+};
+template <int N>
+inline Ints<N> select(Mask<N> mask, Ints<N> yes, Ints<N> no) {
+    return {(mask.lanes & yes.lanes) | (~mask.lanes & no.lanes)};
+}
+
+/// N floats: the number type F of all stages.
+template <int N>
+struct Floats {
+    static constexpr int width = N;
+    Vector<float, N> lanes;
+
+    Floats() = default;
+    Floats(Vector<float, N> of_lanes) : lanes(of_lanes) {}
+    explicit Floats(float x) : lanes(x - Vector<float, N>{}) {}  // x - 0 is x, also for -0 and NaN
+
+    float operator[](int lane) const { return lanes[lane]; }
+    void set(int lane, float x) { lanes[lane] = x; }
+
+    friend Floats operator+(Floats a, Floats b) { return {a.lanes + b.lanes}; }
+    friend Floats operator-(Floats a, Floats b) { return {a.lanes - b.lanes}; }
+    friend Floats operator*(Floats a, Floats b) { return {a.lanes * b.lanes}; }
+    friend Floats operator/(Floats a, Floats b) { return {a.lanes / b.lanes}; }
+    Floats operator-() const { return {-lanes}; }
+    Floats& operator+=(Floats b) { return *this = *this + b; }
+    Floats& operator-=(Floats b) { return *this = *this - b; }
+    Floats& operator*=(Floats b) { return *this = *this * b; }
+
+    friend Mask<N> operator<(Floats a, Floats b) { return {a.lanes < b.lanes}; }
+    friend Mask<N> operator>(Floats a, Floats b) { return {a.lanes > b.lanes}; }
+    friend Mask<N> operator<=(Floats a, Floats b) { return {a.lanes <= b.lanes}; }
+    friend Mask<N> operator>=(Floats a, Floats b) { return {a.lanes >= b.lanes}; }
+    friend Mask<N> operator==(Floats a, Floats b) { return {a.lanes == b.lanes}; }
+};
+
+template <int N>
+inline Floats<N> select(Mask<N> mask, Floats<N> yes, Floats<N> no) {
+    using Bits = Vector<std::int32_t, N>;
+    if constexpr (N <= native_width) return {mask.lanes ? yes.lanes : no.lanes};
+    return {std::bit_cast<Vector<float, N>>((mask.lanes & std::bit_cast<Bits>(yes.lanes)) |
+                                            (~mask.lanes & std::bit_cast<Bits>(no.lanes)))};
+}
+
+template <int N>
+inline Floats<N> sqrt(Floats<N> x) {
+    for (int i = 0; i < N; ++i) x.lanes[i] = std::sqrt(x.lanes[i]);  // one instruction, optimised
+    return x;
+}
+
+/// Rounded towards 0.
+///
+/// @param x  Below 2^31 in size; else the result may be any number.
+template <int N>
+inline Ints<N> truncated(Floats<N> x) {
+    return {__builtin_convertvector(x.lanes, Vector<std::int32_t, N>)};
+}
+template <int N>
+inline Floats<N> to_floats(Ints<N> x) {
+    return {__builtin_convertvector(x.lanes, Vector<float, N>)};
+}
+
+/// std::floor of each number, to the bit. From 2^23 on, all numbers are whole.
+template <int N>
+inline Floats<N> floor(Floats<N> x) {
+    const Mask<N> is_small = (x < Floats<N>(0x1p23f)) & (x > Floats<N>(-0x1p23f));
+    const Floats<N> toward_0 = to_floats(truncated(select(is_small, x, Floats<N>(0.0f))));
+    const Floats<N> down =
+        select(toward_0 > x, toward_0 - Floats<N>(1.0f), select(toward_0 == x, x, toward_0));
+    return select(is_small, down, x);
+}
+
+template <int N>
+inline FloatParts<Floats<N>> float_parts(Floats<N> x) {
+    const auto bits = std::bit_cast<Vector<std::int32_t, N>>(x.lanes);
+    return {{std::bit_cast<Vector<float, N>>((bits & 0x007fffff) | 0x3f800000)},
+            to_floats(Ints<N>((bits >> 23) - 127))};
+}
+
+template <int N>
+inline Floats<N> two_to_the(Floats<N> n) {
+    return {std::bit_cast<Vector<float, N>>((truncated(n).lanes + 127) << 23)};
+}
+
+/// table[index] for each lane.
+template <int N>
+inline Floats<N> gather(const float* table, Ints<N> index) {
+    Floats<N> result;
+    for (int i = 0; i < N; ++i) result.lanes[i] = table[index.lanes[i]];
+    return result;
+}
+
+}  // namespace rasterbook
+
+/// GLM's functions take only types that say that they are floating-point numbers.
+template <int N>
+struct std::numeric_limits<rasterbook::Floats<N>> : std::numeric_limits<float> {};
+
+#pragma GCC diagnostic pop
