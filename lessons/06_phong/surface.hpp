@@ -55,18 +55,18 @@ inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTexture
 }
 
 /// The colours of a fragment: the material's own, times its textures.
-template <typename CounterPolicy>
-SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycentrics& at,
-                           Filter filter, CounterPolicy& counters) {
-    SurfaceColor color = surface.own_color;
+template <typename F, typename CounterPolicy>
+FragmentColor<F> surface_color(const TriangleSurface& surface, const PerspectiveBarycentrics<F>& at,
+                               Filter filter, CounterPolicy& counters) {
+    FragmentColor<F> color(surface.own_color);
     if (surface.effects[Effect::texture]) {
         counters.add(Counter::texture_samples);
-        color.tint(vec3(sample(*surface.texture, filter, fragment_uv(surface.uvs, at))));
+        color.tint(Vec3<F>(sample(*surface.texture, filter, fragment_uv(surface.uvs, at))));
     }
     if (surface.effects[Effect::specular_map]) {
         counters.add(Counter::texture_samples);
         color.specular *=
-            vec3(sample(*surface.specular_texture, filter, fragment_uv(surface.specular_uvs, at)));
+            Vec3<F>(sample(*surface.specular_texture, filter, fragment_uv(surface.specular_uvs, at)));
     }
     return color;
 }
@@ -74,15 +74,16 @@ SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycen
 /// A point of a surface as light falls on it.
 ///
 /// @param normal_world  Of any length (Eq. 6.8); the first vertex's where it is zero or not finite.
-template <typename CounterPolicy>
-SurfacePoint<float> surface_point(const TriangleSurface& surface, Barycentrics at,
-                                  vec3 normal_world, vec3 eye_world, CounterPolicy& counters) {
+template <typename F, typename CounterPolicy>
+SurfacePoint<F> surface_point(const TriangleSurface& surface, Vec3<F> at, Vec3<F> normal_world,
+                              vec3 eye_world, CounterPolicy& counters) {
     counters.add(Counter::fragments_lit);
-    SurfacePoint<float> point{interpolate(surface.positions_world, at),
-                              unit_or(normal_world, surface.normals_world[0]), vec3(0)};
+    SurfacePoint<F> point{interpolate(surface.positions_world, at),
+                          unit_or(normal_world, Vec3<F>(surface.normals_world[0])),
+                          Vec3<F>(F(0.0f))};
     if (surface.effects[Effect::highlight]) {
         counters.add(Counter::highlights);
-        point.toward_eye = unit_or(eye_world - point.position_world, point.normal_world);
+        point.toward_eye = unit_or(Vec3<F>(eye_world) - point.position_world, point.normal_world);
     }
     return point;
 }

@@ -18,7 +18,10 @@ constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
 /// How bright a coloured light is: its largest component (Eq. 7.1).
 ///
 /// @return  At least 0: a component that is NaN or negative counts as 0.
-inline float brightness(vec3 light) { return std::max({0.0f, light.r, light.g, light.b}); }
+template <typename F>
+F brightness(Vec3<F> light) {
+    return max(light.b, max(light.g, max(light.r, F(0.0f))));
+}
 
 /// The tone that a brightness falls into: 0 to tones - 1 (Eq. 7.2).
 ///

@@ -130,30 +130,34 @@ inline TriangleNormalMap triangle_normal_map(const NormalMapVariant& variant, co
 }
 
 /// The frame in a fragment, as the variant has it.
-inline TangentFrame frame_at(const TriangleNormalMap& map, const NormalMapVariant& variant,
-                             Barycentrics at, vec3 normal) {
+template <typename F>
+TangentBasis<F> frame_at(const TriangleNormalMap& map, const NormalMapVariant& variant, Vec3<F> at,
+                         Vec3<F> normal) {
     if (variant.frame == FrameOf::face)
-        return {map.face.tangent, map.face.bitangent, unit_or(normal, map.face.normal)};
-    const vec3 tangent = interpolate(map.tangents, at);
+        return {Vec3<F>(map.face.tangent), Vec3<F>(map.face.bitangent),
+                unit_or(normal, Vec3<F>(map.face.normal))};
+    const Vec3<F> tangent = interpolate(map.tangents, at);
+    const F handedness(map.handedness);
     if (variant.frame == FrameOf::vertex && variant.orthonormal == Orthonormal::at_vertices)
-        return {tangent, map.handedness * glm::cross(normal, tangent), normal};
-    return tangent_frame(tangent, normal, map.handedness);
+        return {tangent, handedness * glm::cross(normal, tangent), normal};
+    return tangent_frame(tangent, normal, handedness);
 }
 
 /// A fragment's normal, perturbed by the map.
 ///
 /// @param normal  Interpolated, not yet scaled.
 /// @return        Of any length.
-template <typename CounterPolicy>
-vec3 normal_mapped(const TriangleNormalMap& map, const NormalMapVariant& variant,
-                   const FragmentBarycentrics& at, vec3 normal, Filter filter,
-                   CounterPolicy& counters) {
+template <typename F, typename CounterPolicy>
+Vec3<F> normal_mapped(const TriangleNormalMap& map, const NormalMapVariant& variant,
+                      const PerspectiveBarycentrics<F>& at, Vec3<F> normal, Filter filter,
+                      CounterPolicy& counters) {
     if (map.texture == nullptr) return normal;
     counters.add(Counter::normal_map_samples);
-    vec3 in_map = sample_normal(*map.texture, filter, fragment_uv(map.uvs, at));
-    if (variant.channels == Channels::xy) in_map = with_z(vec2(in_map));
-    if (map.space == MapSpace::object) return map.side * in_map;
-    if (map.bump_multiplier != 1) in_map.x *= map.bump_multiplier, in_map.y *= map.bump_multiplier;
+    Vec3<F> in_map = sample_normal(*map.texture, filter, fragment_uv(map.uvs, at));
+    if (variant.channels == Channels::xy) in_map = with_z(glm::vec<2, F>(in_map));
+    if (map.space == MapSpace::object) return F(map.side) * in_map;
+    const F bump(map.bump_multiplier);
+    if (map.bump_multiplier != 1) in_map.x *= bump, in_map.y *= bump;
     return perturbed(frame_at(map, variant, at.here, normal), in_map, normal);
 }
 

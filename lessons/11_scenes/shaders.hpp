@@ -79,9 +79,11 @@ struct VertexColors {
 
     /// Exactly the vertices' color where all three agree: barycentric coordinates add up to 1 but
     /// for rounding.
-    vec4 at(Barycentrics at) const {
-        return of_vertices[0] + at.y * (of_vertices[1] - of_vertices[0]) +
-               at.z * (of_vertices[2] - of_vertices[0]);
+    template <typename F>
+    glm::vec<4, F> at(Vec3<F> at) const {
+        using Color = glm::vec<4, F>;
+        return Color(of_vertices[0]) + at.y * Color(of_vertices[1] - of_vertices[0]) +
+               at.z * Color(of_vertices[2] - of_vertices[0]);
     }
 };
 
@@ -132,39 +134,39 @@ TriangleInputs triangle_inputs(const Frame<Maps>& frame, const ProjectedTriangle
 
 /// The colour of a fragment: the stages of lessons 05 to 11, without those that the permutation
 /// lacks.
-template <Permutation with, typename Maps, typename CounterPolicy>
-vec3 shaded(const Frame<Maps>& frame, TriangleInputs& triangle, const FragmentBarycentrics& at,
-            CounterPolicy& counters) {
+template <Permutation with, typename F, typename Maps, typename CounterPolicy>
+Vec3<F> shaded(const Frame<Maps>& frame, TriangleInputs& triangle,
+               const PerspectiveBarycentrics<F>& at, CounterPolicy& counters) {
     const TriangleSurface& surface = triangle.surface;
     const std::span<const Light> lights = frame.assets.lit_by.lights;
-    SurfaceColor own = surface_color(surface, at, frame.filter, counters);
+    FragmentColor<F> own = surface_color(surface, at, frame.filter, counters);
     if (triangle.colors.are_there) {  // Eq. 11.10
         counters.add(Counter::colored_fragments);
-        own.tint(vec3(triangle.colors.at(at.here)));
+        own.tint(Vec3<F>(triangle.colors.at(at.here)));
     }
     if constexpr (with.model == ShadingModel::unlit) {
         return unlit(own);
     } else {
-        const vec3 own_normal = interpolate(surface.normals_world, at.here);
-        vec3 normal = own_normal;
+        const Vec3<F> own_normal = interpolate(surface.normals_world, at.here);
+        Vec3<F> normal = own_normal;
         if constexpr (with.normal_map)
             normal = normal_mapped(triangle.normal_map, frame.normal_map, at, own_normal,
                                    frame.filter, counters);
-        const SurfacePoint<float> point =
+        const SurfacePoint<F> point =
             surface_point(surface, at.here, normal, frame.eye_world, counters);
         const auto visibility = [&](std::size_t l) {
             if constexpr (with.shadow)
                 return light_visibility(frame.shadow_maps, l, triangle.receiver,
                                         point.position_world, own_normal, counters);
             else
-                return 1.0f;
+                return F(1.0f);
         };
         if constexpr (with.model == ShadingModel::phong) {
             return phong(own, ambient_light,
                          reflected_light(lights, point, highlight_of(surface), visibility));
         } else {
             counters.add(Counter::toon_fragments);
-            const float level = toon_level(lights, point.position_world, normal,
+            const F level = toon_level(lights, point.position_world, normal,
                                            *surface.material.toon, visibility);
             return own.emission + toon_paint(own.ambient, own.diffuse, level);
         }

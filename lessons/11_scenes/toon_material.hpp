@@ -25,11 +25,12 @@ namespace rasterbook {
 /// How much of the lit colour a light gives, before shadows: 0 to 1 (Eq. 11.4).
 ///
 /// @param cosine  Of the angle between normal and light. NaN counts as no light.
-inline float toon_step(float cosine, const ToonMaterial& look) {
-    const float turned = cosine + look.shift, half_width = 1 - look.toony;
-    if (half_width <= 0) return turned >= 0 ? 1.0f : 0.0f;
-    const float step = (turned + half_width) / (2 * half_width);
-    return std::min(std::max(0.0f, step), 1.0f);  // 0 first: never NaN
+template <typename F>
+F toon_step(F cosine, const ToonMaterial& look) {
+    const F turned = cosine + F(look.shift);
+    const float half_width = 1 - look.toony;
+    if (half_width <= 0) return select(turned >= F(0.0f), F(1.0f), F(0.0f));
+    return clamp((turned + F(half_width)) / F(2 * half_width), F(0.0f), F(1.0f));
 }
 
 /// The level of light on a point: 0 is its colour in the shade, 1 its lit one (Eq. 11.5).
@@ -41,22 +42,26 @@ inline float toon_step(float cosine, const ToonMaterial& look) {
 /// @return  0 to 1; 0 where no light arrives.
 /// @param share         Called as share(l): the visibility of light l, 0 to 1. From a half on it is
 ///                      taken for 1, else for 0: a drawing's shadows have edges.
-template <typename Share>
-float toon_level(std::span<const Light> lights, vec3 position_world, vec3 normal_world,
-                 const ToonMaterial& look, Share&& share) {
-    const vec3 normal = unit_or(normal_world, vec3(0));
-    float sum = 0, brightest = 0;
+template <typename F, typename Share>
+F toon_level(std::span<const Light> lights, Vec3<F> position_world, Vec3<F> normal_world,
+             const ToonMaterial& look, Share&& share) {
+    const Vec3<F> normal = unit_or(normal_world, Vec3<F>(F(0.0f)));
+    F sum(0.0f), brightest(0.0f);
     for (std::size_t l = 0; l < lights.size(); ++l) {
         const Incoming incoming = incoming_light(lights[l], position_world);
-        const float arriving = brightness(incoming.color);
-        brightest = std::max(brightest, arriving);
-        if (share(l) >= 0.5f) sum += arriving * toon_step(glm::dot(normal, incoming.toward), look);
+        const F arriving = brightness(incoming.color);
+        brightest = max(arriving, brightest);
+        const F step = toon_step(glm::dot(normal, incoming.toward), look);
+        sum += select(F(share(l)) >= F(0.5f), arriving * step, F(0.0f));
     }
-    return brightest > 0 ? std::min(sum / brightest, 1.0f) : 0.0f;
+    return select(brightest > F(0.0f), min(sum / brightest, F(1.0f)), F(0.0f));
 }
 
 /// From the colour in the shade to the lit one. Where both are equal, it is exactly that colour.
-inline vec3 toon_paint(vec3 shade, vec3 lit, float level) { return shade + level * (lit - shade); }
+template <typename F>
+Vec3<F> toon_paint(Vec3<F> shade, Vec3<F> lit, F level) {
+    return shade + level * (lit - shade);
+}
 
 /// A mesh's outline: its faces turned inside out, of the outline's colour, to be pushed outwards.
 struct OutlineHull {

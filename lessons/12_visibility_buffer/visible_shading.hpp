@@ -136,8 +136,8 @@ class VisibleShaders {
 
 /// Draws the colours of all pixels in which a triangle is visible, each once; then the tile has no
 /// triangles any more.
-template <typename Maps, typename CounterPolicy>
-void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps, CounterPolicy>& shaders,
+template <typename Maps, typename Shaders, typename CounterPolicy>
+void shade_visible(const Frame<Maps>& frame, const Shaders& shaders,
                    TileVisibility& visible, Show show, HeatMap& heat, CounterPolicy& counters) {
     visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelRun> runs) {
         shaders[projected.triangle.material].shade_pixels(frame, projected, runs, counters);
@@ -149,9 +149,9 @@ void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps, CounterP
 }
 
 /// Gathers the transparent fragments of a triangle.
-template <typename Maps, typename CounterPolicy>
+template <typename Maps, typename Shaders, typename CounterPolicy>
 void draw_transparent(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                      const Tile& tile, const VisibleShaders<Maps, CounterPolicy>& shaders,
+                      const Tile& tile, const Shaders& shaders,
                       TransparentFragments& transparent, HeatMap& heat, CounterPolicy& counters) {
     std::vector<FragmentToShade> fragments;
     for_each_nearer_fragment(frame, projected, tile, counters,

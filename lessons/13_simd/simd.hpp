@@ -97,6 +97,11 @@ inline Ints<N> select(Mask<N> mask, Ints<N> yes, Ints<N> no) {
     return {(mask.lanes & yes.lanes) | (~mask.lanes & no.lanes)};
 }
 
+template <int N>
+inline Ints<N> min(Ints<N> a, Ints<N> b) {
+    return select(a < b, a, b);
+}
+
 /// N floats: the number type F of all stages.
 template <int N>
 struct Floats {
