@@ -43,6 +43,7 @@ class DepthBuffer {
     }
 
     const Image<float>& depths() const { return depths_; }
+    Image<float>& depths() { return depths_; }
 
   private:
     Image<float> depths_;
@@ -61,8 +62,9 @@ class TriangleDepth {
 
     /// @param barycentrics  On the screen, >= 0, as fill_triangle gives them.
     /// @return              Not nearer than the nearest vertex.
-    float at(vec3 barycentrics) const {
-        return nearest_ + glm::dot(barycentrics, beyond_nearest_);  // Eq. 3.3
+    template <typename F>
+    F at(Vec3<F> barycentrics) const {
+        return F(nearest_) + glm::dot(barycentrics, Vec3<F>(beyond_nearest_));  // Eq. 3.3
     }
 
   private:

@@ -78,6 +78,7 @@ class TileVisibility {
         tile_ = tile;
         width_ = tile.box.last.x - tile.box.first.x + 1;
         clear();
+        depths_.assign(ids_.size(), 1.0f);
     }
 
     /// Whether no other triangle can be told apart from those that are there.
@@ -94,6 +95,14 @@ class TileVisibility {
 
     /// The triangle is nearer in this pixel than all before it (Eq. 12.1).
     void write(ivec2 pixel, TriangleId id) { ids_[index(pixel)] = id; }
+
+    TriangleId* ids_from(ivec2 pixel) { return &ids_[index(pixel)]; }
+    float* depths_from(ivec2 pixel) { return &depths_[index(pixel)]; }
+    void store_depths(DepthBuffer& to) {
+        const auto [first, last] = tile_.box;
+        for (int y = first.y; y <= last.y; y += tile_.row_step)
+            std::copy_n(depths_from({first.x, y}), last.x - first.x + 1, &to.depths()[{first.x, y}]);
+    }
 
     /// Visits each triangle that is visible in a pixel, in drawing order, with its pixels row by
     /// row (Eq. 12.3). Then the tile has no triangles any more.
@@ -122,7 +131,7 @@ class TileVisibility {
   private:
     void clear() {
         triangles_.clear();
-        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) + static_cast<std::size_t>(width_),
+        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) + static_cast<std::size_t>(width_) + 16,
                     no_triangle);
     }
 
@@ -130,7 +139,7 @@ class TileVisibility {
     std::size_t index(ivec2 pixel) const {
         const ivec2 from_first = pixel - tile_.box.first;
         const int row = tile_.row_step == 1 ? from_first.y : from_first.y / tile_.row_step;
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + 16) +
                static_cast<std::size_t>(from_first.x);
     }
 
@@ -151,6 +160,7 @@ class TileVisibility {
     Tile tile_{};
     int width_ = 0;
     std::vector<TriangleId> ids_;
+    std::vector<float> depths_;
     std::vector<const ProjectedTriangle*> triangles_;
     std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
     std::vector<PixelRun> runs_;                          ///< Triangle by triangle.

@@ -69,9 +69,10 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         for (const BinnedTriangles& pass : passes.opaque)
             pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
                 if (visible.is_full()) shade();
-                draw_id(frame, projected, tile, visible, counters);
+                draw_id_wide<16>(frame, projected, tile, visible, counters);
             });
         shade();
+        visible.store_depths(depth);
         TransparentFragments transparent;
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)

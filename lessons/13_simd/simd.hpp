@@ -187,6 +187,32 @@ inline Floats<N> gather(const float* table, Ints<N> index) {
     return result;
 }
 
+/// The first `count` lanes.
+template <int N>
+inline Mask<N> first_lanes(int count) {
+    Vector<std::int32_t, N> lane;
+    for (int i = 0; i < N; ++i) lane[i] = i;
+    return {lane < count};
+}
+
+/// What lies at an address, where the mask holds; elsewhere nothing is read.
+template <int N>
+inline Floats<N> load(const float* from, Mask<N> mask) {
+    Floats<N> x(0.0f);
+    for (int i = 0; i < N; ++i)
+        if (mask.lanes[i]) x.lanes[i] = from[i];
+    return x;
+}
+template <int N, typename T>
+inline void store(T* to, Mask<N> mask, Vector<T, N> x) {
+    for (int i = 0; i < N; ++i)
+        if (mask.lanes[i]) to[i] = x[i];
+}
+template <int N>
+inline void store(float* to, Mask<N> mask, Floats<N> x) {
+    store<N, float>(to, mask, x.lanes);
+}
+
 }  // namespace rasterbook
 
 /// GLM's functions take only types that say that they are floating-point numbers.

@@ -203,6 +203,13 @@ struct LaneCounters {
     }
 };
 
+template <int N, typename CounterPolicy>
+inline void count_lanes(CounterPolicy& counters, Counter counter, Mask<N> mask) {
+    for (std::uint32_t bits = bits_of(mask); bits; bits &= bits - 1) counters.add(counter);
+}
+template <int N>
+inline void count_lanes(NoCounters&, Counter, Mask<N>) {}
+
 /// How much of a light reaches several points of a triangle.
 template <int N, typename CounterPolicy>
 Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,

@@ -9,6 +9,7 @@
 
 #include "11_scenes/shaders.hpp"
 #include "12_visibility_buffer/visible_shading.hpp"
+#include "13_simd/wide_raster.hpp"
 #include "13_simd/wide_sampling.hpp"
 
 namespace rasterbook {
@@ -46,6 +47,28 @@ void shade_pixels_wide(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTr
             if (++count == N) shade();
         });
     if (count > 0) shade();
+}
+
+/// As draw_id() of lesson 12.
+template <int N, typename Maps, typename CounterPolicy>
+void draw_id_wide(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
+                  TileVisibility& visible, CounterPolicy& counters) {
+    if (frame.assets.plan.materials[projected.triangle.material][Effect::mask])
+        std::abort();
+    const TriangleId id = visible.add(projected);
+    using Ids = Vector<TriangleId, N>;
+    fill_tile_wide<N>(projected.on_screen, tile,
+                      [&](ivec2 first, Mask<N> covered, const Vec3<Floats<N>>& on_screen) {
+                          count_lanes(counters, Counter::fragments_tested, covered);
+                          const Mask<N> nearer = test_and_write_wide<N>(
+                              visible.depths_from(first), covered, projected.depth.at(on_screen));
+                          TriangleId* const ids = visible.ids_from(first);
+                          Ids before;
+                          std::memcpy(&before, ids, sizeof before);
+                          const auto is = std::bit_cast<Ids>(nearer.lanes);
+                          const Ids now = (is & id) | (~is & before);
+                          std::memcpy(ids, &now, sizeof now);
+                      });
 }
 
 template <int N, typename CounterPolicy>
