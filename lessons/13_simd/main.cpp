@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 12: the visibility buffer.
+#define WIDE
 #include "10_threading/thread_pool.hpp"
+#include "13_simd/wide_raster.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_options.hpp"
 #include "11_scenes/scene_program.hpp"

@@ -11,6 +11,7 @@
 #include "05_textures/texture.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "12_visibility_buffer/shadow_parts.hpp"
+#include "13_simd/wide_raster.hpp"
 #include "13_simd/simd.hpp"
 
 namespace rasterbook {
@@ -177,16 +178,29 @@ Floats<N> pcf_visibility(const ShadowMap& map, int radius, const WidePcfKernel<N
     const int stride = depths.size().x;
     const Ints<N> middle = (kernel.row + Ints<N>(max_pcf_radius)) * Ints<N>(stride) +
                            (kernel.column + Ints<N>(max_pcf_radius));
-    const F cleared(DepthBuffer::cleared);
+    // Eight texels of a row at once, of which the first 2 radius + 1 count.
+    using Row = Vector<float, 8>;
+    using Bits = Vector<std::int32_t, 8>;
+    Row across{};
+    Bits counts{};
+    for (int x = 0; x <= 2 * radius; ++x)
+        across[x] = kernel.slope.x * static_cast<float>(x - radius), counts[x] = -1;
     F lit(0.0f);
-    for (int y = -radius; y <= radius; ++y) {
-        const F depth_in_row = kernel.depth + F(kernel.slope.y * static_cast<float>(y));
-        for (int x = -radius; x <= radius; ++x) {
-            const F at_tap = depth_in_row + F(kernel.slope.x * static_cast<float>(x));
-            const F at_texel = select(cleared < at_tap, cleared, at_tap);
-            const F texel = gather<N>(depths.pixels().data() + y * stride + x, middle);
-            lit += select(at_texel <= texel, F(1.0f), F(0.0f));
+    for (int i = 0; i < N; ++i) {
+        const float* texels =
+            depths.pixels().data() + middle[i] - radius * stride - radius;
+        Bits found{};
+        for (int y = -radius; y <= radius; ++y, texels += stride) {
+            const float depth_in_row = kernel.depth[i] + kernel.slope.y * static_cast<float>(y);
+            const Row at_taps = depth_in_row + across;
+            const Row at_texels = 1.0f < at_taps ? Row{} + 1.0f : at_taps;
+            Row seen;
+            std::memcpy(&seen, texels, sizeof seen);
+            found -= (at_texels <= seen) & counts;
         }
+        int sum = 0;
+        for (int x = 0; x < 8; ++x) sum += found[x];
+        lit.set(i, static_cast<float>(sum));
     }
     const int side = 2 * radius + 1;
     return select(kernel.is_in_map, lit / F(static_cast<float>(side * side)), F(1.0f));
@@ -202,13 +216,6 @@ struct LaneCounters {
         for (int i = 0; i < pixels; ++i) counters.add(counter);
     }
 };
-
-template <int N, typename CounterPolicy>
-inline void count_lanes(CounterPolicy& counters, Counter counter, Mask<N> mask) {
-    for (std::uint32_t bits = bits_of(mask); bits; bits &= bits - 1) counters.add(counter);
-}
-template <int N>
-inline void count_lanes(NoCounters&, Counter, Mask<N>) {}
 
 /// How much of a light reaches several points of a triangle.
 template <int N, typename CounterPolicy>
@@ -232,6 +239,28 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
     const F faded =
         of_light.is_drawn ? min(cosine / F(full_cosine), F(1.0f)) : F(1.0f);
     F visibility(1.0f);
+    if (!of_light.has_faces) {
+        const std::size_t m = of_light.map_of_view[0];
+        if (m == LightShadowMaps::no_map) return select(faces_light, faded, unlit);
+        count_lanes(counters.counters, Counter::shadow_tests, faces_light & first_lanes<N>(counters.pixels));
+        const auto doubles = [](const F& x) { return __builtin_convertvector(x.lanes, Vector<double, N>); };
+        const auto toward = triangle.front.x * doubles(normal.x) + triangle.front.y * doubles(normal.y) + triangle.front.z * doubles(normal.z);
+        const Mask<N> is_back = F(__builtin_convertvector(toward, Vector<float, N>)) < F(0.0f);
+        const ShadowMap& map = of_light.maps[m];
+        for (const bool back : {false, true}) {
+            const Mask<N> same = faces_light & (back ? is_back : !is_back);
+            if (!any_of(same)) continue;
+            std::optional<Receiver>& bias = triangle.biases[of_light.first_map + m][back];
+            if (!bias)
+                bias = receiver(map, shadow_maps.bias, radius, triangle.vertices,
+                                back ? -triangle.front : triangle.front);
+            const WidePcfKernel<N> kernel = pcf_kernel<N>(map, *bias, position, same);
+            const ShadowMapParts& parts = on_demand.parts()[of_light.first_map + m];
+            parts.draw_around_all(kernel.is_in_map, kernel.column, kernel.row, radius, counters.counters);
+            visibility = select(same, pcf_visibility<N>(map, radius, kernel), visibility);
+        }
+        return select(faces_light, faded * visibility, unlit);
+    }
     // Each map's pixels, each side's: almost always there is one of each.
     std::array<std::size_t, N> map_of;
     std::array<bool, N> is_back;

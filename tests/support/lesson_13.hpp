@@ -5,6 +5,8 @@
 #pragma once
 
 // All that main.cpp includes, so that what is left of it are its own lines.
+#define WIDE
+#include "13_simd/wide_raster.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_options.hpp"
@@ -15,6 +17,8 @@
 #include "13_simd/wide_shading.hpp"
 #include "support/run_no_lesson.hpp"
 
+#define WIDE
+#include "13_simd/wide_raster.hpp"
 #define main static lesson_main [[maybe_unused]]
 namespace lesson_13 {
 using rasterbook::test::run_scene_lesson;
