@@ -170,38 +170,43 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
     return {is_in_map, column, row, depth, receiver.slope};
 }
 
+/// How many taps of each pixel's kernel say lit, `taps` of a row at a time.
+template <int taps, int N>
+Floats<N> lit_taps(const ShadowMap& map, int radius, const WidePcfKernel<N>& kernel) {
+    using Row = Vector<float, taps>;
+    using Bits = Vector<std::int32_t, taps>;
+    const Image<float>& depths = map.depths.depths();
+    const int stride = depths.size().x, side = 2 * radius + 1;
+    const Ints<N> first = (kernel.row + Ints<N>(max_pcf_radius - radius)) * Ints<N>(stride) +
+                          (kernel.column + Ints<N>(max_pcf_radius - radius));
+    Row across{};
+    Bits counts{};
+    for (int x = 0; x < side; ++x)
+        across[x] = kernel.slope.x * static_cast<float>(x - radius), counts[x] = 1;
+    const float* const from = depths.pixels().data();
+    Vector<std::int32_t, N> lit;
+    for (int i = 0; i < N; ++i) {
+        const float* texels = from + first[i];
+        Bits found{};
+        for (int y = -radius; y <= radius; ++y, texels += stride) {
+            const Row at_taps = (kernel.depth[i] + kernel.slope.y * static_cast<float>(y)) + across;
+            const Row at_texels = DepthBuffer::cleared < at_taps ? Row{} + DepthBuffer::cleared : at_taps;
+            Row seen;
+            std::memcpy(&seen, texels, sizeof seen);
+            found += (at_texels <= seen) & counts;
+        }
+        int sum = 0;
+        for (int x = 0; x < taps; ++x) sum += found[x];
+        lit[i] = sum;
+    }
+    return to_floats(Ints<N>(lit));
+}
+
 /// As pcf_visibility().
 template <int N>
 Floats<N> pcf_visibility(const ShadowMap& map, int radius, const WidePcfKernel<N>& kernel) {
     using F = Floats<N>;
-    const Image<float>& depths = map.depths.depths();
-    const int stride = depths.size().x;
-    const Ints<N> middle = (kernel.row + Ints<N>(max_pcf_radius)) * Ints<N>(stride) +
-                           (kernel.column + Ints<N>(max_pcf_radius));
-    // Eight texels of a row at once, of which the first 2 radius + 1 count.
-    using Row = Vector<float, 8>;
-    using Bits = Vector<std::int32_t, 8>;
-    Row across{};
-    Bits counts{};
-    for (int x = 0; x <= 2 * radius; ++x)
-        across[x] = kernel.slope.x * static_cast<float>(x - radius), counts[x] = -1;
-    F lit(0.0f);
-    for (int i = 0; i < N; ++i) {
-        const float* texels =
-            depths.pixels().data() + middle[i] - radius * stride - radius;
-        Bits found{};
-        for (int y = -radius; y <= radius; ++y, texels += stride) {
-            const float depth_in_row = kernel.depth[i] + kernel.slope.y * static_cast<float>(y);
-            const Row at_taps = depth_in_row + across;
-            const Row at_texels = 1.0f < at_taps ? Row{} + 1.0f : at_taps;
-            Row seen;
-            std::memcpy(&seen, texels, sizeof seen);
-            found -= (at_texels <= seen) & counts;
-        }
-        int sum = 0;
-        for (int x = 0; x < 8; ++x) sum += found[x];
-        lit.set(i, static_cast<float>(sum));
-    }
+    const F lit = radius == 1 ? lit_taps<4, N>(map, 1, kernel) : lit_taps<8, N>(map, radius, kernel);
     const int side = 2 * radius + 1;
     return select(kernel.is_in_map, lit / F(static_cast<float>(side * side)), F(1.0f));
 }
