@@ -67,7 +67,9 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
 struct Counters {
     std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> values{};
 
-    void add(Counter counter) { ++values[static_cast<std::size_t>(counter)]; }
+    void add(Counter counter, std::uint64_t times = 1) {
+        values[static_cast<std::size_t>(counter)] += times;
+    }
     void add(const Counters& others) {
         for (std::size_t i = 0; i < values.size(); ++i) values[i] += others.values[i];
     }
@@ -75,7 +77,7 @@ struct Counters {
 
 /// Takes the place of Counters where nothing is to be counted: compiles to nothing.
 struct NoCounters {
-    void add(Counter) {}
+    void add(Counter, std::uint64_t = 1) {}
     void add(const NoCounters&) {}
 };
 

@@ -62,10 +62,12 @@ class TriangleDepth {
 
     /// @param barycentrics  On the screen, >= 0, as fill_triangle gives them.
     /// @return              Not nearer than the nearest vertex.
-    template <typename F>
-    F at(Vec3<F> barycentrics) const {
-        return F(nearest_) + glm::dot(barycentrics, Vec3<F>(beyond_nearest_));  // Eq. 3.3
+    float at(vec3 barycentrics) const {
+        return nearest_ + glm::dot(barycentrics, beyond_nearest_);  // Eq. 3.3
     }
+
+    float nearest() const { return nearest_; }
+    vec3 beyond_nearest() const { return beyond_nearest_; }  ///< By how much each is farther.
 
   private:
     float nearest_;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstddef>
 
 #include "02_triangle_fill/triangle.hpp"
@@ -21,16 +20,6 @@ template <typename Attribute, typename F>
 Attribute interpolate(const std::array<Attribute, 3>& of_vertices, Vec3<F> barycentrics) {
     return barycentrics.x * of_vertices[0] + barycentrics.y * of_vertices[1] +
            barycentrics.z * of_vertices[2];
-}
-
-/// The same at several pixels at once.
-template <int n, typename F>
-    requires(!std::same_as<F, float>)
-glm::vec<n, F> interpolate(const std::array<glm::vec<n, float>, 3>& of_vertices,
-                           Vec3<F> barycentrics) {
-    return interpolate(std::array{glm::vec<n, F>(of_vertices[0]), glm::vec<n, F>(of_vertices[1]),
-                                  glm::vec<n, F>(of_vertices[2])},
-                       barycentrics);
 }
 
 /// Perspective-correct barycentric coordinates, and their derivatives.

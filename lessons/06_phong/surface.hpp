@@ -65,8 +65,8 @@ FragmentColor<F> surface_color(const TriangleSurface& surface, const Perspective
     }
     if (surface.effects[Effect::specular_map]) {
         counters.add(Counter::texture_samples);
-        color.specular *=
-            Vec3<F>(sample(*surface.specular_texture, filter, fragment_uv(surface.specular_uvs, at)));
+        color.specular *= Vec3<F>(
+            sample(*surface.specular_texture, filter, fragment_uv(surface.specular_uvs, at)));
     }
     return color;
 }

@@ -96,16 +96,16 @@ inline VertexColors vertex_colors(EffectMask effects, const ProjectedTriangle& p
 }
 
 /// How opaque a fragment is, 0 to 1: by the material, its texture and the vertices (Eq. 11.7).
-template <typename CounterPolicy>
-float opacity_at(const TriangleSurface& surface, const VertexColors& colors,
-                 const FragmentBarycentrics& at, Filter filter, CounterPolicy& counters) {
-    float opacity = surface.material.opacity;
+template <typename F, typename CounterPolicy>
+F opacity_at(const TriangleSurface& surface, const VertexColors& colors,
+             const PerspectiveBarycentrics<F>& at, Filter filter, CounterPolicy& counters) {
+    F opacity(surface.material.opacity);
     if (surface.effects[Effect::texture]) {
         counters.add(Counter::texture_samples);
         opacity *= sample(*surface.texture, filter, fragment_uv(surface.uvs, at)).a;
     }
     if (colors.are_there) opacity *= colors.at(at.here).a;
-    return clamp(opacity, 0.0f, 1.0f);
+    return clamp(opacity, F(0.0f), F(1.0f));
 }
 
 /// What a shader has to know of a triangle: the same for all of its pixels.
@@ -166,8 +166,8 @@ Vec3<F> shaded(const Frame<Maps>& frame, TriangleInputs& triangle,
                          reflected_light(lights, point, highlight_of(surface), visibility));
         } else {
             counters.add(Counter::toon_fragments);
-            const F level = toon_level(lights, point.position_world, normal,
-                                           *surface.material.toon, visibility);
+            const F level = toon_level(lights, point.position_world, normal, *surface.material.toon,
+                                       visibility);
             return own.emission + toon_paint(own.ambient, own.diffuse, level);
         }
     }

@@ -40,35 +40,20 @@ class ShadowMapParts {
     /// border.
     template <typename CounterPolicy>
     void draw_around(ivec2 middle, int radius, CounterPolicy& counters) const {
-        const ivec2 corner = middle / part_;
-        const ivec2 in_part = middle - corner * part_;
-        if (glm::all(glm::greaterThanEqual(in_part, ivec2(radius))) &&
-            glm::all(glm::lessThan(in_part + radius, ivec2(part_)))) {
-            const std::size_t part = static_cast<std::size_t>(corner.y * columns_ + corner.x);
-            if (states_[part].load(std::memory_order_acquire) != drawn) draw(part, counters);
-            return;
-        }
-        tiling_.for_each_in(PixelBox{middle - radius, middle + radius}, [&](std::size_t part) {
-            if (states_[part].load(std::memory_order_acquire) != drawn) draw(part, counters);
+        draw_in(PixelBox{middle - radius, middle + radius}, counters,
+                [](auto&... what) { draw_tile(what...); });
+    }
+
+    /// The same of a box of texels.
+    ///
+    /// @param fill  Draws a part, as draw_tile() of lesson 10.
+    template <typename CounterPolicy, typename Fill>
+    void draw_in(const PixelBox& texels, CounterPolicy& counters, const Fill& fill) const {
+        tiling_.for_each_in(texels, [&](std::size_t part) {
+            if (states_[part].load(std::memory_order_acquire) != drawn) draw(part, counters, fill);
         });
     }
 
-    template <typename Mask, typename Ints, typename CounterPolicy>
-    void draw_around_all(Mask of, const Ints& column, const Ints& row, int radius, CounterPolicy& counters) const {
-        ivec2 low(map_->size), high(0);
-        const int N = sizeof(column) / sizeof(int);
-        for (int i = 0; i < N; ++i) {
-            low.x = std::min(low.x, of[i] ? column[i] : low.x), high.x = std::max(high.x, of[i] ? column[i] : high.x);
-            low.y = std::min(low.y, of[i] ? row[i] : low.y), high.y = std::max(high.y, of[i] ? row[i] : high.y);
-        }
-        if (low.x > high.x) return;
-        if (low / part_ == high / part_) {
-            draw_around(low, radius, counters);
-            if (low != high) draw_around(high, radius, counters), draw_around({low.x, high.y}, radius, counters), draw_around({high.x, low.y}, radius, counters);
-        } else
-            for (int i = 0; i < N; ++i)
-                if (of[i]) draw_around({column[i], row[i]}, radius, counters);
-    }
     const ShadowMap& map() const { return *map_; }
     const Tiling& tiling() const { return tiling_; }
     bool is_drawn(std::size_t part) const { return states_[part].load() == drawn; }
@@ -76,16 +61,12 @@ class ShadowMapParts {
   private:
     enum State { not_asked, being_drawn, drawn };
 
-    template <typename CounterPolicy>
-    void draw(std::size_t part, CounterPolicy& counters) const {
+    template <typename CounterPolicy, typename Fill>
+    void draw(std::size_t part, CounterPolicy& counters, const Fill& fill) const {
         State before = not_asked;
         if (states_[part].compare_exchange_strong(before, being_drawn)) {
             counters.add(Counter::shadow_parts);
-#ifdef WIDE
-            draw_tile_wide<16>(*map_, casters_, tiling_, part, counters);
-#else
-            draw_tile(*map_, casters_, tiling_, part, counters);
-#endif
+            fill(*map_, casters_, tiling_, part, counters);
             states_[part].store(drawn, std::memory_order_release);
             states_[part].notify_all();
         } else {
@@ -95,7 +76,6 @@ class ShadowMapParts {
 
     ShadowMap* map_;
     Tiling tiling_;
-    int part_ = 64, columns_ = (map_->size + 63) / 64;
     BinnedTriangles casters_;
     std::unique_ptr<std::atomic<State>[]> states_;  ///< Of each part.
 };

@@ -69,7 +69,9 @@ class BarycentricPlanes {
 class TileVisibility {
   public:
     /// @param max_ids  So many triangles can be told apart: 1 to no_triangle.
-    explicit TileVisibility(std::size_t max_ids) : max_ids_(max_ids) {
+    /// @param beyond   So many ids behind each row may be written, and are not read.
+    explicit TileVisibility(std::size_t max_ids, int beyond = 0)
+        : max_ids_(max_ids), beyond_(beyond) {
         assert(max_ids >= 1 && max_ids <= no_triangle);
     }
 
@@ -78,7 +80,6 @@ class TileVisibility {
         tile_ = tile;
         width_ = tile.box.last.x - tile.box.first.x + 1;
         clear();
-        depths_.assign(ids_.size(), 1.0f);
     }
 
     /// Whether no other triangle can be told apart from those that are there.
@@ -96,13 +97,8 @@ class TileVisibility {
     /// The triangle is nearer in this pixel than all before it (Eq. 12.1).
     void write(ivec2 pixel, TriangleId id) { ids_[index(pixel)] = id; }
 
+    /// The ids from a pixel to the end of its row.
     TriangleId* ids_from(ivec2 pixel) { return &ids_[index(pixel)]; }
-    float* depths_from(ivec2 pixel) { return &depths_[index(pixel)]; }
-    void store_depths(DepthBuffer& to) {
-        const auto [first, last] = tile_.box;
-        for (int y = first.y; y <= last.y; y += tile_.row_step)
-            std::copy_n(depths_from({first.x, y}), last.x - first.x + 1, &to.depths()[{first.x, y}]);
-    }
 
     /// Visits each triangle that is visible in a pixel, in drawing order, with its pixels row by
     /// row (Eq. 12.3). Then the tile has no triangles any more.
@@ -131,7 +127,8 @@ class TileVisibility {
   private:
     void clear() {
         triangles_.clear();
-        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) + static_cast<std::size_t>(width_) + 16,
+        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) +
+                        static_cast<std::size_t>(width_ + beyond_),
                     no_triangle);
     }
 
@@ -139,7 +136,7 @@ class TileVisibility {
     std::size_t index(ivec2 pixel) const {
         const ivec2 from_first = pixel - tile_.box.first;
         const int row = tile_.row_step == 1 ? from_first.y : from_first.y / tile_.row_step;
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + 16) +
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + beyond_) +
                static_cast<std::size_t>(from_first.x);
     }
 
@@ -157,10 +154,10 @@ class TileVisibility {
     }
 
     std::size_t max_ids_;
+    int beyond_;
     Tile tile_{};
     int width_ = 0;
     std::vector<TriangleId> ids_;
-    std::vector<float> depths_;
     std::vector<const ProjectedTriangle*> triangles_;
     std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
     std::vector<PixelRun> runs_;                          ///< Triangle by triangle.

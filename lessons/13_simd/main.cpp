@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 12: the visibility buffer.
-#define WIDE
+/// Lesson 13: SIMD.
 #include "10_threading/thread_pool.hpp"
-#include "13_simd/wide_raster.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_options.hpp"
 #include "11_scenes/scene_program.hpp"
@@ -11,17 +9,20 @@
 #include "12_visibility_buffer/views.hpp"
 #include "12_visibility_buffer/visibility_options.hpp"
 #include "12_visibility_buffer/visible_shading.hpp"
-#include "13_simd/wide_shading.hpp"
+#include "13_simd/wide_triangles.hpp"
+#include "13_simd/width.hpp"
 
 using namespace rasterbook;
 
 struct Options : SceneRendererOptions {
     VisibilityOptions visibility;
+    WidthOptions wide;
 
     Options() { threads.tile = 64; }  // a triangle is set up again in each tile
     void declare(Knobs& knobs) {
         SceneRendererOptions::declare(knobs);
         visibility.declare(knobs);
+        wide.declare(knobs);
     }
 };
 
@@ -38,8 +39,8 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
                                          counters_of, lit_by.casts);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
-    std::vector<TileVisibility> visible_of(pool.size(),
-                                           TileVisibility(options.visibility.most_ids()));
+    std::vector<TileVisibility> visible_of(
+        pool.size(), TileVisibility(options.visibility.most_ids(), TileDepths::beyond));
     HeatMap heat(options.visibility.show, options.size);
 
     clock.begin("triangles");
@@ -50,7 +51,8 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         bin_passes(pool, assets, meshes, clip_from_world, tiling, counters_of);
 
     clock.begin("picture");
-    const WideShaders<16, CounterPolicy> shaders(plan);
+    const WideDrawing<CounterPolicy> wide = drawing_of_width(options.wide.width);
+    const VisibleShaders<ShadowMapsOnDemand, CounterPolicy> shaders(plan, wide.shaders);
     const Frame frame{assets,
                       options.normal_map,
                       options.texture.filter,
@@ -62,6 +64,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         const Tile tile = tiling[i];
         CounterPolicy& counters = counters_of[worker];
         clear_tile(color, depth, tile);
+        TileDepths depths(tile);
         if (is_on_paper) draw_paper(color, tile);
         TileVisibility& visible = visible_of[worker];
         visible.begin(tile);
@@ -71,18 +74,19 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         for (const BinnedTriangles& pass : passes.opaque)
             pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
                 if (visible.is_full()) shade();
-                draw_id_wide<16>(frame, projected, tile, visible, counters);
+                wide.draw_id(frame, projected, tile, depths, visible, counters);
             });
         shade();
-        visible.store_depths(depth);
         TransparentFragments transparent;
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)
                 pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                    draw_transparent(frame, projected, part, shaders, transparent, heat, counters);
+                    wide.draw_transparent(frame, projected, part, depths, shaders, transparent,
+                                          heat, counters);
                 });
             transparent.blend_over(color);
         });
+        if (options.show_depth) depths.copy_to(depth.depths(), tile, ivec2(0));
         if (options.threads.show) tint(color, tile, worker);
     });
     counters_of.add_to(total);
@@ -94,6 +98,6 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 
 int main(int argc, char** argv) {
     return run_scene_lesson<Options>(argc, argv, "13_simd",
-                                     "Draws a scene of any file, and shades what is seen.",
+                                     "Draws a scene of any file, several pixels at a time.",
                                      [](auto&... with) { return render(with...); });
 }

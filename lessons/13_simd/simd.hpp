@@ -187,30 +187,74 @@ inline Floats<N> gather(const float* table, Ints<N> index) {
     return result;
 }
 
-/// The first `count` lanes.
+/// The numbers 0, 1, 2 ...
 template <int N>
-inline Mask<N> first_lanes(int count) {
-    Vector<std::int32_t, N> lane;
-    for (int i = 0; i < N; ++i) lane[i] = i;
-    return {lane < count};
+inline Ints<N> lane_numbers() {
+    Ints<N> numbers;
+    for (int i = 0; i < N; ++i) numbers.set(i, i);
+    return numbers;
 }
 
-/// What lies at an address, where the mask holds; elsewhere nothing is read.
-template <int N>
-inline Floats<N> load(const float* from, Mask<N> mask) {
-    Floats<N> x(0.0f);
-    for (int i = 0; i < N; ++i)
-        if (mask.lanes[i]) x.lanes[i] = from[i];
+// What code for any number type F, float as well, asks of it:
+
+/// How many numbers an F holds.
+template <typename F>
+constexpr int width_of = sizeof(F) / sizeof(float);
+
+/// What a comparison of two F gives: bool, or a Mask.
+template <typename F>
+using MaskOf = decltype(F() < F());
+
+/// F numbers from an address on, whether it is a multiple of their size or not.
+template <typename F>
+inline F load(const float* from) {
+    F x;
+    std::memcpy(&x, from, sizeof x);
     return x;
 }
-template <int N, typename T>
-inline void store(T* to, Mask<N> mask, Vector<T, N> x) {
-    for (int i = 0; i < N; ++i)
-        if (mask.lanes[i]) to[i] = x[i];
+template <typename F>
+inline void store(float* to, F x) {
+    std::memcpy(to, &x, sizeof x);
+}
+
+/// Writes a number where the mask holds.
+inline void write_where(bool mask, std::uint32_t* to, std::uint32_t number) {
+    if (mask) *to = number;
 }
 template <int N>
-inline void store(float* to, Mask<N> mask, Floats<N> x) {
-    store<N, float>(to, mask, x.lanes);
+inline void write_where(Mask<N> mask, std::uint32_t* to, std::uint32_t number) {
+    Ints<N> before;
+    std::memcpy(&before, to, sizeof before);
+    const Ints<N> after = select(mask, Ints<N>(static_cast<std::int32_t>(number)), before);
+    std::memcpy(to, &after, sizeof after);
+}
+
+/// The number of one lane.
+inline float lane_of(float x, int) { return x; }
+template <int N>
+inline float lane_of(Floats<N> x, int lane) {
+    return x[lane];
+}
+inline bool lane_of(bool mask, int) { return mask; }
+template <int N>
+inline bool lane_of(Mask<N> mask, int lane) {
+    return mask[lane];
+}
+
+/// In how many lanes a mask holds.
+inline int count_of(bool mask) { return mask; }
+template <int N>
+inline int count_of(Mask<N> mask) {
+    return std::popcount(bits_of(mask));
+}
+
+/// A mask that holds in the first `count` lanes.
+template <typename F>
+inline MaskOf<F> first_lanes(int count) {
+    if constexpr (width_of<F> == 1)
+        return count > 0;
+    else
+        return lane_numbers<width_of<F>>() < Ints<width_of<F>>(count);
 }
 
 }  // namespace rasterbook

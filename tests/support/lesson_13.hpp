@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 12's Options and render(), in namespace lesson_13.
+/// Lesson 13's Options and render(), in namespace lesson_13.
 /// In tests of the reader's headers, too, it is the course's main.cpp.
 #pragma once
 
 // All that main.cpp includes, so that what is left of it are its own lines.
-#define WIDE
-#include "13_simd/wide_raster.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_options.hpp"
@@ -14,11 +12,10 @@
 #include "12_visibility_buffer/shadow_parts.hpp"
 #include "12_visibility_buffer/views.hpp"
 #include "12_visibility_buffer/visible_shading.hpp"
-#include "13_simd/wide_shading.hpp"
+#include "13_simd/wide_triangles.hpp"
+#include "13_simd/width.hpp"
 #include "support/run_no_lesson.hpp"
 
-#define WIDE
-#include "13_simd/wide_raster.hpp"
 #define main static lesson_main [[maybe_unused]]
 namespace lesson_13 {
 using rasterbook::test::run_scene_lesson;

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Texture samples of several pixels at once: the same steps, and bits, as in lesson 05. Introduced
+/// in lesson 13; derivation: docs/derivations/13_simd.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+#include "05_textures/texture.hpp"
+#include "13_simd/simd.hpp"
+#include "common/math/functions.hpp"
+
+namespace rasterbook {
+
+/// As interpolate() of lesson 05: a vertex attribute at several pixels of a triangle.
+template <int n, int N>
+glm::vec<n, Floats<N>> interpolate(const std::array<glm::vec<n, float>, 3>& of_vertices,
+                                   const Vec3<Floats<N>>& barycentrics) {
+    using Attribute = glm::vec<n, Floats<N>>;
+    return barycentrics.x * Attribute(of_vertices[0]) + barycentrics.y * Attribute(of_vertices[1]) +
+           barycentrics.z * Attribute(of_vertices[2]);
+}
+
+/// As wrapped() of one coordinate (Eq. 5.4).
+template <int N>
+Floats<N> wrapped(Floats<N> coordinate, Wrap wrap) {
+    using F = Floats<N>;
+    const F zero(0.0f), one(1.0f), two(2.0f);
+    if (wrap == Wrap::repeat) return max(coordinate - floor(coordinate), zero);
+    if (wrap == Wrap::clamp) return clamp(coordinate, zero, one);
+    const F there_and_back = coordinate - two * floor(F(0.5f) * coordinate);
+    const F back = two - there_and_back;
+    return max(select(back < there_and_back, back, there_and_back), zero);
+}
+
+/// As sample_bilinear(), each pixel in a level of its own (Eq. 5.6).
+///
+/// @param x,y  Positions in the texture, 0 to 1.
+template <int N>
+glm::vec<4, Floats<N>> sample_bilinear(const Texture& texture, Ints<N> level, Floats<N> x,
+                                       Floats<N> y) {
+    using F = Floats<N>;
+    using Texel = Vector<float, 4>;  // its channels: one pixel's four, not N pixels' one
+    F width, height;
+    for (int i = 0; i < N; ++i) {
+        const ivec2 size = texture.levels[static_cast<std::size_t>(level[i])].size;
+        width.set(i, static_cast<float>(size.x));
+        height.set(i, static_cast<float>(size.y));
+    }
+    const F from_first_x = x * width + F(0.5f), from_first_y = y * height + F(0.5f);
+    const Ints<N> column = min(truncated(from_first_x), truncated(width));
+    const Ints<N> row = min(truncated(from_first_y), truncated(height));
+    const F share_x = from_first_x - to_floats(column), share_y = from_first_y - to_floats(row);
+    std::array<std::array<float, N>, 4> channels;
+    for (int i = 0; i < N; ++i) {
+        const Image<vec4>& texels = texture.levels[static_cast<std::size_t>(level[i])].texels;
+        const vec4* const upper = &texels[{column[i], row[i]}];
+        const vec4* const lower = upper + texels.size().x;
+        const auto read = [](const vec4* from) {
+            Texel texel;
+            std::memcpy(&texel, from, sizeof texel);
+            return texel;
+        };
+        const Texel in_upper = read(upper) + share_x[i] * (read(upper + 1) - read(upper));
+        const Texel in_lower = read(lower) + share_x[i] * (read(lower + 1) - read(lower));
+        const Texel mean = in_upper + share_y[i] * (in_lower - in_upper);
+        for (int c = 0; c < 4; ++c)
+            channels[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)] = mean[c];
+    }
+    return {load<F>(channels[0].data()), load<F>(channels[1].data()), load<F>(channels[2].data()),
+            load<F>(channels[3].data())};
+}
+
+/// As sample_nearest().
+template <int N>
+glm::vec<4, Floats<N>> sample_nearest(const TextureLevel& level, Floats<N> x, Floats<N> y) {
+    glm::vec<4, Floats<N>> color;
+    for (int i = 0; i < N; ++i) {
+        const vec4 texel = sample_nearest(level, {x[i], y[i]});
+        for (int c = 0; c < 4; ++c) color[c].set(i, texel[c]);
+    }
+    return color;
+}
+
+/// As level_of_detail() (Eq. 5.8).
+template <int N>
+Floats<N> level_of_detail(const glm::vec<2, Floats<N>>& ddx, const glm::vec<2, Floats<N>>& ddy,
+                          ivec2 size) {
+    using F = Floats<N>;
+    const glm::vec<2, F> texels{vec2(size)};
+    const glm::vec<2, F> across = ddx * texels, down = ddy * texels;
+    const F across_squared = glm::dot(across, across), down_squared = glm::dot(down, down);
+    const F longer_squared = select(across_squared < down_squared, down_squared, across_squared);
+    const F sum = across_squared + down_squared;  // NaN where either is
+    return select((sum == sum) & (longer_squared > F(1.0f)), F(0.5f) * log2(longer_squared),
+                  F(0.0f));
+}
+
+/// As sample().
+template <int N>
+glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
+                              const TextureCoordinates<Floats<N>>& uv) {
+    using F = Floats<N>;
+    const F x = wrapped(uv.here.x, texture.wrap);
+    const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap);
+    if (filter == Filter::nearest) return sample_nearest(texture.levels[0], x, y);
+    if (filter == Filter::bilinear) return sample_bilinear(texture, Ints<N>(0), x, y);
+    const F last(static_cast<float>(texture.levels.size() - 1));
+    const F found = level_of_detail<N>(uv.ddx, uv.ddy, texture.levels[0].size);
+    const F level = select(last < found, last, found);
+    const Ints<N> finer = truncated(level);
+    const auto in_finer = sample_bilinear(texture, finer, x, y);
+    const F share = level - to_floats(finer);
+    const Mask<N> is_between = share > F(0.0f);
+    if (!any_of(is_between)) return in_finer;
+    const auto in_coarser =
+        sample_bilinear(texture, select(is_between, finer + Ints<N>(1), finer), x, y);
+    return in_finer + share * (in_coarser - in_finer);
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How many pixels are drawn at a time: chosen when the program runs, compiled once for each width.
+/// Introduced in lesson 13.
+#pragma once
+
+#include "12_visibility_buffer/visible_shading.hpp"
+#include "13_simd/wide_triangles.hpp"
+#include "common/app/counters.hpp"
+#include "common/app/lesson_app.hpp"
+
+namespace rasterbook {
+
+/// The functions that draw so many pixels at a time.
+template <typename CounterPolicy>
+struct WideDrawing {
+    using Maps = ShadowMapsOnDemand;
+    using Shaders = VisibleShaders<Maps, CounterPolicy>;
+
+    void (*draw_id)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
+                    TileVisibility&, CounterPolicy&);
+    void (*draw_transparent)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
+                             const Shaders&, TransparentFragments&, HeatMap&, CounterPolicy&);
+    typename Shaders::OfPermutations shaders;
+};
+
+/// Compiled apart, in width_4.cpp and so on.
+template <int N>
+WideDrawing<Counters> drawing_of_width();
+
+/// @param width  1, 4, 8 or 16.
+inline WideDrawing<Counters> drawing_of_width(int width) {
+    switch (width) {
+        case 1:
+            return drawing_of_width<1>();
+        case 4:
+            return drawing_of_width<4>();
+        case 8:
+            return drawing_of_width<8>();
+        default:
+            return drawing_of_width<16>();
+    }
+}
+
+struct WidthOptions {
+    int width = native_width;
+
+    void declare(Knobs& knobs) {
+        knobs.choice("--width", width, {{"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}},
+                     "Pixels that are drawn at a time");
+    }
+};
+
+}  // namespace rasterbook
