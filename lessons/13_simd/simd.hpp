@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "common/math/functions.hpp"
 
@@ -247,6 +248,32 @@ template <int N>
 inline int count_of(Mask<N> mask) {
     return std::popcount(bits_of(mask));
 }
+
+/// Counts in how many lanes masks have held, lane by lane: one step for each mask, whatever its
+/// width. Up to 2^31 masks.
+template <typename F>
+class LaneSum {
+  public:
+    void add(MaskOf<F> mask) {
+        if constexpr (width_of<F> == 1)
+            sum_ += mask;
+        else
+            sum_.lanes -= mask.lanes;  // -1 where it holds
+    }
+
+    std::uint64_t total() const {
+        if constexpr (width_of<F> == 1) {
+            return sum_;
+        } else {
+            std::uint64_t total = 0;
+            for (int i = 0; i < width_of<F>; ++i) total += static_cast<std::uint64_t>(sum_[i]);
+            return total;
+        }
+    }
+
+  private:
+    std::conditional_t<width_of<F> == 1, std::uint64_t, Ints<width_of<F>>> sum_{};
+};
 
 /// A mask that holds in the first `count` lanes.
 template <typename F>

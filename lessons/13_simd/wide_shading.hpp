@@ -82,13 +82,15 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
                                     [&](ivec2 pixel, MaskOf<F> nearer, const Vec3<F>&, F depth, F) {
                                         write(pixel, nearer, depth);
                                     });
-    else
+    else {
+        LaneSum<F> tested;
         fill_tile<F>(projected.on_screen, tile,
                      [&](ivec2 pixel, MaskOf<F> covered, const Vec3<F>& on_screen) {
-                         counters.add(Counter::fragments_tested,
-                                      static_cast<std::uint64_t>(count_of(covered)));
+                         tested.add(covered);
                          write(pixel, covered, depth_at<F>(projected.depth, on_screen));
                      });
+        counters.add(Counter::fragments_tested, tested.total());
+    }
 }
 
 /// As BarycentricPlanes of lesson 12: the same bits at several pixels, wherever they are.

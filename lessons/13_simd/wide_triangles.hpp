@@ -180,14 +180,15 @@ void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& til
     const Tile tile = tiling[i];
     clear_tile(map, tile);
     TileDepths depths(tile);
+    LaneSum<F> count;
     casters.for_each_in(i, [&](const ProjectedTriangle& caster) {
         fill_tile<F>(caster.on_screen, tile,
                      [&](ivec2 texel, MaskOf<F> covered, const Vec3<F>& at) {
-                         counters.add(Counter::shadow_fragments,
-                                      static_cast<std::uint64_t>(count_of(covered)));
+                         count.add(covered);
                          depths.test_and_write<F>(texel, covered, depth_at<F>(caster.depth, at));
                      });
     });
+    counters.add(Counter::shadow_fragments, count.total());
     depths.copy_to(map.depths.depths(), tile, ivec2(max_pcf_radius));
 }
 
