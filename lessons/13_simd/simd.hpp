@@ -103,6 +103,23 @@ inline Ints<N> min(Ints<N> a, Ints<N> b) {
     return select(a < b, a, b);
 }
 
+/// The least of all numbers: halves of halves, as any_of() takes them.
+template <int N>
+inline std::int32_t least_of(Ints<N> x) {
+    if constexpr (N == 1) {
+        return x[0];
+    } else {
+        Ints<N / 2> low, high;
+        std::memcpy(&low, &x, sizeof low);
+        std::memcpy(&high, reinterpret_cast<const char*>(&x) + sizeof low, sizeof high);
+        return least_of(min(low, high));
+    }
+}
+template <int N>
+inline std::int32_t greatest_of(Ints<N> x) {
+    return -least_of(Ints<N>(0) - x);
+}
+
 /// N floats: the number type F of all stages.
 template <int N>
 struct Floats {
@@ -240,6 +257,12 @@ inline bool lane_of(bool mask, int) { return mask; }
 template <int N>
 inline bool lane_of(Mask<N> mask, int lane) {
     return mask[lane];
+}
+
+/// The first lane in which a mask holds. It has to hold in one.
+template <int N>
+inline int first_of(Mask<N> mask) {
+    return std::countr_zero(bits_of(mask));
 }
 
 /// In how many lanes a mask holds.

@@ -111,15 +111,18 @@ template <int N, typename CounterPolicy>
 void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, int radius,
                  CounterPolicy& counters) {
     const auto fill = [](auto&... what) { draw_tile<Floats<N>>(what...); };
-    PixelBox all{ivec2(parts.map().size), ivec2(-1)};
-    for (int i = 0; i < N; ++i) {
-        const ivec2 middle(kernel.column[i], kernel.row[i]);
-        if (!kernel.is_in_map[i]) continue;
-        all = {glm::min(all.first, middle - radius), glm::max(all.last, middle + radius)};
-    }
-    std::size_t count = 0;
-    parts.tiling().for_each_in(all, [&](std::size_t) { ++count; });
-    if (count <= 1) return parts.draw_in(all, counters, fill);
+    const Ints<N> outside(parts.map().size), before(-1);
+    const Mask<N> in_map = kernel.is_in_map;
+    if (!any_of(in_map)) return;
+    const PixelBox all{ivec2(least_of(select(in_map, kernel.column, outside)),
+                             least_of(select(in_map, kernel.row, outside))) -
+                           radius,
+                       ivec2(greatest_of(select(in_map, kernel.column, before)),
+                             greatest_of(select(in_map, kernel.row, before))) +
+                           radius};
+    std::size_t count = 0, last = 0;
+    parts.tiling().for_each_in(all, [&](std::size_t part) { ++count, last = part; });
+    if (count == 1) return parts.draw_part(last, counters, fill);
     for (int i = 0; i < N; ++i) {  // in a part of the box there may be no kernel
         const ivec2 middle(kernel.column[i], kernel.row[i]);
         if (kernel.is_in_map[i]) parts.draw_in({middle - radius, middle + radius}, counters, fill);
@@ -172,7 +175,7 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
         Counter::shadow_tests,
         static_cast<std::uint64_t>(count_of(left & first_lanes<F>(counters.lanes))));
     while (any_of(left)) {
-        const int first = std::countr_zero(bits_of(left)), side = side_of_lane[first];
+        const int first = first_of(left), side = side_of_lane[first];
         const auto i = static_cast<std::size_t>(map_of_lane[first]);
         const Mask<N> together =
             left & (map_of_lane == Ints<N>(map_of_lane[first])) & (side_of_lane == Ints<N>(side));

@@ -35,42 +35,38 @@ Floats<N> wrapped(Floats<N> coordinate, Wrap wrap) {
     return max(select(back < there_and_back, back, there_and_back), zero);
 }
 
-/// As sample_bilinear(), each pixel in a level of its own (Eq. 5.6).
+/// As sample_bilinear() (Eq. 5.6). The four channels of a texel are neighbours in memory: it is
+/// they that are computed at once here, and the N pixels one after the other.
 ///
 /// @param x,y  Positions in the texture, 0 to 1.
 template <int N>
-glm::vec<4, Floats<N>> sample_bilinear(const Texture& texture, Ints<N> level, Floats<N> x,
-                                       Floats<N> y) {
+glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
     using F = Floats<N>;
-    using Texel = Vector<float, 4>;  // its channels: one pixel's four, not N pixels' one
-    F width, height;
-    for (int i = 0; i < N; ++i) {
-        const ivec2 size = texture.levels[static_cast<std::size_t>(level[i])].size;
-        width.set(i, static_cast<float>(size.x));
-        height.set(i, static_cast<float>(size.y));
-    }
-    const F from_first_x = x * width + F(0.5f), from_first_y = y * height + F(0.5f);
-    const Ints<N> column = min(truncated(from_first_x), truncated(width));
-    const Ints<N> row = min(truncated(from_first_y), truncated(height));
+    using Texel = Vector<float, 4>;
+    const F from_first_x = x * F(static_cast<float>(level.size.x)) + F(0.5f);
+    const F from_first_y = y * F(static_cast<float>(level.size.y)) + F(0.5f);
+    const Ints<N> column = min(truncated(from_first_x), Ints<N>(level.size.x));
+    const Ints<N> row = min(truncated(from_first_y), Ints<N>(level.size.y));
     const F share_x = from_first_x - to_floats(column), share_y = from_first_y - to_floats(row);
-    std::array<std::array<float, N>, 4> channels;
+    const std::ptrdiff_t pitch = level.texels.size().x;
+    const vec4* const texels = level.texels.pixels().data();
+    const auto read = [](const vec4* from) {
+        Texel texel;
+        std::memcpy(&texel, from, sizeof texel);
+        return texel;
+    };
+    std::array<Texel, N> means;
     for (int i = 0; i < N; ++i) {
-        const Image<vec4>& texels = texture.levels[static_cast<std::size_t>(level[i])].texels;
-        const vec4* const upper = &texels[{column[i], row[i]}];
-        const vec4* const lower = upper + texels.size().x;
-        const auto read = [](const vec4* from) {
-            Texel texel;
-            std::memcpy(&texel, from, sizeof texel);
-            return texel;
-        };
+        const vec4* const upper = texels + (row[i] * pitch + column[i]);
+        const vec4* const lower = upper + pitch;
         const Texel in_upper = read(upper) + share_x[i] * (read(upper + 1) - read(upper));
         const Texel in_lower = read(lower) + share_x[i] * (read(lower + 1) - read(lower));
-        const Texel mean = in_upper + share_y[i] * (in_lower - in_upper);
-        for (int c = 0; c < 4; ++c)
-            channels[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)] = mean[c];
+        means[static_cast<std::size_t>(i)] = in_upper + share_y[i] * (in_lower - in_upper);
     }
-    return {load<F>(channels[0].data()), load<F>(channels[1].data()), load<F>(channels[2].data()),
-            load<F>(channels[3].data())};
+    glm::vec<4, F> color;
+    for (int c = 0; c < 4; ++c)
+        for (int i = 0; i < N; ++i) color[c].set(i, means[static_cast<std::size_t>(i)][c]);
+    return color;
 }
 
 /// As sample_nearest().
@@ -106,18 +102,26 @@ glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
     const F x = wrapped(uv.here.x, texture.wrap);
     const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], x, y);
-    if (filter == Filter::bilinear) return sample_bilinear(texture, Ints<N>(0), x, y);
+    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], x, y);
     const F last(static_cast<float>(texture.levels.size() - 1));
     const F found = level_of_detail<N>(uv.ddx, uv.ddy, texture.levels[0].size);
     const F level = select(last < found, last, found);
     const Ints<N> finer = truncated(level);
-    const auto in_finer = sample_bilinear(texture, finer, x, y);
     const F share = level - to_floats(finer);
-    const Mask<N> is_between = share > F(0.0f);
-    if (!any_of(is_between)) return in_finer;
-    const auto in_coarser =
-        sample_bilinear(texture, select(is_between, finer + Ints<N>(1), finer), x, y);
-    return in_finer + share * (in_coarser - in_finer);
+    glm::vec<4, F> color(F(0.0f));
+    // All pixels between the same two levels together: mostly there are no others.
+    for (Mask<N> left = first_lanes<F>(N); any_of(left);) {
+        const int i = finer[first_of(left)];
+        const Mask<N> together = left & (finer == Ints<N>(i));
+        glm::vec<4, F> mean = sample_bilinear(texture.levels[static_cast<std::size_t>(i)], x, y);
+        if (any_of(together & (share > F(0.0f)))) {
+            const TextureLevel& coarser = texture.levels[static_cast<std::size_t>(i) + 1];
+            mean += share * (sample_bilinear(coarser, x, y) - mean);
+        }
+        for (int c = 0; c < 4; ++c) color[c] = select(together, mean[c], color[c]);
+        left = left & !together;
+    }
+    return color;
 }
 
 }  // namespace rasterbook
