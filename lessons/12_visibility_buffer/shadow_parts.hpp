@@ -49,18 +49,16 @@ class ShadowMapParts {
     /// @param fill  Draws a part, as draw_tile() of lesson 10.
     template <typename CounterPolicy, typename Fill>
     void draw_in(const PixelBox& texels, CounterPolicy& counters, const Fill& fill) const {
-        tiling_.for_each_in(texels, [&](std::size_t part) { draw_part(part, counters, fill); });
-    }
-
-    /// The same of one part.
-    template <typename CounterPolicy, typename Fill>
-    void draw_part(std::size_t part, CounterPolicy& counters, const Fill& fill) const {
-        if (states_[part].load(std::memory_order_acquire) != drawn) draw(part, counters, fill);
+        tiling_.for_each_in(texels, [&](std::size_t part) {
+            if (!is_drawn(part)) draw(part, counters, fill);
+        });
     }
 
     const ShadowMap& map() const { return *map_; }
     const Tiling& tiling() const { return tiling_; }
-    bool is_drawn(std::size_t part) const { return states_[part].load() == drawn; }
+    bool is_drawn(std::size_t part) const {
+        return states_[part].load(std::memory_order_acquire) == drawn;
+    }
 
   private:
     enum State { not_asked, being_drawn, drawn };

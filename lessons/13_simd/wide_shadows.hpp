@@ -110,7 +110,6 @@ Floats<N> pcf_visibility(const ShadowMap& map, int radius, const WidePcfKernel<N
 template <int N, typename CounterPolicy>
 void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, int radius,
                  CounterPolicy& counters) {
-    const auto fill = [](auto&... what) { draw_tile<Floats<N>>(what...); };
     const Ints<N> outside(parts.map().size), before(-1);
     const Mask<N> in_map = kernel.is_in_map;
     if (!any_of(in_map)) return;
@@ -120,12 +119,14 @@ void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, in
                        ivec2(greatest_of(select(in_map, kernel.column, before)),
                              greatest_of(select(in_map, kernel.row, before))) +
                            radius};
-    std::size_t count = 0, last = 0;
-    parts.tiling().for_each_in(all, [&](std::size_t part) { ++count, last = part; });
-    if (count == 1) return parts.draw_part(last, counters, fill);
+    bool are_drawn = true;
+    parts.tiling().for_each_in(all, [&](std::size_t part) { are_drawn &= parts.is_drawn(part); });
+    if (are_drawn) return;
     for (int i = 0; i < N; ++i) {  // in a part of the box there may be no kernel
         const ivec2 middle(kernel.column[i], kernel.row[i]);
-        if (kernel.is_in_map[i]) parts.draw_in({middle - radius, middle + radius}, counters, fill);
+        if (in_map[i])
+            parts.draw_in({middle - radius, middle + radius}, counters,
+                          [](auto&... what) { draw_tile<Floats<N>>(what...); });
     }
 }
 
