@@ -25,7 +25,7 @@ inline vec3 color_of_triangle(const ProjectedTriangle& projected) {
         static_cast<std::size_t>(&projected.triangle - projected.mesh.triangles.data()));
 }
 
-/// How often each pixel was shaded, for Show::shading.
+/// How often each pixel was shaded, for Show::shading (Eq. 12.4).
 class HeatMap {
   public:
     /// @param show  Unless it is Show::shading, nothing is counted.
