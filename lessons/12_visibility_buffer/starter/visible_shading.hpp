@@ -120,8 +120,8 @@ class VisibleShaders {
     std::vector<Shader> of_material_;
 };
 
-/// Draws the colours of all pixels in which a triangle is visible, each once; then the tile has no
-/// triangles any more.
+/// Draws the colours of all pixels in which a triangle is visible, each once (Eq. 12.5); then the
+/// tile has no triangles any more.
 template <typename Maps, typename CounterPolicy>
 void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps, CounterPolicy>& shaders,
                    TileVisibility& visible, Show show, HeatMap& heat, CounterPolicy& counters) {
