@@ -211,13 +211,13 @@ void less_than_the_derived_bias_is_too_little(LightKind kind, int radius) {
     for (const PointOn& p : points_on(plane.mesh, random, 400)) {
         const ShadowMap& map = maps.map_for(p.point);
         Receiver at = receiver(map, Bias::slope, radius, p.vertices, maps.toward(p.point));
-        ASSERT_EQ(pcf_visibility(map, radius, at, p.point), 1)
+        ASSERT_EQ(pcf_visibility(map, radius, pcf_kernel(map, at, p.point)), 1)
             << "at " << testing::PrintToString(p.point) << " with a bias of "
             << at.bias + at.bias_per_w << ": " << where;
         at.bias *= 0.9f, at.bias_per_w = 0;
-        dark_with_less += pcf_visibility(map, radius, at, p.point) < 1;
+        dark_with_less += pcf_visibility(map, radius, pcf_kernel(map, at, p.point)) < 1;
         at.bias = 0;
-        dark_without += pcf_visibility(map, radius, at, p.point) < 1;
+        dark_without += pcf_visibility(map, radius, pcf_kernel(map, at, p.point)) < 1;
     }
     EXPECT_GT(dark_with_less, 20)
         << "of 20000 points, with 9/10 of the bias: it is more than Eq. 9.10 has; " << where;

@@ -30,7 +30,7 @@ class HeatMap {
   public:
     /// @param show  Unless it is Show::shading, nothing is counted.
     HeatMap(Show show, ivec2 size) : is_on_(show == Show::shading) {
-        if (is_on_) times_ = Image<std::uint16_t>(size);
+        if (is_on_) times_ = Image<std::uint32_t>(size);
     }
 
     void add(ivec2 pixel) {
@@ -56,7 +56,7 @@ class HeatMap {
 
   private:
     bool is_on_;
-    Image<std::uint16_t> times_;
+    Image<std::uint32_t> times_;
 };
 
 /// The first shadow map: the nearest texel is white, what no pixel asked for is blue, and each part
@@ -94,7 +94,8 @@ inline Image<vec3> picture_of(const ShadowMapsOnDemand& on_demand, ivec2 size) {
                     1 - 0.9f * (depth - nearest) / std::max(farthest - nearest, 1e-6f);
                 color = vec3(depth < DepthBuffer::cleared ? shade * shade : 0);
             }
-            const bool is_border = texel(x - 1) < first.x || texel(y - 1) < first.y;
+            const bool is_border =
+                x == 0 || y == 0 || texel(x - 1) < first.x || texel(y - 1) < first.y;
             picture[(size - side) / 2 + ivec2(x, y)] = is_border ? 0.5f * color + 0.02f : color;
         }
     return picture;

@@ -9,6 +9,16 @@ report.py MEASURED.json PAGE.md, where the page has, for each comparison, the li
 
 What stands between them is replaced. The errors are names of user counters, with another heading
 for the table if need be; the one with the star is plotted.
+
+Where there is no front to be found, it has other lines in place of the first one:
+
+    <!-- table: COMPARISON | COUNTER; COUNTER = HEADING; ... -->
+    <!-- grid: COMPARISON | ROWS' NAME | COUNTER = HEADING | COLUMN; COLUMN = HEADING; ... -->
+    <!-- curves: ...as a grid's... -->
+
+A table has a row for each variant. A grid has those variants that are called "ROW: COLUMN", and
+curves are a grid of which a plot is drawn, too. The counter `time` stands for the time and its
+quartiles. A column that is no variant's is taken for a counter.
 """
 
 import json
@@ -194,6 +204,122 @@ def plot(variants, unit, error, file):
     draw(script, file)
 
 
+def value_of(variant, counter):
+    return variant["time"] if counter == "time" else variant["errors"][counter]
+
+
+def cells_of(variant, counter):
+    """What a table says of a counter: one cell, or two for the time."""
+    if counter != "time":
+        return [number(variant["errors"][counter]).replace("-", "−")]
+    low, high = variant["quartiles"]
+    return [number(variant["time"]), f"{number(low)}–{number(high)}"]
+
+
+def columns_of(text):
+    """Counters and their headings, in order."""
+    parts = [part.strip().partition(" = ") for part in text.split(";")]
+    return {counter: heading or counter for counter, _, heading in parts}
+
+
+def markdown(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def remarks(measured, variants, has_times):
+    """How the times were taken, and whether the pictures are what they have to be."""
+    sentences = []
+    if has_times:
+        sentences.append(
+            f"Medians and quartiles of {variants[0]['repetitions']} repetitions, the variants by turns in random order, "
+            f"on one thread ({machine(measured)}, {measured['context']['compiler']}).")
+    differing = [v["errors"]["pixels that differ, %"] for v in variants if "pixels that differ, %" in v["errors"]]
+    if differing:
+        sentences.append("Pixels that differ from the reference in any bit: "
+                         + ("none." if max(differing) == 0 else f"up to {number(max(differing))}%."))
+    return " ".join(sentences)
+
+
+def plain_table(measured, comparison, counters):
+    variants = read_variants(measured, comparison)
+    columns = columns_of(counters)
+    head = ["variant"]
+    for counter, heading in columns.items():
+        head += [heading, "quartiles"] if counter == "time" else [heading]
+    rows = [[v["name"], *(cell for counter in columns for cell in cells_of(v, counter))] for v in variants]
+    return [markdown(head, rows), "", remarks(measured, variants, "time" in columns)]
+
+
+def grid(measured, page, has_plot, comparison, rows_name, counter, names):
+    (counter, heading), = columns_of(counter).items()
+    names = columns_of(names)
+    by_row = {}
+    for v in read_variants(measured, comparison):
+        row, _, column = v["name"].partition(": ")
+        by_row.setdefault(row, {})[column] = v
+    used, rows, curves = [], [], {name: [] for name in names}
+    for row, by_column in by_row.items():
+        cells = []
+        for name in names:
+            variant = by_column.get(name) or next(iter(by_column.values()))
+            shown = counter if name in by_column else name
+            used.append(variant)
+            cell, *quartiles = cells_of(variant, shown)
+            cells.append(f"{cell} ({quartiles[0]})" if quartiles else cell)
+            if row.isdigit():
+                curves[name].append((float(row), value_of(variant, shown)))
+        rows.append([row, *cells])
+    lines = [markdown([rows_name, *names.values()], rows), "", remarks(measured, used, counter == "time")]
+    if has_plot:
+        picture = page.with_name(f"{page.stem}-{comparison}.svg")
+        plot_curves(curves, rows_name, heading, picture)
+        lines = [f"![{heading} over {rows_name}: {'; '.join(names)}]({picture.name})", ""] + lines
+    return lines
+
+
+def plot_curves(curves, x_name, y_name, file):
+    """Lines on logarithmic axes, each with its name at its right end: x grows to the left if they differ more there."""
+    points = [point for curve in curves.values() for point in curve]
+    columns = sorted({x for x, _ in points})
+    right = RIGHT + 8 * max(len(name) for name in curves)
+    low, high = min(y for _, y in points), max(y for _, y in points)
+    spread = [max(ends) / min(ends) for ends in zip(*((curve[0][1], curve[-1][1]) for curve in curves.values()))]
+    is_reversed = spread[0] > spread[1]
+    x = Axis(columns[0] / 1.1, columns[-1] * 1.1, LEFT, WIDTH - right)
+    y = Axis(low / 1.3, high * 1.3, HEIGHT - BOTTOM, TOP)
+    y_ticks = [f'"{t:,g}" {t}' for t in time_ticks(y.low, y.high)]
+    script = axes(x, y, y_ticks, x_name, y_name, file)
+    script.append(f"set rmargin at screen {1 - right / WIDTH}")
+    script.append("set xtics nomirror (" + ", ".join(f'"{t:,g}" {t}' for t in columns) + ")")
+    if is_reversed:
+        script.append(f"set xrange [{x.high}:{x.low}]")
+
+    ends = sorted((y.at(curve[0 if is_reversed else -1][1]), name) for name, curve in curves.items())
+    places, free = {}, TOP
+    for at, name in ends:  # none over another
+        places[name] = max(at, free)
+        free = places[name] + 15
+    free = HEIGHT - BOTTOM - 6
+    for _, name in reversed(ends):  # nor below the plot
+        places[name] = min(places[name], free)
+        free = places[name] - 15
+    colors = {"11": "#7c8ca3", "12": "#0d9488"}
+    others = ["#0d9488", "#7c8ca3", "#d97706"]
+    seen, parts = {}, []
+    for name in curves:
+        first = name.partition(",")[0]
+        nth = seen[first] = seen.get(first, -1) + 1  # of the curves that share a colour
+        color = colors.get(first, others[list(seen).index(first) % len(others)])
+        script.append(label(name, (x.to_px + 8, places[name], "left"), "sans-serif,13")
+                      + f" textcolor rgb '{color}'")
+        parts.append(f"'-' with linespoints linewidth 2 dashtype {nth + 1} pointtype 7 pointsize 0.5 "
+                     f"linecolor rgb '{color}'")
+    script.append("plot " + ", ".join(parts))
+    script += ["\n".join(f"{px} {py}" for px, py in curve) + "\ne" for curve in curves.values()]
+    draw(script, file)
+
+
 def machine(measured):
     for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
         if line.startswith("model name"):
@@ -204,6 +330,12 @@ def machine(measured):
 def main():
     measured = json.loads(pathlib.Path(sys.argv[1]).read_text())
     page = pathlib.Path(sys.argv[2])
+
+    def other_section(match):
+        parts = [part.strip() for part in match[2].split("|")]
+        lines = plain_table(measured, *parts) if match[1] == "table" else grid(
+            measured, page, match[1] == "curves", *parts)
+        return "\n".join([match[0].split("\n")[0], "", *lines, "", "<!-- end -->"])
 
     def section(match):
         comparison, unit, errors = (part.strip() for part in match[1].split("|"))
@@ -225,9 +357,12 @@ def main():
 
     text = page.read_text()
     changed, count = re.subn(r"<!-- measured: (.*?) -->\n.*?<!-- end -->", section, text, flags=re.DOTALL)
-    if count == 0:
+    changed, others = re.subn(r"<!-- (table|grid|curves): (.*?) -->\n.*?<!-- end -->", other_section, changed,
+                              flags=re.DOTALL)
+    if count + others == 0:
         sys.exit(f"error: {page} has no line '<!-- measured: ... -->'")
     page.write_text(changed)
+    count += len(re.findall(r"<!-- curves: ", changed))
     print(f"wrote {page} and {count} plot{'s' if count > 1 else ''}")
 
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Shadow maps of which a part is drawn when a pixel first asks for it. Introduced in lesson 12;
+/// derivation: docs/derivations/12_visibility_buffer.md.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "09_shadow_maps/shadows.hpp"
+#include "10_threading/binned_triangles.hpp"
+#include "10_threading/split.hpp"
+#include "10_threading/thread_pool.hpp"
+#include "10_threading/threaded_shadows.hpp"
+#include "common/app/counters.hpp"
+
+namespace rasterbook {
+
+/// A shadow map in square parts. Each is drawn by the thread that first asks for it; others that
+/// ask meanwhile wait.
+class ShadowMapParts {
+  public:
+    /// @param map      Of any depths; has to outlive this object.
+    /// @param tiling   The parts: Split::tiles of map.size * map.size.
+    /// @param casters  Binned by these parts.
+    ShadowMapParts(ShadowMap& map, const Tiling& tiling, BinnedTriangles casters)
+        : map_(&map),
+          tiling_(tiling),
+          casters_(std::move(casters)),
+          states_(std::make_unique<std::atomic<State>[]>(tiling.count())) {}
+
+    /// Draws those parts that the taps around a texel lie in, unless they are drawn (Eq. 12.6).
+    ///
+    /// @param middle  A texel of the map.
+    /// @param radius  Of the PCF kernel. What lies around the map belongs to the parts at its
+    /// border.
+    template <typename CounterPolicy>
+    void draw_around(ivec2 middle, int radius, CounterPolicy& counters) const {
+        // TODO: step 3: tiling_.for_each_in() visits the parts that a box of texels lies in
+        // (Eq. 12.6). Call draw() for those that are not drawn; acquire, so that their depths are
+        // seen, too.
+    }
+
+    const ShadowMap& map() const { return *map_; }
+    const Tiling& tiling() const { return tiling_; }
+    bool is_drawn(std::size_t part) const { return states_[part].load() == drawn; }
+
+  private:
+    enum State { not_asked, being_drawn, drawn };
+
+    template <typename CounterPolicy>
+    void draw(std::size_t part, CounterPolicy& counters) const {
+        // TODO: step 3: whoever changes the state from not_asked to being_drawn draws the part, by
+        // draw_tile(), counts it as one of Counter::shadow_parts, and then says so: release, and
+        // wake the others. Who comes later waits.
+    }
+
+    ShadowMap* map_;
+    Tiling tiling_;
+    BinnedTriangles casters_;
+    std::unique_ptr<std::atomic<State>[]> states_;  ///< Of each part.
+};
+
+/// The shadow maps of all lights, of which nothing is drawn before it is asked for.
+class ShadowMapsOnDemand {
+  public:
+    /// Finds what each map's parts are to be drawn from. Takes what draw_shadow_maps() takes.
+    ///
+    /// @param part_size  Texels along a part's side, at least 1.
+    template <typename Pool, typename CounterPolicy>
+    ShadowMapsOnDemand(Pool& pool, int part_size, const ShadowVariant& variant, bool all_effects,
+                       const Scene& scene, const ShadowBounds& bounds,
+                       std::span<const Light> lights, WorkerCounters<CounterPolicy>& counters,
+                       std::span<const bool> casts) {
+        const Tiling tiling(Split::tiles, ivec2(variant.size), 1, part_size);
+        maps_ =
+            draw_shadow_maps(variant, all_effects, scene, bounds, lights, casts, counters[0],
+                             [&](ShadowMap& map, bool is_drawn) {
+                                 parts_.emplace_back(map, tiling,
+                                                     is_drawn ? casters_of(pool, map, scene, tiling)
+                                                              : BinnedTriangles());
+                             });
+    }
+
+    const ShadowMaps& maps() const { return maps_; }
+
+    /// Of each map, counted through all lights.
+    std::span<const ShadowMapParts> parts() const { return parts_; }
+
+  private:
+    ShadowMaps maps_{};
+    std::vector<ShadowMapParts> parts_;
+};
+
+/// How much of a light reaches a point of a triangle, as lesson 09 has it; what of a map it takes
+/// is drawn first.
+template <typename CounterPolicy>
+float light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
+                       TriangleReceiver& triangle, vec3 position, vec3 normal,
+                       CounterPolicy& counters) {
+    // TODO: step 3: lesson 09's light_visibility() takes a function that it calls with the map's
+    // number and the kernel before it reads the map: there, draw what it is about to read.
+    return 1;
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Which triangle is visible in each pixel. Introduced in lesson 12; derivation:
+/// docs/derivations/12_visibility_buffer.md.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "04_mvp/projection.hpp"
+#include "10_threading/split.hpp"
+
+namespace rasterbook {
+
+/// A triangle's place in the list of its tile, in drawing order.
+using TriangleId = std::uint32_t;
+
+constexpr TriangleId no_triangle = std::numeric_limits<TriangleId>::max();
+
+/// Pixels that follow each other in a row.
+struct PixelRun {
+    ivec2 first;
+    int length;
+};
+
+/// The barycentric coordinates of all of a triangle's pixels, before they are divided by its area:
+/// three planes over the screen (Eq. 12.2).
+class BarycentricPlanes {
+  public:
+    /// @param triangle  With an area.
+    explicit BarycentricPlanes(const ScreenTriangle& triangle)
+        : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
+        // TODO: step 2: for each vertex the plane of the edge function opposite to it (Eq. 12.2).
+        // EdgeWalk has its value in a pixel, here ivec2(0), and its steps. fill_triangle() shows
+        // which edge is which, and its winding.
+    }
+
+    /// Calls take(pixel, Barycentrics) for each pixel of a run: the same bits that fill_triangle()
+    /// gives.
+    template <typename Take>
+    void for_each_in(const PixelRun& run, Take&& take) const {
+        // TODO: step 2: Eq. 12.2 in the run's first pixel, in whole numbers; from each pixel to the
+        // next, the steps to the right. The three of them as Barycentrics, times per_area_: these
+        // are the bits that fill_triangle() gives.
+    }
+
+  private:
+    std::array<std::int64_t, 3> at_origin_{}, step_x_{}, step_y_{};
+    float per_area_;
+};
+
+/// The triangles of a tile in drawing order, and for each of its pixels the one that is nearest so
+/// far.
+class TileVisibility {
+  public:
+    /// @param max_ids  So many triangles can be told apart: 1 to no_triangle.
+    explicit TileVisibility(std::size_t max_ids) : max_ids_(max_ids) {
+        assert(max_ids >= 1 && max_ids <= no_triangle);
+    }
+
+    /// Begins a tile: there is no triangle in it yet.
+    void begin(const Tile& tile) {
+        tile_ = tile;
+        width_ = tile.box.last.x - tile.box.first.x + 1;
+        clear();
+    }
+
+    /// Whether no other triangle can be told apart from those that are there.
+    bool is_full() const { return triangles_.size() == max_ids_; }
+
+    /// The id of the next triangle.
+    ///
+    /// @param projected  Has to be there until take_visible() is called.
+    TriangleId add(const ProjectedTriangle& projected) {
+        assert(!is_full() && "its id would be another triangle's");
+        // TODO: step 1: keep it; its id is its place in the list.
+        return 0;
+    }
+
+    /// The triangle is nearer in this pixel than all before it (Eq. 12.1).
+    void write(ivec2 pixel, TriangleId id) {
+        // TODO: step 1: the pixel's id is this one from now on. index() says where it is kept.
+    }
+
+    /// Visits each triangle that is visible in a pixel, in drawing order, with its pixels row by
+    /// row (Eq. 12.3). Then the tile has no triangles any more.
+    ///
+    /// @param visit  Called as visit(const ProjectedTriangle&, std::span<const PixelRun>).
+    template <typename Visit>
+    void take_visible(Visit&& visit) {
+        // TODO: step 1: for_each_run() finds the tile's runs row by row. Keep them in found_, and
+        // count those of each id. Add the counts up: they say where an id's runs begin in runs_
+        // (Eq. 12.3). Put each run there, and visit the triangles that have any, from the first.
+        clear();
+    }
+
+  private:
+    void clear() {
+        triangles_.clear();
+        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) + static_cast<std::size_t>(width_),
+                    no_triangle);
+    }
+
+    /// Of a pixel in ids_, which has only the tile's own rows.
+    std::size_t index(ivec2 pixel) const {
+        const ivec2 from_first = pixel - tile_.box.first;
+        const int row = tile_.row_step == 1 ? from_first.y : from_first.y / tile_.row_step;
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(from_first.x);
+    }
+
+    /// Calls take(run, id) for all pixels of the tile in which there is a triangle.
+    template <typename Take>
+    void for_each_run(Take&& take) const {
+        const auto [first, last] = tile_.box;
+        for (int y = first.y; y <= last.y; y += tile_.row_step) {
+            const TriangleId* const ids = &ids_[index({first.x, y})];
+            for (int x = 0, end = 0; x < width_; x = end) {
+                while (end < width_ && ids[end] == ids[x]) ++end;
+                if (ids[x] != no_triangle) take(PixelRun{{first.x + x, y}, end - x}, ids[x]);
+            }
+        }
+    }
+
+    std::size_t max_ids_;
+    Tile tile_{};
+    int width_ = 0;
+    std::vector<TriangleId> ids_;
+    std::vector<const ProjectedTriangle*> triangles_;
+    std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
+    std::vector<PixelRun> runs_;                          ///< Triangle by triangle.
+    std::vector<std::size_t> end_;                        ///< Of each triangle's in runs_.
+};
+
+}  // namespace rasterbook

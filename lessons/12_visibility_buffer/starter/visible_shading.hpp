@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A tile in two steps: which triangle is visible in each pixel, then the colours of these pixels
+/// alone. Introduced in lesson 12; derivation: docs/derivations/12_visibility_buffer.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "05_textures/interpolation.hpp"
+#include "11_scenes/blending.hpp"
+#include "11_scenes/shaders.hpp"
+#include "12_visibility_buffer/views.hpp"
+#include "12_visibility_buffer/visibility_buffer.hpp"
+#include "12_visibility_buffer/visibility_options.hpp"
+#include "common/app/counters.hpp"
+
+namespace rasterbook {
+
+/// Visits those fragments of a triangle that are nearer than what is in the depth buffer, and not
+/// in a hole.
+///
+/// @param visit  Called as visit(pixel, on_screen, depth, opacity): the barycentric coordinates on
+///               the screen, and 1 for all that is not transparent.
+template <typename Maps, typename CounterPolicy, typename Visit>
+void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle& projected,
+                              const Tile& tile, CounterPolicy& counters, Visit&& visit) {
+    const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
+    const bool is_masked = plan[Effect::mask];
+    std::optional<TriangleInputs> inputs;  // of the opacity, where it is not 1
+    if (is_masked || plan.is_glass)
+        inputs.emplace(triangle_inputs<Permutation{}>(frame, projected));
+    fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
+        counters.add(Counter::fragments_tested);
+        const float depth = projected.depth.at(on_screen);
+        if (!(depth < frame.depth.depths()[pixel])) return;
+        float opacity = 1;
+        if (inputs)
+            opacity =
+                opacity_at(inputs->surface, inputs->colors,
+                           perspective_correct(inputs->setup, on_screen), frame.filter, counters);
+        if (is_masked) {
+            counters.add(Counter::alpha_tested_fragments);
+            if (!passes_alpha_test(opacity, inputs->surface.material.alpha_cutoff)) return;
+            opacity = 1;
+        }
+        visit(pixel, on_screen, depth, opacity);
+    });
+}
+
+/// Draws depth and id of an opaque triangle, and no colour (Eq. 12.1).
+template <typename Maps, typename CounterPolicy>
+void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
+             TileVisibility& visible, CounterPolicy& counters) {
+    // TODO: step 1: an id by visible.add(), and the triangle's pixels by fill_tile(). Count each as
+    // a Counter::fragments_tested. Where the depth test is passed, the pixel's id is the triangle's
+    // (Eq. 12.1). A material with Effect::mask has holes: there, for_each_nearer_fragment() visits
+    // what is left of the triangle, and it counts.
+}
+
+/// Draws the colours of the pixels in which a triangle is visible.
+template <Permutation with, typename Maps, typename CounterPolicy>
+void shade_pixels(const Frame<Maps>& frame, const ProjectedTriangle& projected,
+                  std::span<const PixelRun> runs, CounterPolicy& counters) {
+    // TODO: step 2: triangle_inputs(), once. Then for each pixel of the runs the barycentric
+    // coordinates by BarycentricPlanes, made perspective-correct, and shaded(). Count each pixel as
+    // one of Counter::fragments_shaded.
+}
+
+/// A transparent fragment to be shaded.
+struct FragmentToShade {
+    TransparentFragment fragment;
+    Barycentrics on_screen;
+};
+
+/// Finds the colours of a triangle's transparent fragments.
+template <Permutation with, typename Maps, typename CounterPolicy>
+void shade_fragments(const Frame<Maps>& frame, const ProjectedTriangle& projected,
+                     std::span<FragmentToShade> fragments, CounterPolicy& counters) {
+    TriangleInputs triangle = triangle_inputs<with>(frame, projected);
+    for (auto& [fragment, on_screen] : fragments) {
+        counters.add(Counter::fragments_shaded);
+        counters.add(Counter::blended_fragments);
+        fragment.color =
+            shaded<with>(frame, triangle, perspective_correct(triangle.setup, on_screen), counters);
+    }
+}
+
+/// For each material its shaders: shade_pixels() and shade_fragments().
+template <typename Maps, typename CounterPolicy>
+class VisibleShaders {
+  public:
+    struct Shader {
+        void (*shade_pixels)(const Frame<Maps>&, const ProjectedTriangle&,
+                             std::span<const PixelRun>, CounterPolicy&);
+        void (*shade_fragments)(const Frame<Maps>&, const ProjectedTriangle&,
+                                std::span<FragmentToShade>, CounterPolicy&);
+    };
+
+    explicit VisibleShaders(const ScenePlan& plan) {
+        for (const MaterialPlan& material : plan.materials)
+            of_material_.push_back(table[permutation_of(material)]);
+    }
+
+    const Shader& operator[](std::size_t material) const { return of_material_[material]; }
+
+  private:
+    template <std::size_t... i>
+    static constexpr std::array<Shader, sizeof...(i)> compiled(std::index_sequence<i...>) {
+        return {Shader{&rasterbook::shade_pixels<all_permutations[i], Maps, CounterPolicy>,
+                       &rasterbook::shade_fragments<all_permutations[i], Maps, CounterPolicy>}...};
+    }
+    static constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
+
+    std::vector<Shader> of_material_;
+};
+
+/// Draws the colours of all pixels in which a triangle is visible, each once (Eq. 12.5); then the
+/// tile has no triangles any more.
+template <typename Maps, typename CounterPolicy>
+void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps, CounterPolicy>& shaders,
+                   TileVisibility& visible, Show show, HeatMap& heat, CounterPolicy& counters) {
+    visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelRun> runs) {
+        shaders[projected.triangle.material].shade_pixels(frame, projected, runs, counters);
+        for (const PixelRun& run : runs) heat.add(run);
+        if (show == Show::ids)
+            for (const PixelRun& run : runs)
+                std::fill_n(&frame.color[run.first], run.length, color_of_triangle(projected));
+    });
+}
+
+/// Gathers the transparent fragments of a triangle.
+template <typename Maps, typename CounterPolicy>
+void draw_transparent(const Frame<Maps>& frame, const ProjectedTriangle& projected,
+                      const Tile& tile, const VisibleShaders<Maps, CounterPolicy>& shaders,
+                      TransparentFragments& transparent, HeatMap& heat, CounterPolicy& counters) {
+    std::vector<FragmentToShade> fragments;
+    for_each_nearer_fragment(frame, projected, tile, counters,
+                             [&](ivec2 pixel, Barycentrics on_screen, float depth, float opacity) {
+                                 fragments.push_back({{pixel, depth, opacity, vec3(0)}, on_screen});
+                                 heat.add(pixel);
+                             });
+    shaders[projected.triangle.material].shade_fragments(frame, projected, fragments, counters);
+    for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Frames of lessons 11 and 12 on one thread, to be counted, compared and timed.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "accuracy/accuracy.hpp"
+#include "common/math/color.hpp"
+#include "support/lesson_11.hpp"
+#include "support/lesson_12.hpp"
+#include "support/pictures.hpp"
+
+namespace rasterbook::test {
+
+using Assets = std::shared_ptr<const SceneAssets>;
+
+constexpr double frames_in_millions = 1e6;  // so that nanoseconds become milliseconds
+
+inline ThreadPool& one_thread() {
+    static ThreadPool pool(1);
+    return pool;
+}
+
+template <typename CounterPolicy>
+Image<vec3> rendered(const lesson_11::Options& options, const SceneAssets& assets,
+                     CounterPolicy& counters) {
+    StepClock clock;
+    return lesson_11::render(options, assets, one_thread(), counters, clock);
+}
+
+template <typename CounterPolicy>
+Image<vec3> rendered(const lesson_12::Options& options, const SceneAssets& assets,
+                     CounterPolicy& counters) {
+    StepClock clock;
+    return lesson_12::render(options, assets, one_thread(), counters, clock);
+}
+
+/// A frame, without counters.
+template <typename Options>
+Image<vec3> frame(const Options& options, const SceneAssets& assets) {
+    NoCounters none;
+    return rendered(options, assets, none);
+}
+
+/// A frame, and what was done for it.
+template <typename Options>
+Drawn counted(const Options& options, const SceneAssets& assets) {
+    Drawn drawn;
+    drawn.picture = rendered(options, assets, drawn.counters);
+    return drawn;
+}
+
+inline double pixels_of(const Image<vec3>& picture) {
+    return static_cast<double>(picture.pixels().size());
+}
+
+/// The share of pixels that differ in any bit.
+inline double differing_percent(const Image<vec3>& a, const Image<vec3>& b) {
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            if (std::bit_cast<std::uint32_t>(a.pixels()[i][c]) !=
+                std::bit_cast<std::uint32_t>(b.pixels()[i][c])) {
+                ++differing;
+                break;
+            }
+    return 100 * static_cast<double>(differing) / pixels_of(a);
+}
+
+/// The same of the pictures as files have them.
+inline double differing_percent_of_files(const Image<vec3>& a, const Image<vec3>& b) {
+    const Image<u8vec3> file_a = srgb8_from_linear(a), file_b = srgb8_from_linear(b);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i)
+        differing += file_a.pixels()[i] != file_b.pixels()[i];
+    return 100 * static_cast<double>(differing) / pixels_of(a);
+}
+
+inline double shadings_per_pixel(const Drawn& drawn) {
+    return static_cast<double>(drawn.count(Counter::fragments_shaded)) / pixels_of(drawn.picture);
+}
+
+inline Assets assets_of(Scene scene, const lesson_11::Options& options) {
+    return std::make_shared<const SceneAssets>(make_scene_assets(std::move(scene), options));
+}
+
+constexpr std::array scene_names = {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"};
+
+/// The four scenes of the repository.
+struct NamedScene {
+    std::string name;
+    Assets assets;
+};
+
+inline const std::vector<NamedScene>& scenes() {
+    static const std::vector<NamedScene> all = [] {
+        std::vector<NamedScene> made;
+        for (const char* name : scene_names)
+            made.push_back({name, assets_of(loaded(name), lesson_11::Options())});
+        return made;
+    }();
+    return all;
+}
+
+/// @param reference  What the picture has to be.
+template <typename Options>
+void add_frames(const std::string& comparison, const std::string& variant, double units,
+                const Options& options, const Assets& assets, const Image<vec3>& reference,
+                Errors more = {}) {
+    const Drawn drawn = counted(options, *assets);
+    more["shadings a pixel"] = shadings_per_pixel(drawn);
+    more["pixels that differ, %"] = std::max(differing_percent(drawn.picture, reference),
+                                             differing_percent(frame(options, *assets), reference));
+    add_variant(comparison, variant, units, std::move(more), [=] { frame(options, *assets); });
+}
+
+}  // namespace rasterbook::test
