@@ -28,6 +28,7 @@
 #include "support/first_difference.hpp"
 #include "support/look_up.hpp"
 #include "support/name_of_split.hpp"
+#include "support/names.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/projected.hpp"
@@ -515,6 +516,69 @@ TEST(VisibilityBuffer, Eq12_6_JustTheAskedPartsAreDrawnAndHaveLesson09sBits) {
             << " texels from its memory's corner; a map of " << size << " texels in parts of "
             << side << " (seed " << seed << ")";
     }
+}
+
+TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsKernels) {
+    ThreadPool pool(2);
+    std::size_t maps = 0, half_lit = 0, parts_never_asked = 0;
+    for (std::uint32_t seed = 0; seed < 60; ++seed) {
+        Dice dice(seed);
+        const Scene scene = random_casters(8, seed);
+        const LightKind kind = light_kinds[seed % light_kinds.size()];
+        const std::array<Light, 2> lights = raking_lights(kind, scene.bounds());
+        const ShadowBounds bounds = shadow_bounds(scene);
+        constexpr std::array biases = {Bias::none, Bias::constant, Bias::slope, Bias::plane,
+                                       Bias::normal};
+        const ShadowVariant variant{.size = 16 + static_cast<int>(dice.below(60)),
+                                    .bias = biases[seed % biases.size()],
+                                    .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
+        const int side = 4 + static_cast<int>(dice.below(30));
+        WorkerCounters<Counters> counters(pool.size());
+        const ShadowMapsOnDemand on_demand(pool, side, variant, false, scene, bounds, lights,
+                                           counters, light_casts);
+        Counters serial, asking;
+        const ShadowMaps whole = draw_shadow_maps(variant, false, scene, bounds, lights, serial);
+        std::vector<std::set<std::size_t>> asked(on_demand.parts().size());
+        for (int i = 0; i < 12; ++i) {
+            const Mesh& mesh = scene.meshes[0];
+            std::array<vec3, 3> vertices;
+            for (std::size_t v = 0; v < 3; ++v) vertices[v] = mesh.positions[3 * dice.below(8) + v];
+            TriangleReceiver receiver = triangle_receiver(vertices), same = receiver;
+            const vec3 at(dice.between(0, 0.5f), dice.between(0, 0.5f), 0);
+            const vec3 point =
+                at.x * vertices[0] + at.y * vertices[1] + (1 - at.x - at.y) * vertices[2];
+            const vec3 normal = dice.in_cube(1);
+            for (std::size_t l = 0; l < lights.size(); ++l) {
+                // Lesson 09 says which texels it reads; their parts are found tap by tap.
+                const float expected =
+                    light_visibility(whole, l, same, point, normal, serial,
+                                     [&](std::size_t map, const PcfKernel& kernel) {
+                                         asked.at(map).merge(parts_asked(
+                                             kernel.middle, whole.radius, variant.size, side));
+                                     });
+                half_lit += expected > 0 && expected < 1;
+                const std::string where =
+                    std::string(name_of(kind)) + ", " + name_of(variant.bias) + ", a map of " +
+                    std::to_string(variant.size) + " texels in parts of " + std::to_string(side) +
+                    ", PCF of " + std::to_string(variant.pcf) + " (seed " + std::to_string(seed) +
+                    ", point " + std::to_string(i) + ")";
+                ASSERT_EQ(light_visibility(on_demand, l, receiver, point, normal, asking), expected)
+                    << "visibility of light " << l << " with maps on demand, and with lesson 09's; "
+                    << where;
+                for (std::size_t map = 0; map < asked.size(); ++map)
+                    ASSERT_EQ(parts_drawn(on_demand.parts()[map]), asked[map])
+                        << "parts of map " << map << " that are drawn, and that taps lie in; "
+                        << where;
+            }
+        }
+        maps += asked.size();
+        for (std::size_t map = 0; map < asked.size(); ++map)
+            parts_never_asked += on_demand.parts()[map].tiling().count() - asked[map].size();
+        EXPECT_EQ(count_of(asking, Counter::shadow_tests), count_of(serial, Counter::shadow_tests));
+    }
+    EXPECT_GT(maps, 80u) << "maps; a point light has up to six";
+    EXPECT_GT(half_lit, 100u) << "points at a shadow's edge";
+    EXPECT_GT(parts_never_asked, 100u);
 }
 
 TEST(VisibilityBuffer, HardCase_WhoAsksForAPartThatIsBeingDrawnWaits) {

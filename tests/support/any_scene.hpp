@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,7 +29,7 @@ class Dice {
   public:
     explicit Dice(std::uint32_t seed) : random_(seed) {}
 
-    std::uint32_t below(std::uint32_t end) { return random_() % end; }
+    std::uint32_t below(std::uint32_t end) { return static_cast<std::uint32_t>(random_() % end); }
     bool one_in(std::uint32_t n) { return below(n) == 0; }
     float between(float least, float most) {
         return least + (most - least) * static_cast<float>(random_() >> 8) * 0x1p-24f;
@@ -118,7 +119,7 @@ inline std::array<vec3, 3> any_vertices(const std::vector<vec3>& before, Dice& d
 inline Mesh any_mesh(std::uint32_t materials, Dice& dice) {
     Mesh mesh;
     mesh.uvs = {{0, 0}, {2, 0}, {1, 3}, {-0.5f, 0.5f}};
-    const auto triangles = 1 + dice.below(14);
+    const auto triangles = 1 + dice.below(30);
     const bool has_colors = dice.one_in(3);
     for (std::uint32_t i = 0; i < triangles; ++i) {
         Triangle triangle{{}, dice.below(materials)};

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The same scene as lessons 11 and 12 draw it, and what their counters have to agree on.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "10_threading/thread_pool.hpp"
+#include "11_scenes/scene_assets.hpp"
+#include "common/app/counters.hpp"
+#include "common/math/functions.hpp"
+#include "support/lesson_11.hpp"
+#include "support/lesson_12.hpp"
+#include "support/pictures.hpp"
+
+namespace rasterbook::test {
+
+constexpr int unlimited_ids = std::numeric_limits<int>::max();
+
+inline Drawn drawn_by_11(const lesson_12::Options& options, const SceneAssets& assets,
+                         ThreadPool& pool) {
+    Drawn result;
+    StepClock clock;
+    result.picture = lesson_11::render(options, assets, pool, result.counters, clock);
+    return result;
+}
+
+inline Drawn drawn_by_12(const lesson_12::Options& options, const SceneAssets& assets,
+                         ThreadPool& pool) {
+    Drawn result;
+    StepClock clock;
+    result.picture = lesson_12::render(options, assets, pool, result.counters, clock);
+    return result;
+}
+
+/// In how many pixels an opaque surface is visible, as lesson 11's depth buffer has it.
+inline std::uint64_t opaque_pixels(lesson_12::Options options, const SceneAssets& assets,
+                                   ThreadPool& pool) {
+    options.show_depth = true;
+    const Image<vec3> depths = drawn_by_11(options, assets, pool).picture;
+    // The farthest surface is dark grey; black is what nothing covers.
+    return static_cast<std::uint64_t>(
+        std::ranges::count_if(depths.pixels(), [](vec3 shade) { return shade != vec3(0); }));
+}
+
+/// What is done once for each pixel that is shaded: less of it in lesson 12.
+constexpr std::array counters_of_shading = {Counter::fragments_shaded,  Counter::texture_samples,
+                                            Counter::fragments_lit,     Counter::highlights,
+                                            Counter::toon_fragments,    Counter::normal_map_samples,
+                                            Counter::colored_fragments, Counter::shadow_tests};
+
+/// For ASSERT_TRUE: lesson 12 counts what lesson 11 counts, but for what it saves.
+///
+/// @param max_ids        1: it shades as often as lesson 11; unlimited_ids: each pixel once.
+/// @param opaque_pixels  In which an opaque surface is visible.
+inline testing::AssertionResult counts_agree(const Drawn& forward, const Drawn& visible,
+                                             int max_ids, std::uint64_t opaque_pixels) {
+    const auto said = [&](Counter counter) {
+        return std::string(counter_names[static_cast<std::size_t>(counter)]) + ": " +
+               std::to_string(visible.count(counter)) + ", lesson 11 counts " +
+               std::to_string(forward.count(counter));
+    };
+    for (std::size_t i = 0; i < counter_names.size(); ++i) {
+        const auto counter = static_cast<Counter>(i);
+        const std::uint64_t now = visible.count(counter), before = forward.count(counter);
+        if (counter == Counter::shadow_parts) continue;
+        const bool is_saved = counter == Counter::shadow_fragments ||
+                              (max_ids > 1 && std::ranges::find(counters_of_shading, counter) !=
+                                                  counters_of_shading.end());
+        if (is_saved ? now > before : now != before)
+            return testing::AssertionFailure()
+                   << said(counter) << (is_saved ? "; expected no more" : "; expected the same");
+    }
+    const std::uint64_t once = opaque_pixels + visible.count(Counter::blended_fragments);
+    const std::uint64_t shaded = visible.count(Counter::fragments_shaded);
+    if (max_ids == unlimited_ids ? shaded != once : shaded < once)
+        return testing::AssertionFailure()
+               << said(Counter::fragments_shaded) << "; an opaque surface is visible in "
+               << opaque_pixels << " pixels, and there are "
+               << visible.count(Counter::blended_fragments) << " transparent fragments";
+    return testing::AssertionSuccess();
+}
+
+}  // namespace rasterbook::test
