@@ -289,6 +289,7 @@ TEST(VisibilityBuffer, HardCase_ManyTrianglesInOnePixel) {
 TEST(VisibilityBuffer, HardCase_HolesAreFoundBeforeAnIdIsWritten) {
     look_up("Eq. 12.1");
     const vec3 red(1, 0, 0), green(0, 1, 0);
+    ThreadPool pool(1);
     for (const bool is_leaf_first : {true, false})
         for (const float opacity : {0.5f, 0.4999f}) {
             const bool is_hole = opacity < 0.5f;
@@ -301,15 +302,18 @@ TEST(VisibilityBuffer, HardCase_HolesAreFoundBeforeAnIdIsWritten) {
             squares.add_square(0, red);
             if (!is_leaf_first) add_leaf(0.5f);
             add_leaf(-1);  // behind the wall that is there: not asked whether it is a hole
-            const lesson_12::Options options = plain_picture({8, 8});
-            ThreadPool pool(1);
-            const Drawn visible = drawn_by_12(options, squares.assets(options), pool);
+            lesson_12::Options options = plain_picture({8, 8});
             const std::string where = "a green leaf of opacity " + std::to_string(opacity) +
                                       " and cutoff 0.5 before a red wall; the " +
                                       (is_leaf_first ? "leaf" : "wall") + " is drawn first";
+            const Drawn visible = drawn_by_12(options, squares.assets(options), pool);
             ASSERT_EQ((visible.picture[{5, 3}]), is_hole ? red : green) << where;
             ASSERT_EQ(visible.count(Counter::alpha_tested_fragments), 64u) << where;
             ASSERT_EQ(visible.count(Counter::fragments_shaded), 64u) << where;
+            options.shading.all_effects = true;
+            ASSERT_EQ((drawn_by_12(options, squares.assets(options), pool).picture[{5, 3}]),
+                      is_hole ? red : green)
+                << where << "; with --all-effects, what is no hole is opaque all the same";
         }
 }
 
@@ -325,6 +329,7 @@ TEST(VisibilityBuffer, HardCase_GlassIsShadedAfterAllThatIsOpaque) {
     squares.add_square(-1, vec3(0));
     squares.add_square(0, vec3(0, 1, 0));  // hides the one before
     add_glass(-0.5f, vec3(1));             // behind the wall: neither shaded nor blended
+    add_glass(0, vec3(1));                 // as far as the wall, which is there first: neither
     ThreadPool pool(2);
     for (const int max_ids : {1, unlimited_ids}) {
         lesson_12::Options options = plain_picture({16, 16});
@@ -455,20 +460,20 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
     const std::array<Light, 1> lights = {sun(glm::normalize(vec3(0.3f, 1, 0.2f)))};
     const std::array casts = {true};
     ThreadPool pool(2);
-    for (const int texels : {100, 40, 257})
+    for (const auto& [texels, part_side] : {std::pair(100, 32), {40, 3}, {61, 2}, {257, 32}})
         for (const ivec2 size : {ivec2(120, 90), {64, 200}, {257, 257}}) {
             const ShadowVariant variant{.size = texels};
             WorkerCounters<Counters> counters(pool.size());
-            const ShadowMapsOnDemand on_demand(pool, 32, variant, false, scene, bounds, lights,
-                                               counters, casts);
+            const ShadowMapsOnDemand on_demand(pool, part_side, variant, false, scene, bounds,
+                                               lights, counters, casts);
             ASSERT_EQ(on_demand.parts().size(), 1u) << "one map of a directional light";
             const ShadowMapParts& parts = on_demand.parts()[0];
-            const int columns = (texels + 31) / 32;
+            const int columns = (texels + part_side - 1) / part_side;
             std::vector<bool> asked(static_cast<std::size_t>(columns * columns));
             for (std::size_t i = 0; i < asked.size(); ++i) {
                 asked[i] = i == 0 || dice.one_in(2);
                 const ivec2 part(static_cast<int>(i) % columns, static_cast<int>(i) / columns);
-                if (asked[i]) parts.draw_around(32 * part, 0, counters[0]);
+                if (asked[i]) parts.draw_around(part_side * part, 0, counters[0]);
             }
             const Image<vec3> picture = picture_of(on_demand, size);
             ASSERT_EQ(picture.size(), size);
@@ -480,7 +485,9 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
             const auto depth_of = [&](ivec2 texel) {
                 return whole.depths.depths()[texel + max_pcf_radius];
             };
-            const auto part_at = [&](ivec2 texel) { return texel / 32; };
+            const auto part_at = [side_of_part = part_side](ivec2 texel) {
+                return texel / side_of_part;
+            };
             const auto is_asked = [&](ivec2 part) {
                 return asked[static_cast<std::size_t>(part.y * columns + part.x)];
             };
@@ -520,7 +527,8 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
                         << "pixel (" << x << ", " << y << ") of a picture of " << size.x << " x "
                         << size.y << ": " << testing::PrintToString(picture[{x, y}])
                         << ", expected " << testing::PrintToString(expected) << "; a map of "
-                        << texels << " texels in parts of 32, of which some are not drawn";
+                        << texels << " texels in parts of " << part_side
+                        << ", of which some are not drawn";
                 }
             EXPECT_GT(std::min({blue, black, gray}), 100)
                 << "pixels that are blue, black, grey: all three are there";
@@ -543,8 +551,9 @@ TEST(VisibilityBuffer, HardCase_InvalidOptionsAreAnErrorInOneLine) {
     };
     expect_error(run({"--max-ids", "0"}), 2, "--max-ids");
     expect_error(run({"--shadow-part", "31"}), 2, "--shadow-part");
+    expect_error(run({"--shadow-part", "8193"}), 2, "--shadow-part");
     expect_error(run({"--show", "all"}), 2, "--show");
-    const ProcessResult explained = run({"--max-ids", "2147483647", "--explain"});
+    const ProcessResult explained = run({"--max-ids", "1", "--shadow-part", "32", "--explain"});
     ASSERT_EQ(explained.exit_status, 0) << explained.err;
     for (const char* line : {"  casters: ", "  triangles: ", "  picture: ", "  shadow_parts: "})
         EXPECT_NE(explained.out.find(line), std::string::npos)
@@ -553,8 +562,9 @@ TEST(VisibilityBuffer, HardCase_InvalidOptionsAreAnErrorInOneLine) {
 }
 
 TEST(VisibilityBuffer, PictureOfIds) {
-    // Where the camera's tangent has another last bit, some vertices are snapped to the next 1/256
-    // pixel, and of 100,000 edges' pixels up to three go to the other side: colours jump there.
+    // Where the tangent of the camera's angle has another last bit, some vertices are snapped to
+    // the next 1/256 pixel. An edge there passes a pixel's centre, and the colour jumps: with an
+    // angle that is an ulp off, in up to 3 pixels.
     constexpr std::size_t may_jump = 20;
     EXPECT_TRUE(equals_golden("12_visibility_buffer", "12_visibility_buffer_ids", {"--show", "ids"},
                               may_jump));

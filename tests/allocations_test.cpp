@@ -7,10 +7,12 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "12_visibility_buffer/visibility_buffer.hpp"
 #include "support/lesson_04.hpp"
 #include "support/lesson_05.hpp"
 #include "support/lesson_06.hpp"
@@ -18,18 +20,19 @@
 #include "support/lesson_08.hpp"
 #include "support/lesson_09.hpp"
 #include "support/lesson_10.hpp"
+#include "support/projected.hpp"
 
 using namespace rasterbook;
 
 namespace {
 
-std::atomic<std::size_t> allocations;  // operator new has nowhere else to count
+std::atomic<std::size_t> allocations, bytes_allocated;  // operator new has nowhere else to count
 
 }  // namespace
 
 // Not inlined: g++ would complain of free() after what it takes for another operator new.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
-    ++allocations;
+    ++allocations, bytes_allocated += bytes;
     if (void* const memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
     throw std::bad_alloc();
 }
@@ -240,4 +243,32 @@ TEST(Allocations, OfLesson10DependOnBatchesAndNotOnTriangles) {
             options.size = 2 * options.size, options.threads.tile = 16;
             EXPECT_EQ(count_for(8), few) << "four times as many pixels";
         }
+}
+
+TEST(Allocations, OfLesson12sIdsAreMadeForTheLargestTileAlone) {
+    const std::vector<ProjectedTriangle> triangles(50, test::projected({}, ivec2(8)));
+    // One row of sixteen, and a square tile of as many pixels.
+    for (const Tile& tile : {Tile{{{0, 3}, {1023, 1023}}, 16}, Tile{{{256, 0}, {511, 255}}}}) {
+        TileVisibility visible(no_triangle);
+        const auto draw_tile = [&] {
+            visible.begin(tile);
+            for (const ProjectedTriangle& triangle : triangles) visible.add(triangle);
+            for_each_strip(tile, [&](const PixelBox& strip) {
+                for (int y = strip.first.y; y <= strip.last.y; ++y)
+                    for (int x = strip.first.x; x <= strip.last.x; ++x)
+                        visible.write({x, y}, static_cast<TriangleId>(x / 64 % 50));
+            });
+            std::size_t runs = 0;
+            visible.take_visible([&](const ProjectedTriangle&, std::span<const PixelRun> of_one) {
+                runs += of_one.size();
+            });
+            EXPECT_GT(runs, 100u);
+        };
+        const std::size_t bytes_before = bytes_allocated;
+        EXPECT_GT(allocations_of(draw_tile), 3u);
+        // 256 KiB of ids; and runs, which are few here, and lists that grew.
+        EXPECT_LT(bytes_allocated - bytes_before, (64 * 1024 + 32 * 1024) * sizeof(TriangleId))
+            << "bytes for a tile of 65,536 pixels, of which each has an id of 4";
+        EXPECT_EQ(allocations_of(draw_tile), 0u) << "allocations for another tile of this size";
+    }
 }

@@ -165,7 +165,7 @@ TEST(AtOnce, HardCase_TheFirstErrorInOrderIsThrownAndNoneIsBegunAfter) {
 }
 
 TEST(ImageSequence, TwoHalvesAreTheWhole) {
-    for (const char* lesson : {"04_mvp", "10_threading", "11_scenes"}) {
+    for (const char* lesson : {"04_mvp", "10_threading", "11_scenes", "12_visibility_buffer"}) {
         const auto whole = sequence_of(lesson, {{"--frames", "7"}});
         EXPECT_EQ(whole.size(), 7u);
         EXPECT_TRUE(whole.contains("turn_0000.png") && whole.contains("turn_0006.png"));
@@ -186,8 +186,8 @@ TEST(ImageSequence, TwoHalvesAreTheWhole) {
 }
 
 TEST(ImageSequence, AnyNumberAtOnceGivesTheSameFilesAndCounters) {
-    for (const char* lesson :
-         {"04_mvp", "07_toon", "09_shadow_maps", "10_threading", "11_scenes"}) {
+    for (const char* lesson : {"04_mvp", "07_toon", "09_shadow_maps", "10_threading", "11_scenes",
+                               "12_visibility_buffer"}) {
         const bool has_threads = lesson[0] == '1';
         const auto run = [&](const char* jobs, const char* threads) {
             const auto folder = fresh_folder("sequence");
@@ -221,7 +221,7 @@ TEST(ImageSequence, AnyNumberAtOnceGivesTheSameFilesAndCounters) {
 
 TEST(ImageSequence, ThreadsAreSharedOutAmongTheFrames) {
     // Each thread's pixels have its colour: those of one thread alone show that it had no others.
-    for (const char* lesson : {"10_threading", "11_scenes"}) {
+    for (const char* lesson : {"10_threading", "11_scenes", "12_visibility_buffer"}) {
         const Words tinted = {"--show-threads", "--tile", "8", "--frames", "4"};
         const auto sequence = [&](Words options) {
             options.insert(options.end(), tinted.begin(), tinted.end());
