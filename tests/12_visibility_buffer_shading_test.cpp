@@ -161,6 +161,7 @@ TEST(VisibilityBuffer, Eq12_4_AllOrdersOfAFewSurfacesHaveTheMeanExactly) {
 
 TEST(VisibilityBuffer, Eq12_4_TenSurfacesInRandomOrderAreShadedThreeTimes) {
     constexpr int surfaces = 10, orders = 300;
+    EXPECT_EQ(harmonic(2), 1.5) << "H_2 of the worked example";
     EXPECT_NEAR(harmonic(surfaces), 2.929, 0.0005) << "H_10 of the worked example";
     const lesson_12::Options options = plain_picture({1, 1});
     ThreadPool pool(1);

@@ -11,6 +11,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -248,7 +249,7 @@ TEST(VisibilityBuffer, Eq12_1_TheFirstOfTheNearestStays) {
         int visible;
     };
     for (const auto& [depths, visible] :
-         {Case{{0.75f, 0.25f, 0.5f}, 1}, Case{{0.5f, 0.25f, 0.25f}, 1},
+         {Case{{0.75f, 0.25f, 0.5f, 0.25f}, 1}, Case{{0.5f, 0.25f, 0.25f}, 1},
           Case{{0.25f, 0.25f, 0.25f}, 0}, Case{{1.0f, 0.5f}, 1}, Case{{1.0f, 1.0f}, -1},
           Case{{}, -1}}) {
         std::vector<ProjectedTriangle> triangles;
@@ -288,17 +289,17 @@ TEST(VisibilityBuffer, Eq12_1_EachPixelHasTheTriangleThatTheDefinitionGives) {
 }
 
 TEST(VisibilityBuffer, Eq12_2_PlanesOfTheWorkedExample) {
-    // Half a square of 4 pixels, as seen counter-clockwise and as seen clockwise: the area is 8.
+    // Half of 8 * 4 pixels, as seen counter-clockwise and as seen clockwise: twice its area is 32.
     for (const bool is_front : {true, false}) {
-        const vec2 a(0, 0), b(0, 4), c(4, 0);
+        const vec2 a(0, 0), b(0, 4), c(8, 0);
         const BarycentricPlanes planes(is_front ? snap_triangle(a, b, c) : snap_triangle(a, c, b));
         int count = 0;
-        planes.for_each_in({{0, 1}, 2}, [&](ivec2 pixel, Barycentrics at) {
+        planes.for_each_in({{2, 1}, 2}, [&](ivec2 pixel, Barycentrics at) {
             if (!is_front) std::swap(at.y, at.z);
-            ASSERT_EQ(pixel, ivec2(count, 1)) << "pixel " << count << " of the run";
-            ASSERT_EQ(at, count == 0 ? vec3(0.5f, 0.375f, 0.125f) : vec3(0.25f, 0.375f, 0.375f))
+            ASSERT_EQ(pixel, ivec2(2 + count, 1)) << "pixel " << count << " of the run";
+            ASSERT_EQ(at, (count == 0 ? vec3(10, 12, 10) : vec3(6, 12, 14)) / 32.0f)
                 << "barycentric coordinates of the centre of the pixel "
-                << testing::PrintToString(pixel) << " in (0, 0), (0, 4), (4, 0), seen "
+                << testing::PrintToString(pixel) << " in (0, 0), (0, 4), (8, 0), seen "
                 << (is_front ? "counter-clockwise" : "clockwise");
             ++count;
         });
@@ -362,26 +363,33 @@ TEST(VisibilityBuffer, Eq12_2_HardCase_TheBitsOfFillTriangleUpToTheCoordinateLim
 }
 
 TEST(VisibilityBuffer, Eq12_3_RunsAreGroupedByTriangleInDrawingOrder) {
-    // The triangles A, B, C and D in drawing order; D is visible nowhere.
+    // The tile of the derivation's figure, and the same elsewhere in a picture. Triangle 1 is
+    // visible nowhere, and in one pixel there is none.
     const std::vector<ProjectedTriangle> triangles = stand_ins(4);
     TileVisibility visible(no_limit);
-    visible.begin({{{8, 4}, {11, 5}}});
-    for (TriangleId id = 0; id < 4; ++id)
-        ASSERT_EQ(visible.add(triangles[id]), id) << "ids count from 0, in drawing order";
-    const std::array<std::string, 2> rows = {"BBAA", ".CBB"};
-    for (int y = 0; y < 2; ++y)
-        for (int x = 0; x < 4; ++x)
-            if (const char letter =
-                    rows.at(static_cast<std::size_t>(y)).at(static_cast<std::size_t>(x));
-                letter != '.')
-                visible.write({8 + x, 4 + y}, static_cast<TriangleId>(letter - 'A'));
-    const std::vector<TakenTriangle> expected = {
-        {0, {{10, 4, 2}}}, {1, {{8, 4, 2}, {10, 5, 2}}}, {2, {{9, 5, 1}}}};
-    EXPECT_EQ(taken(visible, triangles), expected)
-        << "triangles with their runs (x, y, length) in a tile from (8, 4), of which the pixels "
-        << "belong to BBAA in the first row and to .CBB in the second; A is 0";
-    EXPECT_TRUE(taken(visible, triangles).empty()) << "what has been taken is gone";
-    EXPECT_EQ(visible.add(triangles[0]), 0u) << "then ids begin with 0 again";
+    for (const ivec2 at : {ivec2(0), ivec2(18, 9)}) {
+        visible.begin({{at, at + ivec2(5, 2)}});
+        for (TriangleId id = 0; id < 4; ++id)
+            ASSERT_EQ(visible.add(triangles[id]), id) << "ids count from 0, in drawing order";
+        constexpr std::array<std::string_view, 3> rows = {"00222.", "022233", "222333"};
+        for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < 6; ++x)
+                if (const char digit = rows.at(std::size_t(y)).at(std::size_t(x)); digit != '.')
+                    visible.write(at + ivec2(x, y), static_cast<TriangleId>(digit - '0'));
+        const auto run = [&](int x, int y, int length) {
+            return RunInNumbers{at.x + x, at.y + y, length};
+        };
+        const std::vector<TakenTriangle> expected = {
+            {0, {run(0, 0, 2), run(0, 1, 1)}},
+            {2, {run(2, 0, 3), run(1, 1, 3), run(0, 2, 3)}},
+            {3, {run(4, 1, 2), run(3, 2, 3)}}};
+        EXPECT_EQ(taken(visible, triangles), expected)
+            << "triangles with their runs (x, y, length) in a tile from "
+            << testing::PrintToString(at) << " with the ids 00222. in the first row, 022233 in the "
+            << "second and 222333 in the third";
+        EXPECT_TRUE(taken(visible, triangles).empty()) << "what has been taken is gone";
+        EXPECT_EQ(visible.add(triangles[0]), 0u) << "then ids begin with 0 again";
+    }
 }
 
 TEST(VisibilityBuffer, Eq12_3_EachPixelIsInOneRunOfItsTriangle) {
@@ -472,6 +480,9 @@ TEST(VisibilityBuffer, Eq12_6_PartsOfTheWorkedExample) {
     parts.draw_around({128, 63}, 1, counters);
     EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{1, 2, 5, 6}))
         << "parts drawn when a kernel of radius 1 around (128, 63) has been asked for, too";
+    parts.draw_around({0, 0}, 1, counters);
+    EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{0, 1, 2, 5, 6}))
+        << "parts drawn after a kernel around (0, 0), too: there is no column -1";
 }
 
 TEST(VisibilityBuffer, Eq12_6_JustTheAskedPartsAreDrawnAndHaveLesson09sBits) {
