@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <bit>
 #include <cfloat>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
@@ -111,6 +113,22 @@ TEST(Color, HardCase_OutOfRangeAndNotANumberAreClamped) {
     EXPECT_EQ(srgb8_from_linear(1.0f), 255);
     EXPECT_EQ(srgb8_from_linear(17.0f), 255);
     EXPECT_EQ(srgb8_from_linear(infinity), 255);
+}
+
+TEST(Color, TheTableHasTheCodeOfEachFloat) {
+    const SrgbTable codes;
+    // Each 6100th of all floats, and around each code's least one the nearest ones.
+    const auto expect_same = [&](std::uint32_t bits) {
+        const auto linear = std::bit_cast<float>(bits);
+        ASSERT_EQ(codes[linear], srgb8_from_linear(linear)) << "of " << linear;
+    };
+    for (std::uint64_t bits = 0; bits < (1ull << 32); bits += 6100)
+        expect_same(static_cast<std::uint32_t>(bits));
+    for (int code = 1; code < 256; ++code) {
+        const float about = linear_from_srgb((static_cast<float>(code) - 0.5f) / 255.0f);
+        const auto middle = std::bit_cast<std::uint32_t>(about);
+        for (std::uint32_t bits = middle - 100; bits < middle + 100; ++bits) expect_same(bits);
+    }
 }
 
 TEST(Color, BytesAreTheNearestValues) {
