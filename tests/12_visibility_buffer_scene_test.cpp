@@ -204,6 +204,7 @@ TEST(VisibilityBuffer, HardCase_ModelsHaveLesson11sBitsAndCountsWithEachOption) 
                 << name << " with " << knob.name;
             tested += visible.count(Counter::fragments_tested);
         }
+        EXPECT_GT(tested, 1000 * knobs.size()) << "fragments of all pictures of " << name;
     }
 }
 

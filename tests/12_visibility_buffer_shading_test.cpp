@@ -105,7 +105,7 @@ double harmonic(int k) {
     return sum;
 }
 
-/// Of each pixel of a heat map, how often it was shaded, by its colour among those of 0, 1, ... 8.
+/// How often a pixel of a heat map was shaded, by its colour; -1: that of no number up to 8.
 int times_of(vec3 color) {
     for (int times = 0; times <= 8; ++times) {
         HeatMap heat(Show::shading, {1, 1});
@@ -115,7 +115,7 @@ int times_of(vec3 color) {
     return -1;
 }
 
-/// In a picture of the program, or of another lesson's.
+/// The file that a lesson's program writes.
 std::string bytes_of_picture(const std::string& lesson, std::vector<std::string> arguments) {
     const auto folder = fresh_folder("visibility_buffer");
     const std::string file = (folder / "a.png").string();
@@ -571,19 +571,24 @@ TEST(VisibilityBuffer, PictureOfIds) {
                               may_jump));
 }
 
+constexpr const char* returned =
+    "is it the scene itself? Then main.cpp does not return what --show asks for";
+
 TEST(VisibilityBuffer, PictureOfEachPixelOnce) {
     EXPECT_TRUE(equals_golden("12_visibility_buffer", "11_scenes_unlit", {"--model", "unlit.glb"}))
         << "this is lesson 11's picture";
     EXPECT_TRUE(equals_golden("12_visibility_buffer", "12_visibility_buffer_overdraw",
                               {"--model", "textured.gltf", "--show", "shading", "--max-ids", "1"}));
     EXPECT_TRUE(equals_golden("12_visibility_buffer", "12_visibility_buffer_shading",
-                              {"--model", "textured.gltf", "--show", "shading"}));
+                              {"--model", "textured.gltf", "--show", "shading"}))
+        << returned;
 }
 
 TEST(VisibilityBuffer, PictureOfShadowMapParts) {
     EXPECT_TRUE(equals_golden("12_visibility_buffer", "12_visibility_buffer"));
     EXPECT_TRUE(equals_golden("12_visibility_buffer", "12_visibility_buffer_shadow_map",
-                              {"--show", "shadow-map"}));
+                              {"--show", "shadow-map"}))
+        << returned;
 }
 
 TEST(VisibilityBuffer, PictureOfTheSceneIsLesson11sByteForByte) {

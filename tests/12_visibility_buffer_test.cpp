@@ -282,7 +282,9 @@ TEST(VisibilityBuffer, Eq12_1_EachPixelHasTheTriangleThatTheDefinitionGives) {
                 ASSERT_EQ((numbers[{x, y}]), expected)
                     << "the triangle that is visible in the pixel (" << x << ", " << y
                     << ") (-1: none), by its number in drawing order, and the first of the nearest "
-                    << "by exact coverage; " << in_words(split, size, workers, side, seed);
+                    << "by exact coverage"
+                    << (numbers[{x, y}] < 0 ? "; take_visible() may have lost it: Eq. 12.3" : "")
+                    << "; " << in_words(split, size, workers, side, seed);
             }
     }
     EXPECT_GT(visible, 20'000) << "pixels in which a triangle is visible";

@@ -34,10 +34,10 @@ class ShadowMapParts {
           states_(std::make_unique<std::atomic<State>[]>(tiling.count())) {}
 
     /// Draws those parts that the taps around a texel lie in, unless they are drawn (Eq. 12.6).
+    /// What lies around the map belongs to the parts at its border.
     ///
     /// @param middle  A texel of the map.
-    /// @param radius  Of the PCF kernel. What lies around the map belongs to the parts at its
-    /// border.
+    /// @param radius  Of the PCF kernel.
     template <typename CounterPolicy>
     void draw_around(ivec2 middle, int radius, CounterPolicy& counters) const {
         // TODO: step 3: tiling_.for_each_in() visits the parts that a box of texels lies in
@@ -96,8 +96,8 @@ class ShadowMapsOnDemand {
     std::vector<ShadowMapParts> parts_;
 };
 
-/// How much of a light reaches a point of a triangle, as lesson 09 has it; what of a map it takes
-/// is drawn first.
+/// How much of a light reaches a point of a triangle, as in lesson 09. The parts of a map that it
+/// reads are drawn first.
 template <typename CounterPolicy>
 float light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
                        TriangleReceiver& triangle, vec3 position, vec3 normal,

@@ -39,8 +39,8 @@ class BarycentricPlanes {
     explicit BarycentricPlanes(const ScreenTriangle& triangle)
         : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
         // TODO: step 2: for each vertex the plane of the edge function opposite to it (Eq. 12.2).
-        // EdgeWalk has its value in a pixel, here ivec2(0), and its steps. fill_triangle() shows
-        // which edge is which, and its winding.
+        // EdgeWalk has its value in a pixel, here ivec2(0), and its steps. As in fill_triangle(),
+        // `winding` makes the inside positive.
     }
 
     /// Calls take(pixel, Barycentrics) for each pixel of a run: the same bits that fill_triangle()
@@ -48,8 +48,9 @@ class BarycentricPlanes {
     template <typename Take>
     void for_each_in(const PixelRun& run, Take&& take) const {
         // TODO: step 2: Eq. 12.2 in the run's first pixel, in whole numbers; from each pixel to the
-        // next, the steps to the right. The three of them as Barycentrics, times per_area_: these
-        // are the bits that fill_triangle() gives.
+        // next, add the steps to the right. For each pixel, make three floats of the sums, as
+        // Barycentrics, and multiply them by per_area_: fill_triangle() does so, too, and a
+        // division would round differently.
     }
 
   private:
@@ -98,7 +99,8 @@ class TileVisibility {
     void take_visible(Visit&& visit) {
         // TODO: step 1: for_each_run() finds the tile's runs row by row. Keep them in found_, and
         // count those of each id. Add the counts up: they say where an id's runs begin in runs_
-        // (Eq. 12.3). Put each run there, and visit the triangles that have any, from the first.
+        // (Eq. 12.3). Put each run there, and visit the triangles that have runs, in the order of
+        // their ids.
         clear();
     }
 

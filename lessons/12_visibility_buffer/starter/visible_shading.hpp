@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A tile in two steps: which triangle is visible in each pixel, then the colours of these pixels
+/// A tile in two passes: which triangle is visible in each pixel, then the colours of these pixels
 /// alone. Introduced in lesson 12; derivation: docs/derivations/12_visibility_buffer.md.
 #pragma once
 
@@ -120,8 +120,8 @@ class VisibleShaders {
     std::vector<Shader> of_material_;
 };
 
-/// Draws the colours of all pixels in which a triangle is visible, each once (Eq. 12.5); then the
-/// tile has no triangles any more.
+/// Draws the colours of all pixels in which a triangle is visible, each once: Eq. 12.5 says what
+/// that saves. Then the tile has no triangles any more.
 template <typename Maps, typename CounterPolicy>
 void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps, CounterPolicy>& shaders,
                    TileVisibility& visible, Show show, HeatMap& heat, CounterPolicy& counters) {
