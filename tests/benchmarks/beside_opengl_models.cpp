@@ -53,7 +53,7 @@ Mesh sheet(std::uint32_t material, int n, float copies, Place&& place) {
 Mesh hills(std::uint32_t material, int n) {
     return sheet(material, n, 6, [](float s, float t) {
         const float height = std::sin(17 * s + 2 * t) * std::cos(13 * t) + 0.4f * std::sin(31 * s);
-        return vec3(16 * s - 8, 0.5f * height, 16 * t - 8);
+        return vec3(16 * s - 8, 0.9f * height, 16 * t - 8);
     });
 }
 
@@ -97,7 +97,7 @@ Scene scene_of(std::vector<Mesh> meshes, std::vector<Material> materials, vec3 e
     scene.cameras.push_back(
         {"front", glm::inverse(look_at(eye, target, vec3(0, 1, 0))), 0.6f, 0.1f, 500.0f});
     scene.lights.push_back({"sun", SceneLight::Kind::directional, 3.0f * vec3(1, 0.92f, 0.8f),
-                            vec3(0), glm::normalize(vec3(0.8f, -0.6f, -0.3f)), 0});
+                            vec3(0), glm::normalize(vec3(0.8f, -0.5f, -0.3f)), 0});
     return scene;
 }
 
@@ -118,13 +118,14 @@ Mesh wall(std::uint32_t material, float x, float z) {
                  [=](float s, float t) { return vec3(16 * s - 8 + x, 6 - 12 * t, z); });
 }
 
-/// Eight walls of one colour each, the nearer ones farther to the right.
-Scene walls_of_one_color() {
+/// Eight upright bands side by side, each of one color.
+Scene bands_of_one_color() {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
     for (std::uint32_t i = 0; i < 8; ++i) {
         const auto step = static_cast<float>(i);
-        meshes.push_back(wall(i, 2 * step, 0.1f * step));
+        meshes.push_back(sheet(
+            i, 1, 1, [step](float s, float t) { return vec3(2 * (step + s) - 8, 6 - 12 * t, 0); }));
         materials.push_back(unlit_material(vec3(0.1f * step, 0.5f, 0.9f - 0.1f * step)));
     }
     return scene_of(std::move(meshes), std::move(materials), {0, 0, 13}, {0, 0, 0});
@@ -145,7 +146,7 @@ std::vector<BenchmarkScene> benchmark_scenes() {
         {"small_triangles", "200,000 triangles, a texture, no light",
          [] { return hilly(unlit_material(vec3(1), "brick.png"), 316); }},
         {"textured_plane", "2 triangles to the horizon, a texture, no light", plane},
-        {"large_triangles", "16 triangles of one colour each, no light", walls_of_one_color},
+        {"large_triangles", "16 triangles of one color each, no light", bands_of_one_color},
         {"effects_many", "400,000 triangles: texture, normal map, Phong, shadow",
          [] { return hilly(bumpy_material(), 447); }},
         {"effects_few", "the same with 800 triangles", [] { return hilly(bumpy_material(), 20); }},

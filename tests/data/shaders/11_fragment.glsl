@@ -6,6 +6,10 @@
 // MASK, TWO_SIDED those effects that the material has. LIGHTS is the number of lights; LIGHT_KINDS
 // (0: directional, 1: point, 2: spot) and LIGHT_HAS_MAP are lists of it, so that the compiler
 // unrolls all loops and leaves out the other kinds. UNORM_NORMALS: normals are stored as 0 to 1.
+//
+// No fragment branches by its own numbers. llvmpipe computes both ways of a branch for the
+// fragments that it draws together, and with masks: a lit and shadowed picture took half as long
+// again.
 
 struct SurfaceColor {
     vec3 ambient, diffuse, specular, emission;  // linear
@@ -119,11 +123,17 @@ float receiver_bias(int l, float per_w) {
     float offset = kinds[l] == 0 ? 0.0 : -dot(outward, position_world);
     vec3 plane = (maps[l].plane_from_world * vec4(outward, offset)).xyz;  // Eq. 9.8
     float slope = (abs(plane.x) + abs(plane.y)) / -plane.z;
-    if (plane.z >= 0.0 || slope > max_slope) return 2.0;  // turned away from the light, or nearly
-    return (reach_texels + snapping) * slope + depth_quanta +  // Eq. 9.10
-           (maps[l].rounding_texels * slope + maps[l].rounding_depth) * per_w;
+    bool is_turned_away = plane.z >= 0.0 || slope > max_slope;  // from the light, or nearly
+    float bias = (reach_texels + snapping) * slope + depth_quanta +  // Eq. 9.10
+                 (maps[l].rounding_texels * slope + maps[l].rounding_depth) * per_w;
+    return is_turned_away ? 2.0 : bias;
 }
 
+float lit_of(vec4 four_taps, float depth) {
+    return dot(vec4(lessThanEqual(vec4(depth), four_taps)), vec4(1.0));
+}
+
+// Nine taps by three gathers, which are faster than nine fetches.
 float pcf_visibility(int l) {
     vec4 place = maps[l].texels_from_world * vec4(position_world, 1.0);  // Eq. 9.6
     float per_w = 1.0;
@@ -131,10 +141,13 @@ float pcf_visibility(int l) {
     place.xyz *= per_w;
     ivec2 texel = ivec2(clamp(place.xy, 0.0, maps[l].size - 1.0)) + max_pcf_radius;
     float depth = min(place.z - receiver_bias(l, per_w), 1.0);  // Eq. 9.7
-    float lit = 0.0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            lit += depth <= texelFetch(depths[l], texel + ivec2(x, y), 0).r ? 1.0 : 0.0;
+    vec2 per_texel = 1.0 / vec2(textureSize(depths[l], 0));
+    vec2 middle = vec2(texel) * per_texel;  // four texels meet there
+    float lit = lit_of(textureGather(depths[l], middle), depth);
+    vec4 right = textureGather(depths[l], middle + vec2(2.0, 0.0) * per_texel);
+    vec4 below = textureGather(depths[l], middle + vec2(0.0, 2.0) * per_texel);
+    lit += lit_of(vec4(right.xw, below.zw), depth);
+    lit += depth <= texelFetch(depths[l], texel + 1, 0).r ? 1.0 : 0.0;
     bool is_in_map = all(greaterThanEqual(place.xy, vec2(0.0))) &&
                      all(lessThan(place.xy, vec2(maps[l].size))) && place.w > 0.0;
     return is_in_map ? lit / 9.0 : 1.0;  // Eq. 9.13
@@ -145,8 +158,7 @@ float light_visibility(int l, vec3 toward) {
 #ifdef SHADOW
     if (has_map[l]) {
         float cosine = dot(side() * normalize(smooth_normal), toward);
-        if (cosine <= 0.0) return 0.0;
-        return min(cosine / full_cosine, 1.0) * pcf_visibility(l);  // Eq. 9.16
+        return clamp(cosine / full_cosine, 0.0, 1.0) * pcf_visibility(l);  // Eq. 9.16
     }
 #endif
     return 1.0;
@@ -159,8 +171,8 @@ vec3 phong(SurfaceColor own) {
     for (int l = 0; l < LIGHTS; ++l) {
         Incoming light = incoming_light(l);
         float cosine = dot(normal, light.toward);
-        if (cosine <= 0.0) continue;
-        vec3 arriving = light_visibility(l, light.toward) * light.color;
+        float is_lit = cosine > 0.0 ? 1.0 : 0.0;
+        vec3 arriving = is_lit * light_visibility(l, light.toward) * light.color;
         sum.diffuse += cosine * arriving;  // Eq. 6.1
 #ifdef HIGHLIGHT
         float mirrored = dot(reflect(-light.toward, normal), toward_eye);   // Eq. 6.2
@@ -186,7 +198,7 @@ vec3 toon(SurfaceColor own) {
         float arriving = max(light.color.r, max(light.color.g, light.color.b));
         brightest = max(brightest, arriving);
         float level = arriving * toon_step(dot(normal, light.toward));
-        if (light_visibility(l, light.toward) >= 0.5) sum += level;
+        sum += light_visibility(l, light.toward) >= 0.5 ? level : 0.0;
     }
     float level = brightest > 0.0 ? min(sum / brightest, 1.0) : 0.0;  // Eq. 11.5
     return own.emission + mix(own.ambient, own.diffuse, level);
