@@ -257,34 +257,44 @@ std::string load_of_machine() {
            std::to_string(load[1]).substr(0, 4) + " (5 min)";
 }
 
-int run(const Arguments& arguments) {
-    const auto& [lesson, frames, options, gl, scenes, save] = arguments;
-    keep_all_memory();
-    set_threads(options.threads.threads);
-    const test::OpenGl context;
+void print_head(const Arguments& arguments) {
+    const auto gl_string = [](GLenum name) {
+        return reinterpret_cast<const char*>(glGetString(name));
+    };
+    const int threads = arguments.options.threads.threads;
     std::printf("%s; load before %s\nOpenGL: %s, %s\n", processor().c_str(),
-                load_of_machine().c_str(), reinterpret_cast<const char*>(glGetString(GL_RENDERER)),
-                reinterpret_cast<const char*>(glGetString(GL_VERSION)));
-    std::printf("Lesson %d; %d x %d; %d thread(s)%s; OpenGL's %s%s; %d frames each.\n", lesson,
-                options.size.x, options.size.y, options.threads.threads,
-                options.threads.threads == 1 ? " on one core" : "",
-                gl.numbers == GlNumbers::floats ? "floats" : "bytes",
-                gl.depth_first ? ", depths first" : "", frames);
+                load_of_machine().c_str(), gl_string(GL_RENDERER), gl_string(GL_VERSION));
+    std::printf("Lesson %d; %d x %d; %d thread(s)%s; OpenGL's %s%s; %d frames each.\n",
+                arguments.lesson, arguments.options.size.x, arguments.options.size.y, threads,
+                threads == 1 ? " on one core" : "",
+                arguments.gl.numbers == GlNumbers::floats ? "floats" : "bytes",
+                arguments.gl.depth_first ? ", depths first" : "", arguments.frames);
     std::printf(
-        "Medians (quartiles), ms.\n\n"
+        "Medians (quartiles), ms: by the clock, and of all threads' CPU time.\n\n"
         "| scene | RMS | pixels > 8 | lesson | OpenGL | lesson / OpenGL "
         "| lesson, CPU | OpenGL, CPU | lesson / OpenGL, CPU |\n"
         "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
-    int failures = 0;
-    for (const std::string& name : scenes) try {
+}
+
+/// @return  Whether all scenes were timed.
+bool run(const Arguments& arguments) {
+    keep_all_memory();
+    set_threads(arguments.options.threads.threads);
+    const test::OpenGl context;
+    print_head(arguments);
+    bool is_complete = true;
+    const auto compare_or_say_why_not = [&](const std::string& name) {
+        try {
             compare(name, arguments);
         } catch (const std::exception& error) {
-            ++failures;
+            is_complete = false;
             std::fflush(stdout);
             std::fprintf(stderr, "error: %s\n", error.what());
         }
+    };
+    std::ranges::for_each(arguments.scenes, compare_or_say_why_not);
     std::printf("\nload after %s\n", load_of_machine().c_str());
-    return failures == 0 ? 0 : 1;
+    return is_complete;
 }
 
 }  // namespace
@@ -292,7 +302,7 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
     const Arguments arguments = parsed(argc, argv);
     try {
-        return run(arguments);
+        return run(arguments) ? 0 : 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "error: %s\n", error.what());
         return 1;
