@@ -197,14 +197,6 @@ inline Floats<N> two_to_the(Floats<N> n) {
     return {std::bit_cast<Vector<float, N>>((truncated(n).lanes + 127) << 23)};
 }
 
-/// table[index] for each lane.
-template <int N>
-inline Floats<N> gather(const float* table, Ints<N> index) {
-    Floats<N> result;
-    for (int i = 0; i < N; ++i) result.lanes[i] = table[index.lanes[i]];
-    return result;
-}
-
 /// The numbers 0, 1, 2 ...
 template <int N>
 inline Ints<N> lane_numbers() {

@@ -132,24 +132,28 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangl
     constexpr int N = width_of<F>;
     TriangleInputs triangle = triangle_inputs<with>(frame, projected);
     const WidePlanes<N> planes(projected.on_screen);
-    Ints<N> x(0), y(0);
-    int count = 0;
-    const auto shade = [&] {
-        for (int i = count; i < N; ++i) x.set(i, x[count - 1]), y.set(i, y[count - 1]);
+    const auto shade = [&](Ints<N> x, Ints<N> y, int count) {
         LaneCounters<CounterPolicy> lanes{counters, count};
         lanes.add(Counter::fragments_shaded);
         const Vec3<F> color = shaded<with>(
             frame, triangle, perspective_correct(triangle.setup, planes.at(x, y)), lanes);
         for (int i = 0; i < count; ++i)
             frame.color[{x[i], y[i]}] = {color.x[i], color.y[i], color.z[i]};
-        count = 0;
     };
-    for (const PixelRun& run : runs)
-        for (int i = 0; i < run.length; ++i) {
+    Ints<N> x(0), y(0);  // pixels of runs that are shorter than N
+    int count = 0;
+    for (const PixelRun& run : runs) {
+        int i = 0;
+        for (; i + N <= run.length; i += N)
+            shade(Ints<N>(run.first.x + i) + lane_numbers<N>(), Ints<N>(run.first.y), N);
+        for (; i < run.length; ++i) {
             x.set(count, run.first.x + i), y.set(count, run.first.y);
-            if (++count == N) shade();
+            if (++count == N) shade(x, y, N), count = 0;
         }
-    if (count > 0) shade();
+    }
+    if (count == 0) return;
+    for (int i = count; i < N; ++i) x.set(i, x[count - 1]), y.set(i, y[count - 1]);
+    shade(x, y, count);
 }
 
 /// As shade_fragments() of lesson 12.

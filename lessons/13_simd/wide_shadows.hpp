@@ -73,8 +73,9 @@ Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     Counts counted{};
     for (int x = 0; x < side; ++x)
         across[x] = kernel.slope.x * static_cast<float>(x - radius), counted[x] = 1;
-    Ints<N> lit;
+    Ints<N> lit(0);
     for (int i = 0; i < N; ++i) {
+        if (!kernel.is_in_map[i]) continue;  // texel (0, 0) may be another thread's just now
         const ivec2 first = ivec2(kernel.column[i], kernel.row[i]) + (max_pcf_radius - radius);
         Counts in_column{};
         for (int y = 0; y < side; ++y) {

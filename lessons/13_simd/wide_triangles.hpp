@@ -49,8 +49,8 @@ struct WideEdges {
     }
 };
 
-/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also at the N pixels
-/// behind it: 2 * 100 * (100 + 16) * 65536 < 2^31.
+/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also in the
+/// columns and the row that the walk goes beyond its box: 100 * (131 + 101) * 65536 < 2^31.
 constexpr int pixels_in_32_bits = 100;
 
 /// Visits the pixels of a box that a triangle covers, N of a row at a time.
