@@ -30,7 +30,8 @@ struct VectorOf {
 template <typename T, int N>
 using Vector = typename VectorOf<T, N>::Type;
 
-/// So many floats does one register of this processor hold.
+/// One register of this processor holds so many floats: the most arithmetic a step can do
+/// (Eq. 13.6).
 #if defined(__AVX512F__)
 constexpr int native_width = 16;
 #elif defined(__AVX__)
@@ -149,6 +150,7 @@ struct Floats {
     friend Mask<N> operator==(Floats a, Floats b) { return {a.lanes == b.lanes}; }
 };
 
+/// `yes` in the lanes where the mask holds, else `no` (Eq. 13.1).
 template <int N>
 inline Floats<N> select(Mask<N> mask, Floats<N> yes, Floats<N> no) {
     using Bits = Vector<std::int32_t, N>;
@@ -175,7 +177,7 @@ inline Floats<N> to_floats(Ints<N> x) {
     return {__builtin_convertvector(x.lanes, Vector<float, N>)};
 }
 
-/// std::floor of each number, to the bit. From 2^23 on, all numbers are whole.
+/// std::floor of each number, to the bit (Eq. 13.3). From 2^23 on, all numbers are whole.
 template <int N>
 inline Floats<N> floor(Floats<N> x) {
     const Mask<N> is_small = (x < Floats<N>(0x1p23f)) & (x > Floats<N>(-0x1p23f));

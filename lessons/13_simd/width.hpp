@@ -11,7 +11,8 @@
 
 namespace rasterbook {
 
-/// The functions that draw so many pixels at a time.
+/// The functions that draw so many pixels at a time. What else a frame takes stays as it is
+/// (Eq. 13.5).
 template <typename CounterPolicy>
 struct WideDrawing {
     using Maps = ShadowMapsOnDemand;
