@@ -63,9 +63,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
         CounterPolicy& counters = counters_of[worker];
-        clear_tile(color, depth, tile);
         TileDepths depths(tile);
-        if (is_on_paper) draw_paper(color, tile);
         TileVisibility& visible = visible_of[worker];
         visible.begin(tile);
         const auto shade = [&] {
@@ -77,6 +75,11 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
                 wide.draw_id(frame, projected, tile, depths, visible, counters);
             });
         shade();
+        depths.for_each_empty_run(tile, [&](const PixelRun& run) {
+            const PixelBox box{run.first, run.first + ivec2(run.length - 1, 0)};
+            draw_backdrop(color, box.first, box.last);
+            if (is_on_paper) draw_paper(color, Tile{box});
+        });
         TransparentFragments transparent;
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)

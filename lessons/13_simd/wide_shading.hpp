@@ -135,8 +135,11 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangl
     const auto shade = [&](Ints<N> x, Ints<N> y, int count) {
         LaneCounters<CounterPolicy> lanes{counters, count};
         lanes.add(Counter::fragments_shaded);
-        const Vec3<F> color = shaded<with>(
-            frame, triangle, perspective_correct(triangle.setup, planes.at(x, y)), lanes);
+        return shaded<with>(frame, triangle, perspective_correct(triangle.setup, planes.at(x, y)),
+                            lanes);
+    };
+    const auto scatter = [&](Ints<N> x, Ints<N> y, int count) {
+        const Vec3<F> color = shade(x, y, count);
         for (int i = 0; i < count; ++i)
             frame.color[{x[i], y[i]}] = {color.x[i], color.y[i], color.z[i]};
     };
@@ -144,16 +147,21 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangl
     int count = 0;
     for (const PixelRun& run : runs) {
         int i = 0;
-        for (; i + N <= run.length; i += N)
-            shade(Ints<N>(run.first.x + i) + lane_numbers<N>(), Ints<N>(run.first.y), N);
+        for (; i + N <= run.length; i += N) {
+            const ivec2 first = run.first + ivec2(i, 0);
+            const Vec3<F> color = shade(Ints<N>(first.x) + lane_numbers<N>(), Ints<N>(first.y), N);
+            vec3* const to = &frame.color[first];
+            for (int lane = 0; lane < N; ++lane)
+                to[lane] = {color.x[lane], color.y[lane], color.z[lane]};
+        }
         for (; i < run.length; ++i) {
             x.set(count, run.first.x + i), y.set(count, run.first.y);
-            if (++count == N) shade(x, y, N), count = 0;
+            if (++count == N) scatter(x, y, N), count = 0;
         }
     }
     if (count == 0) return;
     for (int i = count; i < N; ++i) x.set(i, x[count - 1]), y.set(i, y[count - 1]);
-    shade(x, y, count);
+    scatter(x, y, count);
 }
 
 /// As shade_fragments() of lesson 12.

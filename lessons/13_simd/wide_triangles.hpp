@@ -161,6 +161,19 @@ class TileDepths {
         return is_nearer;
     }
 
+    /// Calls take(run) for the pixels that nothing covers.
+    template <typename Take>
+    void for_each_empty_run(const Tile& tile, Take&& take) {
+        for (int y = tile.box.first.y; y <= tile.box.last.y; y += row_step_) {
+            const float* const depths = from({first_.x, y});
+            for (int x = 0, end = 0; x < width_; x = end) {
+                while (x < width_ && depths[x] != DepthBuffer::cleared) ++x;
+                for (end = x; end < width_ && depths[end] == DepthBuffer::cleared;) ++end;
+                if (end > x) take(PixelRun{{first_.x + x, y}, end - x});
+            }
+        }
+    }
+
     /// Writes them into an image, at the tile's place moved by `offset`.
     void copy_to(Image<float>& image, const Tile& tile, ivec2 offset) {
         for (int y = tile.box.first.y; y <= tile.box.last.y; y += row_step_)
