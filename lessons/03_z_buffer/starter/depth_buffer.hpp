@@ -41,6 +41,7 @@ class DepthBuffer {
     }
 
     const Image<float>& depths() const { return depths_; }
+    Image<float>& depths() { return depths_; }
 
   private:
     Image<float> depths_;
@@ -65,6 +66,9 @@ class TriangleDepth {
         // TODO: Eq. 3.3, which is Eq. 3.2 as long as nearest_ is 0; mind the bracket.
         return 0;
     }
+
+    float nearest() const { return nearest_; }
+    vec3 beyond_nearest() const { return beyond_nearest_; }  ///< By how much each is farther.
 
   private:
     float nearest_;

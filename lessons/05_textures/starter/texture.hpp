@@ -90,12 +90,16 @@ inline vec4 sample_trilinear(const Texture& texture, vec2 position, float level)
 }
 
 /// Where on a texture a fragment lies, and how fast that changes.
-struct FragmentUv {
-    vec2 here, ddx, ddy;  ///< As in FragmentBarycentrics.
+template <typename F>
+struct TextureCoordinates {
+    glm::vec<2, F> here, ddx, ddy;  ///< As in PerspectiveBarycentrics.
 };
+using FragmentUv = TextureCoordinates<float>;
 
 /// @param uvs  Of the triangle's vertices.
-inline FragmentUv fragment_uv(const std::array<vec2, 3>& uvs, const FragmentBarycentrics& at) {
+template <typename F>
+TextureCoordinates<F> fragment_uv(const std::array<vec2, 3>& uvs,
+                                  const PerspectiveBarycentrics<F>& at) {
     return {interpolate(uvs, at.here), interpolate(uvs, at.ddx), interpolate(uvs, at.ddy)};
 }
 

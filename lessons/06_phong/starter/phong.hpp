@@ -98,6 +98,12 @@ template <typename F>
 struct FragmentColor {
     Vec3<F> ambient, diffuse, specular, emission;
 
+    /// The same colours at several pixels at once.
+    template <typename G>
+    explicit operator FragmentColor<G>() const {
+        return {Vec3<G>(ambient), Vec3<G>(diffuse), Vec3<G>(specular), Vec3<G>(emission)};
+    }
+
     /// Tints diffuse and ambient light alike: it is the same surface for both.
     void tint(Vec3<F> color) { ambient *= color, diffuse *= color; }
 };

@@ -18,9 +18,11 @@ constexpr vec3 toon_ambient_light(0.15f, 0.15f, 0.22f);
 /// How bright a coloured light is: its largest component (Eq. 7.1).
 ///
 /// @return  At least 0: a component that is NaN or negative counts as 0.
-inline float brightness(vec3 light) {
-    // TODO: Eq. 7.1; for NaN see Robust, "Numbers that are not a brightness".
-    return 0;
+template <typename F>
+F brightness(Vec3<F> light) {
+    // TODO: Eq. 7.1, by max() of common/math/functions.hpp; for NaN see Robust, "Numbers that are
+    // not a brightness".
+    return F(0.0f);
 }
 
 /// The tone that a brightness falls into: 0 to tones - 1 (Eq. 7.2).

@@ -56,20 +56,23 @@ inline bool is_gray(const Image<u8vec4>& image) {
 
 /// The third component of a normal of length 1 from the other two (Eq. 8.8); 0 where they are too
 /// long for one.
-inline vec3 with_z(vec2 xy) {
+template <typename F>
+Vec3<F> with_z(glm::vec<2, F> xy) {
     // TODO: Eq. 8.8.
-    return {xy, 1};
+    return {xy, F(1.0f)};
 }
 
 /// A sample of a normal map, in the directions in which the texture coordinates grow. It is shorter
 /// than 1 where different normals are interpolated.
-inline vec3 sample_normal(const Texture& texture, Filter filter, const FragmentUv& uv) {
-    vec3 normal(sample(texture, filter, uv));
+template <typename F>
+Vec3<F> sample_normal(const Texture& texture, Filter filter, const TextureCoordinates<F>& uv) {
+    Vec3<F> normal(sample(texture, filter, uv));
     // In each second copy of a mirrored texture its right is on the left.
     if (texture.wrap == Wrap::mirror)
         for (int axis = 0; axis < 2; ++axis) {
-            const float there_and_back = 0.5f * uv.here[axis];
-            if (there_and_back - std::floor(there_and_back) >= 0.5f) normal[axis] = -normal[axis];
+            const F there_and_back = F(0.5f) * uv.here[axis];
+            const auto is_back = there_and_back - floor(there_and_back) >= F(0.5f);
+            normal[axis] = select(is_back, -normal[axis], normal[axis]);
         }
     return normal;
 }

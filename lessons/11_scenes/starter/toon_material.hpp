@@ -25,9 +25,10 @@ namespace rasterbook {
 /// How much of the lit colour a light gives, before shadows: 0 to 1 (Eq. 11.4).
 ///
 /// @param cosine  Of the angle between normal and light. NaN counts as no light.
-inline float toon_step(float cosine, const ToonMaterial& look) {
+template <typename F>
+F toon_step(F cosine, const ToonMaterial& look) {
     // TODO: Eq. 11.4. What becomes of NaN, and of a border of no width?
-    return cosine > 0 ? 1.0f : 0.0f;
+    return select(cosine > F(0.0f), F(1.0f), F(0.0f));
 }
 
 /// The level of light on a point: 0 is its colour in the shade, 1 its lit one (Eq. 11.5).
@@ -39,15 +40,16 @@ inline float toon_step(float cosine, const ToonMaterial& look) {
 /// @return  0 to 1; 0 where no light arrives.
 /// @param share         Called as share(l): the visibility of light l, 0 to 1. From a half on it is
 ///                      taken for 1, else for 0: a drawing's shadows have edges.
-template <typename Share>
-float toon_level(std::span<const Light> lights, vec3 position_world, vec3 normal_world,
-                 const ToonMaterial& look, Share&& share) {
+template <typename F, typename Share>
+F toon_level(std::span<const Light> lights, Vec3<F> position_world, Vec3<F> normal_world,
+             const ToonMaterial& look, Share&& share) {
     // TODO: Eq. 11.5. incoming_light() and brightness() help.
-    return 1;
+    return F(1.0f);
 }
 
 /// From the colour in the shade to the lit one. Where both are equal, it is exactly that colour.
-inline vec3 toon_paint(vec3 shade, vec3 lit, float level) {
+template <typename F>
+Vec3<F> toon_paint(Vec3<F> shade, Vec3<F> lit, F level) {
     // TODO: Eq. 11.5.
     return lit;
 }

@@ -40,23 +40,33 @@ class ShadowMapParts {
     /// @param radius  Of the PCF kernel.
     template <typename CounterPolicy>
     void draw_around(ivec2 middle, int radius, CounterPolicy& counters) const {
+        draw_in(PixelBox{middle - radius, middle + radius}, counters,
+                [](auto&... what) { draw_tile(what...); });
+    }
+
+    /// The same of a box of texels.
+    ///
+    /// @param fill  Draws a part, as draw_tile() of lesson 10.
+    template <typename CounterPolicy, typename Fill>
+    void draw_in(const PixelBox& texels, CounterPolicy& counters, const Fill& fill) const {
         // TODO: step 3: tiling_.for_each_in() visits the parts that a box of texels lies in
-        // (Eq. 12.6). Call draw() for those that are not drawn; acquire, so that their depths are
-        // seen, too.
+        // (Eq. 12.6). Call draw() for those that are not drawn.
     }
 
     const ShadowMap& map() const { return *map_; }
     const Tiling& tiling() const { return tiling_; }
-    bool is_drawn(std::size_t part) const { return states_[part].load() == drawn; }
+    bool is_drawn(std::size_t part) const {
+        return states_[part].load(std::memory_order_acquire) == drawn;
+    }
 
   private:
     enum State { not_asked, being_drawn, drawn };
 
-    template <typename CounterPolicy>
-    void draw(std::size_t part, CounterPolicy& counters) const {
+    template <typename CounterPolicy, typename Fill>
+    void draw(std::size_t part, CounterPolicy& counters, const Fill& fill) const {
         // TODO: step 3: whoever changes the state from not_asked to being_drawn draws the part, by
-        // draw_tile(), counts it as one of Counter::shadow_parts, and then says so: release, and
-        // wake the others. Who comes later waits.
+        // fill(), which takes what draw_tile() takes; counts it as one of Counter::shadow_parts;
+        // and then says so: release, and wake the others. Who comes later waits.
     }
 
     ShadowMap* map_;

@@ -63,7 +63,9 @@ class BarycentricPlanes {
 class TileVisibility {
   public:
     /// @param max_ids  So many triangles can be told apart: 1 to no_triangle.
-    explicit TileVisibility(std::size_t max_ids) : max_ids_(max_ids) {
+    /// @param beyond   So many ids behind each row may be written, and are not read.
+    explicit TileVisibility(std::size_t max_ids, int beyond = 0)
+        : max_ids_(max_ids), beyond_(beyond) {
         assert(max_ids >= 1 && max_ids <= no_triangle);
     }
 
@@ -91,6 +93,9 @@ class TileVisibility {
         // TODO: step 1: the pixel's id is this one from now on. index() says where it is kept.
     }
 
+    /// The ids from a pixel to the end of its row.
+    TriangleId* ids_from(ivec2 pixel) { return &ids_[index(pixel)]; }
+
     /// Visits each triangle that is visible in a pixel, in drawing order, with its pixels row by
     /// row (Eq. 12.3). Then the tile has no triangles any more.
     ///
@@ -107,7 +112,8 @@ class TileVisibility {
   private:
     void clear() {
         triangles_.clear();
-        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) + static_cast<std::size_t>(width_),
+        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) +
+                        static_cast<std::size_t>(width_ + beyond_),
                     no_triangle);
     }
 
@@ -115,7 +121,7 @@ class TileVisibility {
     std::size_t index(ivec2 pixel) const {
         const ivec2 from_first = pixel - tile_.box.first;
         const int row = tile_.row_step == 1 ? from_first.y : from_first.y / tile_.row_step;
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + beyond_) +
                static_cast<std::size_t>(from_first.x);
     }
 
@@ -133,6 +139,7 @@ class TileVisibility {
     }
 
     std::size_t max_ids_;
+    int beyond_;
     Tile tile_{};
     int width_ = 0;
     std::vector<TriangleId> ids_;
