@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Several numbers that take each step together: a wide number type. Introduced in lesson 13;
+/// derivation: docs/derivations/13_simd.md.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "common/math/functions.hpp"
+
+// How so many bytes are passed to a function depends on the processor: of no concern within one
+// program.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace rasterbook {
+
+/// N numbers of a type T, as g++ and clang have them for any processor: `+` and the like work on
+/// all of them, by as many instructions as this processor takes for N numbers.
+template <typename T, int N>
+struct VectorOf {
+    typedef T Type __attribute__((vector_size(sizeof(T) * N)));
+};
+template <typename T, int N>
+using Vector = typename VectorOf<T, N>::Type;
+
+/// So many floats does one register of this processor hold.
+#if defined(__AVX512F__)
+constexpr int native_width = 16;
+#elif defined(__AVX__)
+constexpr int native_width = 8;
+#else
+constexpr int native_width = 4;
+#endif
+
+/// Whether something holds, for each of N lanes.
+template <int N>
+struct Mask {
+    Vector<std::int32_t, N> lanes;  ///< -1 where it holds, else 0.
+
+    bool operator[](int lane) const { return lanes[lane] != 0; }
+    // TODO: step 1: and, or, not: bit by bit, of all lanes at once.
+    friend Mask operator&(Mask a, Mask b) { return Mask(); }
+    friend Mask operator|(Mask a, Mask b) { return Mask(); }
+    friend Mask operator!(Mask a) { return Mask(); }
+};
+
+/// A bit for each lane in which a mask holds.
+template <int N>
+inline std::uint32_t bits_of(Mask<N> mask) {
+    std::uint32_t bits = 0;
+    for (int i = 0; i < N; ++i) bits |= static_cast<std::uint32_t>(mask.lanes[i] & (1 << i));
+    return bits;
+}
+
+template <int N>
+inline bool any_of(Mask<N> mask) {
+    // TODO: step 1: halves of halves, as least_of() takes them, but by `|`: each step is one
+    // instruction for all lanes.
+    return false;
+}
+template <int N>
+inline bool all_of(Mask<N> mask) {
+    return !any_of(!mask);
+}
+
+/// N whole numbers of 32 bits.
+template <int N>
+struct Ints {
+    Vector<std::int32_t, N> lanes;
+
+    Ints() = default;
+    Ints(Vector<std::int32_t, N> of_lanes) : lanes(of_lanes) {}
+    explicit Ints(std::int32_t x) : lanes(x - Vector<std::int32_t, N>{}) {}
+
+    std::int32_t operator[](int lane) const { return lanes[lane]; }
+    void set(int lane, std::int32_t x) { lanes[lane] = x; }
+
+    friend Ints operator+(Ints a, Ints b) { return {a.lanes + b.lanes}; }
+    friend Ints operator-(Ints a, Ints b) { return {a.lanes - b.lanes}; }
+    friend Ints operator*(Ints a, Ints b) { return {a.lanes * b.lanes}; }
+    friend Mask<N> operator<(Ints a, Ints b) { return {a.lanes < b.lanes}; }
+    friend Mask<N> operator==(Ints a, Ints b) { return {a.lanes == b.lanes}; }
+};
+template <int N>
+inline Ints<N> select(Mask<N> mask, Ints<N> yes, Ints<N> no) {
+    // TODO: step 1: Eq. 13.1.
+    return no;
+}
+
+template <int N>
+inline Ints<N> min(Ints<N> a, Ints<N> b) {
+    return select(a < b, a, b);
+}
+
+/// The least of all numbers: halves of halves, as any_of() takes them.
+template <int N>
+inline std::int32_t least_of(Ints<N> x) {
+    if constexpr (N == 1) {
+        return x[0];
+    } else {
+        Ints<N / 2> low, high;
+        std::memcpy(&low, &x, sizeof low);
+        std::memcpy(&high, reinterpret_cast<const char*>(&x) + sizeof low, sizeof high);
+        return least_of(min(low, high));
+    }
+}
+template <int N>
+inline std::int32_t greatest_of(Ints<N> x) {
+    return -least_of(Ints<N>(0) - x);
+}
+
+/// N floats: the number type F of all stages.
+template <int N>
+struct Floats {
+    static constexpr int width = N;
+    Vector<float, N> lanes;
+
+    Floats() = default;
+    Floats(Vector<float, N> of_lanes) : lanes(of_lanes) {}
+    explicit Floats(float x) : lanes(x - Vector<float, N>{}) {}  // x - 0 is x, also for -0 and NaN
+
+    float operator[](int lane) const { return lanes[lane]; }
+    void set(int lane, float x) { lanes[lane] = x; }
+
+    // TODO: step 1: as those of Ints, and a quotient.
+    friend Floats operator+(Floats a, Floats b) { return a; }
+    friend Floats operator-(Floats a, Floats b) { return a; }
+    friend Floats operator*(Floats a, Floats b) { return a; }
+    friend Floats operator/(Floats a, Floats b) { return a; }
+    Floats operator-() const { return *this; }
+    Floats& operator+=(Floats b) { return *this = *this + b; }
+    Floats& operator-=(Floats b) { return *this = *this - b; }
+    Floats& operator*=(Floats b) { return *this = *this * b; }
+
+    // TODO: step 1: all lanes are compared at once. The result of each is all ones or all zeros.
+    friend Mask<N> operator<(Floats a, Floats b) { return Mask<N>(); }
+    friend Mask<N> operator>(Floats a, Floats b) { return Mask<N>(); }
+    friend Mask<N> operator<=(Floats a, Floats b) { return Mask<N>(); }
+    friend Mask<N> operator>=(Floats a, Floats b) { return Mask<N>(); }
+    friend Mask<N> operator==(Floats a, Floats b) { return Mask<N>(); }
+};
+
+template <int N>
+inline Floats<N> select(Mask<N> mask, Floats<N> yes, Floats<N> no) {
+    // TODO: step 1: Eq. 13.1, on the numbers' bits: std::bit_cast makes whole numbers of them, and
+    // floats again. Where N numbers fit into a register, `?:` of vectors is one instruction for it.
+    return no;
+}
+
+template <int N>
+inline Floats<N> sqrt(Floats<N> x) {
+    for (int i = 0; i < N; ++i) x.lanes[i] = std::sqrt(x.lanes[i]);  // one instruction, optimised
+    return x;
+}
+
+/// Rounded towards 0.
+///
+/// @param x  Below 2^31 in size; else the result may be any number.
+template <int N>
+inline Ints<N> truncated(Floats<N> x) {
+    return {__builtin_convertvector(x.lanes, Vector<std::int32_t, N>)};
+}
+template <int N>
+inline Floats<N> to_floats(Ints<N> x) {
+    return {__builtin_convertvector(x.lanes, Vector<float, N>)};
+}
+
+/// std::floor of each number, to the bit. From 2^23 on, all numbers are whole.
+template <int N>
+inline Floats<N> floor(Floats<N> x) {
+    // TODO: step 1: Eq. 13.3, by truncated() and to_floats(). x itself where it is whole, so that
+    // -0 stays -0, and where it is 2^23 or more in size or NaN: give truncated() a 0 there.
+    return x;
+}
+
+template <int N>
+inline FloatParts<Floats<N>> float_parts(Floats<N> x) {
+    const auto bits = std::bit_cast<Vector<std::int32_t, N>>(x.lanes);
+    return {{std::bit_cast<Vector<float, N>>((bits & 0x007fffff) | 0x3f800000)},
+            to_floats(Ints<N>((bits >> 23) - 127))};
+}
+
+template <int N>
+inline Floats<N> two_to_the(Floats<N> n) {
+    return {std::bit_cast<Vector<float, N>>((truncated(n).lanes + 127) << 23)};
+}
+
+/// table[index] for each lane.
+template <int N>
+inline Floats<N> gather(const float* table, Ints<N> index) {
+    Floats<N> result;
+    for (int i = 0; i < N; ++i) result.lanes[i] = table[index.lanes[i]];
+    return result;
+}
+
+/// The numbers 0, 1, 2 ...
+template <int N>
+inline Ints<N> lane_numbers() {
+    Ints<N> numbers;
+    for (int i = 0; i < N; ++i) numbers.set(i, i);
+    return numbers;
+}
+
+// What code for any number type F, float as well, asks of it:
+
+/// How many numbers an F holds.
+template <typename F>
+constexpr int width_of = sizeof(F) / sizeof(float);
+
+/// What a comparison of two F gives: bool, or a Mask.
+template <typename F>
+using MaskOf = decltype(F() < F());
+
+/// F numbers from an address on, whether it is a multiple of their size or not.
+template <typename F>
+inline F load(const float* from) {
+    F x;
+    std::memcpy(&x, from, sizeof x);
+    return x;
+}
+template <typename F>
+inline void store(float* to, F x) {
+    std::memcpy(to, &x, sizeof x);
+}
+
+/// Writes a number where the mask holds.
+inline void write_where(bool mask, std::uint32_t* to, std::uint32_t number) {
+    if (mask) *to = number;
+}
+template <int N>
+inline void write_where(Mask<N> mask, std::uint32_t* to, std::uint32_t number) {
+    Ints<N> before;
+    std::memcpy(&before, to, sizeof before);
+    const Ints<N> after = select(mask, Ints<N>(static_cast<std::int32_t>(number)), before);
+    std::memcpy(to, &after, sizeof after);
+}
+
+/// The number of one lane.
+inline float lane_of(float x, int) { return x; }
+template <int N>
+inline float lane_of(Floats<N> x, int lane) {
+    return x[lane];
+}
+inline bool lane_of(bool mask, int) { return mask; }
+template <int N>
+inline bool lane_of(Mask<N> mask, int lane) {
+    return mask[lane];
+}
+
+/// The first lane in which a mask holds. It has to hold in one.
+template <int N>
+inline int first_of(Mask<N> mask) {
+    return std::countr_zero(bits_of(mask));
+}
+
+/// In how many lanes a mask holds.
+inline int count_of(bool mask) { return mask; }
+template <int N>
+inline int count_of(Mask<N> mask) {
+    return std::popcount(bits_of(mask));
+}
+
+/// Counts in how many lanes masks have held, lane by lane: one step for each mask, whatever its
+/// width. Up to 2^31 masks.
+template <typename F>
+class LaneSum {
+  public:
+    void add(MaskOf<F> mask) {
+        if constexpr (width_of<F> == 1)
+            sum_ += mask;
+        else
+            sum_.lanes -= mask.lanes;  // -1 where it holds
+    }
+
+    std::uint64_t total() const {
+        if constexpr (width_of<F> == 1) {
+            return sum_;
+        } else {
+            std::uint64_t total = 0;
+            for (int i = 0; i < width_of<F>; ++i) total += static_cast<std::uint64_t>(sum_[i]);
+            return total;
+        }
+    }
+
+  private:
+    std::conditional_t<width_of<F> == 1, std::uint64_t, Ints<width_of<F>>> sum_{};
+};
+
+/// A mask that holds in the first `count` lanes.
+template <typename F>
+inline MaskOf<F> first_lanes(int count) {
+    if constexpr (width_of<F> == 1)
+        return count > 0;
+    else
+        return lane_numbers<width_of<F>>() < Ints<width_of<F>>(count);
+}
+
+}  // namespace rasterbook
+
+/// GLM's functions take only types that say that they are floating-point numbers.
+template <int N>
+struct std::numeric_limits<rasterbook::Floats<N>> : std::numeric_limits<float> {};
+
+#pragma GCC diagnostic pop

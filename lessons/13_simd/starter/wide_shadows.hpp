@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Shadow tests of several points at once: the same steps, and bits, as in lesson 09. Introduced in
+/// lesson 13; derivation: docs/derivations/13_simd.md.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+
+#include "09_shadow_maps/shadow_map.hpp"
+#include "09_shadow_maps/shadows.hpp"
+#include "12_visibility_buffer/shadow_parts.hpp"
+#include "13_simd/simd.hpp"
+#include "13_simd/wide_triangles.hpp"
+#include "common/math/functions.hpp"
+
+namespace rasterbook {
+
+/// As PcfKernel, of several points on one side of a triangle.
+template <int N>
+struct WidePcfKernel {
+    Mask<N> is_in_map;
+    Ints<N> column, row;  ///< Of the texel in the middle; 0 where it is not in the map.
+    Floats<N> depth;
+    vec2 slope;
+};
+
+/// As pcf_kernel() (Eq. 9.6).
+///
+/// @param asked  Which points are asked for; the others are not in the map.
+template <int N>
+WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
+                            const Vec3<Floats<N>>& position_world, Mask<N> asked) {
+    // TODO: step 3: lesson 09's steps for all points at once, each row of the matrix added up as
+    // GLM does it: (x + y) + (z + w). What is not in the map says so in the mask.
+    // Until then, one point after the other:
+    WidePcfKernel<N> kernel{first_lanes<Floats<N>>(0), Ints<N>(0), Ints<N>(0), Floats<N>(0.0f),
+                            receiver.slope};
+    for (int i = 0; i < N; ++i) {
+        if (!asked[i]) continue;
+        const PcfKernel of_point = pcf_kernel(
+            map, receiver, vec3(position_world.x[i], position_world.y[i], position_world.z[i]));
+        kernel.is_in_map.lanes[i] = of_point.is_in_map ? -1 : 0;
+        kernel.column.set(i, of_point.middle.x), kernel.row.set(i, of_point.middle.y);
+        kernel.depth.set(i, of_point.depth);
+    }
+    return kernel;
+}
+
+/// How many taps of each point's kernel say lit. Here it is the taps of a row that are compared at
+/// once, since they are neighbours in memory, and those of N points are not.
+///
+template <int radius, int N>
+Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
+    // TODO: step 3: point by point, but all taps of a row at once: a vector of 4 or 8 floats holds
+    // them. Read no texel that is not a tap: another thread may be drawing it. Comparisons are -1
+    // where they hold, so masks that are added up count. Until then, one point after the other:
+    Floats<N> lit(0.0f);
+    for (int i = 0; i < N; ++i) {
+        const PcfKernel of_point{true, ivec2(kernel.column[i], kernel.row[i]), kernel.depth[i],
+                                 kernel.slope};
+        constexpr int side = 2 * radius + 1;
+        lit.set(i, std::round(pcf_visibility<radius>(map, of_point) * (side * side)));
+    }
+    return lit;
+}
+
+/// As pcf_visibility() (Eq. 9.7).
+template <int N>
+Floats<N> pcf_visibility(const ShadowMap& map, int radius, const WidePcfKernel<N>& kernel) {
+    using F = Floats<N>;
+    const F lit = radius == 0   ? lit_taps<0>(map, kernel)
+                  : radius == 1 ? lit_taps<1>(map, kernel)
+                  : radius == 2 ? lit_taps<2>(map, kernel)
+                                : lit_taps<3>(map, kernel);
+    const auto taps = static_cast<float>((2 * radius + 1) * (2 * radius + 1));
+    return select(kernel.is_in_map, lit / F(taps), F(1.0f));
+}
+
+/// Draws those parts of a map that the taps of some kernels lie in, unless they are drawn.
+template <int N, typename CounterPolicy>
+void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, int radius,
+                 CounterPolicy& counters) {
+    const Ints<N> outside(parts.map().size), before(-1);
+    const Mask<N> in_map = kernel.is_in_map;
+    if (!any_of(in_map)) return;
+    const PixelBox all{ivec2(least_of(select(in_map, kernel.column, outside)),
+                             least_of(select(in_map, kernel.row, outside))) -
+                           radius,
+                       ivec2(greatest_of(select(in_map, kernel.column, before)),
+                             greatest_of(select(in_map, kernel.row, before))) +
+                           radius};
+    bool are_drawn = true;
+    parts.tiling().for_each_in(all, [&](std::size_t part) { are_drawn &= parts.is_drawn(part); });
+    if (are_drawn) return;
+    for (int i = 0; i < N; ++i) {  // in a part of the box there may be no kernel
+        const ivec2 middle(kernel.column[i], kernel.row[i]);
+        if (in_map[i])
+            parts.draw_in({middle - radius, middle + radius}, counters,
+                          [](auto&... what) { draw_tile<Floats<N>>(what...); });
+    }
+}
+
+/// What a triangle's pixels count, so many at a time.
+template <typename CounterPolicy>
+struct LaneCounters {
+    CounterPolicy& counters;
+    int lanes;  ///< So many are pixels; the others repeat the last one.
+
+    void add(Counter counter, std::uint64_t times = 1) {
+        counters.add(counter, times * static_cast<std::uint64_t>(lanes));
+    }
+};
+
+/// As light_visibility() of lesson 12. All points that are in one map and on one side of the
+/// triangle are asked for together; mostly that is all of them.
+template <int N, typename CounterPolicy>
+Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
+                           TriangleReceiver& triangle, const Vec3<Floats<N>>& position,
+                           const Vec3<Floats<N>>& normal, LaneCounters<CounterPolicy>& counters) {
+    using F = Floats<N>;
+    const ShadowMaps& shadow_maps = on_demand.maps();
+    const LightShadowMaps& of_light = shadow_maps.of_light[l];
+    if (of_light.maps.empty()) return F(1.0f);
+    const Vec3<F> from_light = position - Vec3<F>(of_light.light.position_world);
+    const Vec3<F> toward_light = of_light.light.kind == LightKind::directional
+                                     ? Vec3<F>(of_light.light.direction_world)
+                                     : unit_or(-from_light, Vec3<F>(vec3(0, 1, 0)));
+    const F cosine = glm::dot(unit_or(normal, Vec3<F>(F(0.0f))), toward_light);
+    const Mask<N> faces_light = cosine > F(0.0f);
+    F visibility =
+        select(faces_light, of_light.is_drawn ? min(cosine / F(full_cosine), F(1.0f)) : F(1.0f),
+               F(of_light.is_drawn ? 0.0f : 1.0f));
+
+    Ints<N> map_of_lane, side_of_lane;
+    for (int i = 0; i < N; ++i) {
+        const std::size_t view =
+            of_light.has_faces ? cube_face(vec3(from_light.x[i], from_light.y[i], from_light.z[i]))
+                               : 0;
+        map_of_lane.set(i, static_cast<int>(of_light.map_of_view[view]));
+        side_of_lane.set(
+            i, glm::dot(triangle.front, dvec3(normal.x[i], normal.y[i], normal.z[i])) < 0);
+    }
+    Mask<N> left =
+        faces_light & !(map_of_lane == Ints<N>(static_cast<int>(LightShadowMaps::no_map)));
+    counters.counters.add(
+        Counter::shadow_tests,
+        static_cast<std::uint64_t>(count_of(left & first_lanes<F>(counters.lanes))));
+    while (any_of(left)) {
+        const int first = first_of(left), side = side_of_lane[first];
+        const auto i = static_cast<std::size_t>(map_of_lane[first]);
+        const Mask<N> together =
+            left & (map_of_lane == Ints<N>(map_of_lane[first])) & (side_of_lane == Ints<N>(side));
+        const ShadowMap& map = of_light.maps[i];
+        std::optional<Receiver>& bias =
+            triangle.biases[of_light.first_map + i][static_cast<std::size_t>(side)];
+        if (!bias)
+            bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
+                            side == 1 ? -triangle.front : triangle.front);
+        const WidePcfKernel<N> kernel = pcf_kernel(map, *bias, position, together);
+        draw_around(on_demand.parts()[of_light.first_map + i], kernel, shadow_maps.radius,
+                    counters.counters);
+        visibility = select(together, visibility * pcf_visibility(map, shadow_maps.radius, kernel),
+                            visibility);
+        left = left & !together;
+    }
+    return visibility;
+}
+
+}  // namespace rasterbook

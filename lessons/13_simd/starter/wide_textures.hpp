@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Texture samples of several pixels at once: the same steps, and bits, as in lesson 05. Introduced
+/// in lesson 13; derivation: docs/derivations/13_simd.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+#include "05_textures/texture.hpp"
+#include "13_simd/simd.hpp"
+#include "common/math/functions.hpp"
+
+namespace rasterbook {
+
+/// As interpolate() of lesson 05: a vertex attribute at several pixels of a triangle.
+template <int n, int N>
+glm::vec<n, Floats<N>> interpolate(const std::array<glm::vec<n, float>, 3>& of_vertices,
+                                   const Vec3<Floats<N>>& barycentrics) {
+    using Attribute = glm::vec<n, Floats<N>>;
+    return barycentrics.x * Attribute(of_vertices[0]) + barycentrics.y * Attribute(of_vertices[1]) +
+           barycentrics.z * Attribute(of_vertices[2]);
+}
+
+/// As wrapped() of one coordinate (Eq. 5.4).
+template <int N>
+Floats<N> wrapped(Floats<N> coordinate, Wrap wrap) {
+    using F = Floats<N>;
+    const F zero(0.0f), one(1.0f), two(2.0f);
+    if (wrap == Wrap::repeat) return max(coordinate - floor(coordinate), zero);
+    if (wrap == Wrap::clamp) return clamp(coordinate, zero, one);
+    const F there_and_back = coordinate - two * floor(F(0.5f) * coordinate);
+    const F back = two - there_and_back;
+    return max(select(back < there_and_back, back, there_and_back), zero);
+}
+
+/// As sample_bilinear() (Eq. 5.6). The four channels of a texel are neighbours in memory: it is
+/// they that are computed at once here, and the N pixels one after the other.
+///
+/// @param x,y  Positions in the texture, 0 to 1.
+template <int N>
+glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
+    // TODO: step 3: as in lesson 05, the positions of all N pixels at once. Then one pixel after
+    // the other, by vectors of 4: std::memcpy reads a texel, and a lane's share, a float, times
+    // such a vector is one. Finally, of each channel the N pixels: the same numbers transposed.
+    return glm::vec<4, Floats<N>>(Floats<N>(1.0f));
+}
+
+/// As sample_nearest().
+template <int N>
+glm::vec<4, Floats<N>> sample_nearest(const TextureLevel& level, Floats<N> x, Floats<N> y) {
+    glm::vec<4, Floats<N>> color;
+    for (int i = 0; i < N; ++i) {
+        const vec4 texel = sample_nearest(level, {x[i], y[i]});
+        for (int c = 0; c < 4; ++c) color[c].set(i, texel[c]);
+    }
+    return color;
+}
+
+/// As level_of_detail() (Eq. 5.8).
+template <int N>
+Floats<N> level_of_detail(const glm::vec<2, Floats<N>>& ddx, const glm::vec<2, Floats<N>>& ddy,
+                          ivec2 size) {
+    using F = Floats<N>;
+    const glm::vec<2, F> texels{vec2(size)};
+    const glm::vec<2, F> across = ddx * texels, down = ddy * texels;
+    const F across_squared = glm::dot(across, across), down_squared = glm::dot(down, down);
+    const F longer_squared = select(across_squared < down_squared, down_squared, across_squared);
+    const F sum = across_squared + down_squared;  // NaN where either is
+    return select((sum == sum) & (longer_squared > F(1.0f)), F(0.5f) * log2(longer_squared),
+                  F(0.0f));
+}
+
+/// As sample().
+template <int N>
+glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
+                              const TextureCoordinates<Floats<N>>& uv) {
+    using F = Floats<N>;
+    const F x = wrapped(uv.here.x, texture.wrap);
+    const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap);
+    if (filter == Filter::nearest) return sample_nearest(texture.levels[0], x, y);
+    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], x, y);
+    // TODO: step 3: as sample_trilinear(). The finer level is another one in each lane: take all
+    // lanes between the same two levels together, by a mask, until none is left. The coarser level
+    // has to be there only where some lane's share of it is not 0.
+    return glm::vec<4, F>(F(1.0f));
+}
+
+}  // namespace rasterbook

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Triangles filled several pixels at a time. Introduced in lesson 13;
+/// derivation: docs/derivations/13_simd.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "09_shadow_maps/shadow_map.hpp"
+#include "10_threading/binned_triangles.hpp"
+#include "10_threading/split.hpp"
+#include "10_threading/threaded_shadows.hpp"
+#include "12_visibility_buffer/visibility_buffer.hpp"
+#include "13_simd/simd.hpp"
+#include "common/app/counters.hpp"
+
+namespace rasterbook {
+
+/// The three edges of a triangle at the N pixels from one pixel on (Eq. 13.2).
+///
+/// @tparam Whole  Holds all of these whole numbers exactly: std::int32_t for small triangles,
+///                double for others.
+template <typename Whole, int N>
+struct WideEdges {
+    using Wholes = Vector<Whole, N>;
+
+    std::array<Wholes, 3> at;  ///< The edge functions, inside > 0.
+    std::array<Whole, 3> to_next_pixels, to_next_row;
+
+    explicit WideEdges(const std::array<EdgeWalk, 3>& edges) {
+        // TODO: step 2: Eq. 13.2: each edge's values at N pixels; its step to the next N of them,
+        // and to the next row.
+        for (std::size_t i = 0; i < 3; ++i)
+            at[i] = Wholes{}, to_next_pixels[i] = to_next_row[i] = 0;
+    }
+
+    static void add(std::array<Wholes, 3>& to, const std::array<Whole, 3>& steps) {
+        for (std::size_t i = 0; i < 3; ++i) to[i] += steps[i];
+    }
+};
+
+/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also at the N pixels
+/// behind it: 2 * 100 * (100 + 16) * 65536 < 2^31.
+constexpr int pixels_in_32_bits = 100;
+
+/// Visits the pixels of a box that a triangle covers, N of a row at a time.
+template <typename Whole, int N, typename Emit>
+void fill_box(const std::array<EdgeWalk, 3>& edges, float per_area, const PixelBox& box,
+              Emit&& emit) {
+    using F = Floats<N>;
+    // TODO: step 2: the same by WideEdges, N pixels at a time. __builtin_convertvector makes floats
+    // of their values. A lane is covered where all three are at least their `least` (Eq. 13.2), and
+    // where its pixel is in the box. Emit what has a covered lane. Then the next N, the next row.
+    // Until then, a pixel at a time, in the first lane:
+    for (int y = box.first.y; y <= box.last.y; ++y)
+        for (int x = box.first.x; x <= box.last.x; ++x) {
+            bool is_covered = true;
+            Vec3<F> share;
+            for (int i = 0; i < 3; ++i) {
+                const EdgeWalk& edge = edges[static_cast<std::size_t>(i)];
+                const std::int64_t value =
+                    edge.value + (x - box.first.x) * edge.step_x + (y - box.first.y) * edge.step_y;
+                is_covered = is_covered && value >= edge.least;
+                share[i] = F(static_cast<float>(value));
+            }
+            if (is_covered) emit(ivec2(x, y), first_lanes<F>(1), share * F(per_area));
+        }
+}
+
+/// As fill_triangle() of lesson 02, as many pixels of a row at a time as F has numbers.
+///
+/// @param triangle  Its vertices lie less than 2^17 pixels from the origin: then a double holds its
+///                  edge functions exactly.
+/// @param emit      Called as emit(ivec2 first_pixel, MaskOf<F> covered, Vec3<F> barycentrics).
+///                  Where the mask does not hold, the coordinates are of no meaning.
+template <typename F, typename Emit>
+void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
+    if constexpr (width_of<F> == 1) {
+        fill_triangle(triangle, first, last,
+                      [&](ivec2 pixel, Barycentrics at) { emit(pixel, true, at); });
+    } else {
+        if (triangle.twice_area == 0) return;
+        const auto [a, b, c] = triangle.vertices;
+        const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
+        const PixelBox box{glm::max((low + (subpixels / 2 - 1)) >> subpixel_bits, first),
+                           glm::min((high - subpixels / 2) >> subpixel_bits, last)};
+        if (box.is_empty()) return;
+        const int winding = triangle.twice_area > 0 ? 1 : -1;
+        const std::array<EdgeWalk, 3> edges{EdgeWalk(b, c, winding, box.first),
+                                            EdgeWalk(c, a, winding, box.first),
+                                            EdgeWalk(a, b, winding, box.first)};
+        const auto per_area =
+            static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
+        const ivec2 size = (high - low) >> subpixel_bits;
+        if (std::max(size.x, size.y) < pixels_in_32_bits)
+            fill_box<std::int32_t, width_of<F>>(edges, per_area, box, emit);
+        else
+            fill_box<double, width_of<F>>(edges, per_area, box, emit);
+    }
+}
+
+/// As fill_tile() of lesson 10.
+template <typename F, typename Emit>
+void fill_tile(const ScreenTriangle& triangle, const Tile& tile, Emit&& emit) {
+    for_each_strip(tile, box_around(triangle), [&](const PixelBox& strip) {
+        fill_triangle<F>(triangle, strip.first, strip.last, emit);
+    });
+}
+
+/// As TriangleDepth::at() of lesson 03.
+template <typename F>
+F depth_at(const TriangleDepth& depth, const Vec3<F>& barycentrics) {
+    return F(depth.nearest()) + glm::dot(barycentrics, Vec3<F>(depth.beyond_nearest()));
+}
+
+/// The depths of a tile's pixels, in memory of their own. Behind each row there is some that may be
+/// written and means nothing: so all numbers of an F can be read and written at once, although the
+/// last ones may lie beyond the tile.
+class TileDepths {
+  public:
+    static constexpr int beyond = 16;  ///< As many as the widest F has.
+
+    /// Cleared.
+    explicit TileDepths(const Tile& tile)
+        : first_(tile.box.first),
+          row_step_(tile.row_step),
+          width_(tile.box.last.x - tile.box.first.x + 1),
+          depths_(static_cast<std::size_t>((tile.box.last.y - first_.y) / row_step_ + 1) *
+                      static_cast<std::size_t>(width_ + beyond),
+                  DepthBuffer::cleared) {}
+
+    /// Those from a pixel to the end of its row.
+    float* from(ivec2 pixel) {
+        const int from_first = pixel.y - first_.y;
+        const int row = row_step_ == 1 ? from_first : from_first / row_step_;
+        return &depths_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + beyond) +
+                        static_cast<std::size_t>(pixel.x - first_.x)];
+    }
+
+    /// The depth test for as many pixels of a row as F has numbers.
+    ///
+    /// @return  Where the depths are nearer, and have been written.
+    template <typename F>
+    MaskOf<F> test_and_write(ivec2 pixel, MaskOf<F> covered, F depth) {
+        // TODO: step 2: load as many depths, compare, select, store; `beyond` makes room for it.
+        // Until then, the first lane alone:
+        float* const nearest = from(pixel);
+        if (!lane_of(covered, 0) || !(lane_of(depth, 0) < *nearest)) return first_lanes<F>(0);
+        *nearest = lane_of(depth, 0);
+        return first_lanes<F>(1);
+    }
+
+    /// Writes them into an image, at the tile's place moved by `offset`.
+    void copy_to(Image<float>& image, const Tile& tile, ivec2 offset) {
+        for (int y = tile.box.first.y; y <= tile.box.last.y; y += row_step_)
+            std::copy_n(from({first_.x, y}), width_, &image[ivec2(first_.x, y) + offset]);
+    }
+
+  private:
+    ivec2 first_;
+    int row_step_, width_;
+    std::vector<float> depths_;
+};
+
+/// As draw_tile() of lesson 10: draws a part of a shadow map.
+template <typename F, typename CounterPolicy>
+void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& tiling, std::size_t i,
+               CounterPolicy& counters) {
+    const Tile tile = tiling[i];
+    clear_tile(map, tile);
+    TileDepths depths(tile);
+    LaneSum<F> count;
+    casters.for_each_in(i, [&](const ProjectedTriangle& caster) {
+        fill_tile<F>(caster.on_screen, tile,
+                     [&](ivec2 texel, MaskOf<F> covered, const Vec3<F>& at) {
+                         count.add(covered);
+                         depths.test_and_write<F>(texel, covered, depth_at<F>(caster.depth, at));
+                     });
+    });
+    counters.add(Counter::shadow_fragments, count.total());
+    depths.copy_to(map.depths.depths(), tile, ivec2(max_pcf_radius));
+}
+
+}  // namespace rasterbook
