@@ -30,7 +30,8 @@ struct VectorOf {
 template <typename T, int N>
 using Vector = typename VectorOf<T, N>::Type;
 
-/// So many floats does one register of this processor hold.
+/// One register of this processor holds so many floats: the most arithmetic a step can do
+/// (Eq. 13.6).
 #if defined(__AVX512F__)
 constexpr int native_width = 16;
 #elif defined(__AVX__)
@@ -147,6 +148,7 @@ struct Floats {
     friend Mask<N> operator==(Floats a, Floats b) { return Mask<N>(); }
 };
 
+/// `yes` in the lanes where the mask holds, else `no` (Eq. 13.1).
 template <int N>
 inline Floats<N> select(Mask<N> mask, Floats<N> yes, Floats<N> no) {
     // TODO: step 1: Eq. 13.1, on the numbers' bits: std::bit_cast makes whole numbers of them, and
@@ -172,7 +174,7 @@ inline Floats<N> to_floats(Ints<N> x) {
     return {__builtin_convertvector(x.lanes, Vector<float, N>)};
 }
 
-/// std::floor of each number, to the bit. From 2^23 on, all numbers are whole.
+/// std::floor of each number, to the bit (Eq. 13.3). From 2^23 on, all numbers are whole.
 template <int N>
 inline Floats<N> floor(Floats<N> x) {
     // TODO: step 1: Eq. 13.3, by truncated() and to_floats(). x itself where it is whole, so that
@@ -190,14 +192,6 @@ inline FloatParts<Floats<N>> float_parts(Floats<N> x) {
 template <int N>
 inline Floats<N> two_to_the(Floats<N> n) {
     return {std::bit_cast<Vector<float, N>>((truncated(n).lanes + 127) << 23)};
-}
-
-/// table[index] for each lane.
-template <int N>
-inline Floats<N> gather(const float* table, Ints<N> index) {
-    Floats<N> result;
-    for (int i = 0; i < N; ++i) result.lanes[i] = table[index.lanes[i]];
-    return result;
 }
 
 /// The numbers 0, 1, 2 ...

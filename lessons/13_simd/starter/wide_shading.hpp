@@ -125,7 +125,7 @@ class WidePlanes {
     float per_area_;
 };
 
-/// As shade_pixels() of lesson 12.
+/// As shade_pixels() of lesson 12, as many pixels at a time as F has numbers (Eq. 13.4).
 template <Permutation with, typename F, typename CounterPolicy>
 void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected,
                   std::span<const PixelRun> runs, CounterPolicy& counters) {

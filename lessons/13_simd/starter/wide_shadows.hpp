@@ -55,10 +55,12 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
 template <int radius, int N>
 Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     // TODO: step 3: point by point, but all taps of a row at once: a vector of 4 or 8 floats holds
-    // them. Read no texel that is not a tap: another thread may be drawing it. Comparisons are -1
-    // where they hold, so masks that are added up count. Until then, one point after the other:
+    // them. Skip points that are not in the map, and read no texel that is not a tap: another
+    // thread may be drawing it. Comparisons are -1 where they hold, so masks that are added up
+    // count. Until then, one point after the other:
     Floats<N> lit(0.0f);
     for (int i = 0; i < N; ++i) {
+        if (!kernel.is_in_map[i]) continue;
         const PcfKernel of_point{true, ivec2(kernel.column[i], kernel.row[i]), kernel.depth[i],
                                  kernel.slope};
         constexpr int side = 2 * radius + 1;

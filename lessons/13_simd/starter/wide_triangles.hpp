@@ -47,8 +47,8 @@ struct WideEdges {
     }
 };
 
-/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also at the N pixels
-/// behind it: 2 * 100 * (100 + 16) * 65536 < 2^31.
+/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also in the
+/// columns and the row that the walk goes beyond its box: 100 * (131 + 101) * 65536 < 2^31.
 constexpr int pixels_in_32_bits = 100;
 
 /// Visits the pixels of a box that a triangle covers, N of a row at a time.
@@ -156,6 +156,19 @@ class TileDepths {
         if (!lane_of(covered, 0) || !(lane_of(depth, 0) < *nearest)) return first_lanes<F>(0);
         *nearest = lane_of(depth, 0);
         return first_lanes<F>(1);
+    }
+
+    /// Calls take(run) for the pixels that nothing covers.
+    template <typename Take>
+    void for_each_empty_run(const Tile& tile, Take&& take) {
+        for (int y = tile.box.first.y; y <= tile.box.last.y; y += row_step_) {
+            const float* const depths = from({first_.x, y});
+            for (int x = 0, end = 0; x < width_; x = end) {
+                while (x < width_ && depths[x] != DepthBuffer::cleared) ++x;
+                for (end = x; end < width_ && depths[end] == DepthBuffer::cleared;) ++end;
+                if (end > x) take(PixelRun{{first_.x + x, y}, end - x});
+            }
+        }
     }
 
     /// Writes them into an image, at the tile's place moved by `offset`.
