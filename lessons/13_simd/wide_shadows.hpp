@@ -62,7 +62,6 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
 
 /// How many taps of each point's kernel say lit. Here it is the taps of a row that are compared at
 /// once, since they are neighbours in memory, and those of N points are not.
-///
 template <int radius, int N>
 Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     constexpr int side = 2 * radius + 1, taps = side <= 4 ? 4 : 8;
