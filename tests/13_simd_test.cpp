@@ -528,8 +528,8 @@ TEST(Simd, Eq13_2_EdgeFunctionsOfTheWorkedExample) {
     const ivec2 first(4, 1);
     const std::array<EdgeWalk, 3> edges{EdgeWalk(b, c, 1, first), EdgeWalk(c, a, 1, first),
                                         EdgeWalk(a, b, 1, first)};
-    constexpr std::array expected = {
-        std::array{2, -2, -6, -10}, {12, 12, 12, 12}, {18, 22, 26, 30}};
+    constexpr std::array<std::array<int, 4>, 3> expected = {
+        {{2, -2, -6, -10}, {12, 12, 12, 12}, {18, 22, 26, 30}}};
     constexpr std::array next = {-16, 0, 16};
     const auto check = [&](auto whole) {
         using Whole = decltype(whole);
