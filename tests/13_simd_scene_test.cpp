@@ -40,7 +40,7 @@ constexpr std::array models = {"unlit.glb", "textured.gltf", "bumpy.glb",
                                "toon.glb",  "floor.obj",     "figure.obj"};
 constexpr std::array numbers_of_threads = {1, 2, 3, 7, 16};
 constexpr std::array widths = {1, 4, 8, 16};
-constexpr std::uint32_t random_scenes = is_sanitized ? 30 : 150;
+constexpr std::uint32_t random_scenes = is_sanitized ? 40 : 400;
 constexpr int unlimited_ids = std::numeric_limits<int>::max();
 
 lesson_13::Options small_wide_picture(ivec2 size = {96, 54}) {
@@ -323,7 +323,8 @@ TEST(Simd, HardCase_InvalidWidthsAreAnErrorInOneLine) {
 }
 
 TEST(Simd, PictureOfToon) {
-    EXPECT_TRUE(equals_golden("13_simd", "11_scenes_toon", {"--model", "toon.glb"}))
+    EXPECT_TRUE(
+        equals_golden("13_simd", "11_scenes_toon", {"--model", "toon.glb", "--samples", "4"}))
         << "this is lesson 11's picture";
 }
 
