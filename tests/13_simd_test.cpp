@@ -676,6 +676,22 @@ TEST(Simd, Eq13_2_HardCase_TheLargestTrianglesOf32BitsDoNotOverflow) {
         << "the bound for pixels_in_32_bits";
 }
 
+TEST(Simd, Eq13_2_HardCase_TrianglesThatDoNotFitInto32BitsTakeDoubles) {
+    // Half of a square of 182 pixels or more has a corner whose edge function is above 2^31.
+    for (int side = 90; side <= 300; ++side)
+        for (int corner = 0; corner < 4; ++corner) {
+            const auto s = static_cast<float>(side);
+            std::array<vec2, 3> v = {vec2(0.25f), {s, 0.25f}, {0.25f, s}};
+            for (vec2& vertex : v) {
+                if (corner & 1) vertex.x = s + 1 - vertex.x;
+                if (corner & 2) vertex.y = s + 1 - vertex.y;
+            }
+            const ScreenTriangle triangle = snap_triangle(v[0], v[1], v[2]);
+            ASSERT_TRUE(fills_as_lesson_02<Floats<16>>(triangle, ivec2(0), ivec2(310)))
+                << "in 16 lanes, a triangle " << side << " pixels wide and high: " << in_words(v);
+        }
+}
+
 TEST(Simd, Eq13_2_HardCase_TrianglesFarAwayAndHuge) {
     // Up to 2^17 pixels from the origin, the doubles are exact.
     for_each_width([]<int N>() {
