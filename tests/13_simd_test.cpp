@@ -215,6 +215,26 @@ TEST(Simd, Eq13_1_SelectTakesTheBitsOfEachLane) {
     });
 }
 
+TEST(Simd, Eq13_1_SelectOfVectorsWiderThanARegister) {
+    // By AND and OR, on each machine: no register holds 32 floats.
+    constexpr int N = 32;
+    static_assert(N > native_width);
+    Dice dice(N);
+    for (int k = 0; k < 500; ++k) {
+        const auto a = any_numbers<N>(dice), b = any_numbers<N>(dice);
+        const std::uint32_t bits = dice.below(0xffffffffu);
+        Mask<N> mask;
+        for (int i = 0; i < N; ++i) mask.lanes[i] = bits >> i & 1 ? -1 : 0;
+        const Floats<N> actual = select(mask, in_lanes<N>(a), in_lanes<N>(b));
+        for (int i = 0; i < N; ++i)
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(actual[i]),
+                      std::bit_cast<std::uint32_t>((bits >> i & 1 ? a : b).at(std::size_t(i))))
+                << "bits of lane " << i << " of 32 of select(m, a, b), where m "
+                << (bits >> i & 1 ? "holds" : "does not hold") << "; a = " << list_of(a)
+                << ", b = " << list_of(b);
+    }
+}
+
 TEST(Simd, Eq13_3_FloorOfTheWorkedExample) {
     const Floats<4> x = in_lanes<4>({-1.5f, 1.5f, -2, 2});
     constexpr std::array truncations = {-1, 1, -2, 2};
