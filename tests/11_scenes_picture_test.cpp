@@ -32,6 +32,7 @@
 #include "support/pictures.hpp"
 #include "support/pretend_pool.hpp"
 #include "support/printers.hpp"
+#include "support/squares.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -69,45 +70,9 @@ const std::map<Effect, std::vector<Counter>> work_of = {
     {Effect::mask, {Counter::alpha_tested_fragments}},
     {Effect::blend, {Counter::blended_fragments}}};
 
-/// A scene of squares of side 2 around (0, 0, z), as seen by a camera far in front of them: each
-/// covers the picture. Unlit, unless a test says otherwise.
-class Squares {
-  public:
-    Scene scene;
-
-    Squares() {
-        scene.materials.resize(1);
-        scene.cameras = {{"front", translation(vec3(0, 0, 10)), 0.15f, 1, 100}};
-    }
-
-    /// @param tilt  The depth grows by so much from the left side to the right one.
-    Material& add(float z, vec3 color, float tilt = 0) {
-        Mesh mesh;
-        mesh.positions = {
-            {-1, -1, z + tilt}, {1, -1, z - tilt}, {1, 1, z - tilt}, {-1, 1, z + tilt}};
-        mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-        mesh.normals = {{0, 0, 1}};
-        const auto material = static_cast<std::uint32_t>(scene.materials.size());
-        const auto vertex = [](std::uint32_t i) { return Vertex{i, i, 0}; };
-        mesh.triangles = {{{vertex(0), vertex(1), vertex(2)}, material},
-                          {{vertex(0), vertex(2), vertex(3)}, material}};
-        for (const vec3 p : mesh.positions) mesh.bounds.add(p);
-        scene.meshes.push_back(mesh);
-        Material& added = scene.materials.emplace_back();
-        added.name = "square " + std::to_string(material);
-        added.illumination = 0;
-        added.diffuse = added.ambient = color;
-        return added;
-    }
-
-    Material& add_glass(float z, vec3 color, float opacity, float tilt = 0) {
-        Material& glass = add(z, color, tilt);
-        glass.alpha = AlphaMode::blend, glass.opacity = opacity;
-        return glass;
-    }
-
-    vec3 middle() const { return drawn(scene, small_picture({8, 8})).picture[{5, 3}]; }
-};
+vec3 middle_of(const Squares& squares) {
+    return drawn(squares.scene, small_picture({8, 8})).picture[{5, 3}];
+}
 
 }  // namespace
 
@@ -316,7 +281,7 @@ TEST(SceneFiles, Eq11_7_WhatLiesBehindIsSeenThroughHoles) {
             if (leaf_first) add_leaf();
             squares.add(0, vec3(1, 0, 0));
             if (!leaf_first) add_leaf();
-            ASSERT_EQ(squares.middle(), opacity < 0.5f ? vec3(1, 0, 0) : vec3(0, 1, 0))
+            ASSERT_EQ(middle_of(squares), opacity < 0.5f ? vec3(1, 0, 0) : vec3(0, 1, 0))
                 << "a green leaf of opacity " << opacity
                 << " and cutoff 0.5 before a red wall; the " << (leaf_first ? "leaf" : "wall")
                 << " is drawn first";
@@ -327,9 +292,9 @@ TEST(SceneFiles, Eq11_7_WhatLiesBehindIsSeenThroughHoles) {
     Material& leaf = squares.add(1, vec3(0, 1, 0));
     leaf.alpha = AlphaMode::mask, leaf.opacity = 0.9f;
     squares.scene.meshes[1].colors.assign(4, vec4(1, 0.5f, 1, 0.5f));
-    EXPECT_EQ(squares.middle(), vec3(1, 0, 0));
+    EXPECT_EQ(middle_of(squares), vec3(1, 0, 0));
     leaf.alpha_cutoff = 0.45f;
-    EXPECT_EQ(squares.middle(), vec3(0, 0.5f, 0)) << "and they are coloured";
+    EXPECT_EQ(middle_of(squares), vec3(0, 0.5f, 0)) << "and they are coloured";
     const Drawn picture = drawn(squares.scene, small_picture({8, 8}));
     EXPECT_EQ(picture.count(Counter::alpha_tested_fragments), 64u);
     EXPECT_EQ(picture.count(Counter::colored_fragments), 64u);
@@ -395,7 +360,7 @@ TEST(SceneFiles, HardCase_OnlyTwoSidedMaterialsShowTheirBackFaces) {
             if (is_glass) square.alpha = AlphaMode::blend;
             for (Triangle& triangle : squares.scene.meshes[0].triangles)
                 std::swap(triangle.vertices[1], triangle.vertices[2]);
-            EXPECT_EQ(squares.middle() == vec3(1, 0, 0), two_sided);
+            EXPECT_EQ(middle_of(squares) == vec3(1, 0, 0), two_sided);
         }
 }
 
@@ -552,7 +517,7 @@ TEST(SceneFiles, Eq11_5_AToonMaterialHasTwoColors) {
         squares.scene.lights = {{"sun", SceneLight::Kind::directional, vec3(9), vec3(0),
                                  vec3(0, 0, -toward_eye), std::numeric_limits<float>::infinity()}};
         // With a level of 0 or 1, and eighths, no step is rounded.
-        ASSERT_EQ(squares.middle(),
+        ASSERT_EQ(middle_of(squares),
                   toward_eye > 0 ? vec3(0.875f, 0.625f, 0.375f) : vec3(0.375f, 0.25f, 0.625f))
             << "a square of (0.75, 0.5, 0.25), in the shade (0.25, 0.125, 0.5), that emits 0.125; "
             << "the sun shines from " << (toward_eye > 0 ? "the front" : "behind");

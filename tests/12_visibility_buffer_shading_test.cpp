@@ -31,6 +31,7 @@
 #include "support/one_triangle.hpp"
 #include "support/pictures.hpp"
 #include "support/printers.hpp"
+#include "support/squares.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -44,41 +45,16 @@ lesson_12::Options plain_picture(ivec2 size) {
     return options;
 }
 
-/// Unlit surfaces around (0, 0, z), each a mesh of its own, as seen by a camera far in front of
-/// them: squares that cover the picture, or triangles in its middle.
-class Surfaces {
+/// Squares that cover the picture, and triangles in its middle.
+class Surfaces : public Squares {
   public:
-    Scene scene;
-
-    Surfaces() {
-        scene.materials.resize(1);
-        scene.cameras = {{"front", translation(vec3(0, 0, 10)), 0.15f, 1, 100}};
-    }
-
-    /// @param tilt  The depth grows by so much from the left side to the right one.
-    Material& add_square(float z, vec3 color, float tilt = 0) {
-        return add({{-1, -1, z + tilt}, {1, -1, z - tilt}, {1, 1, z - tilt}, {-1, 1, z + tilt}},
-                   {{0, 1, 2}, {0, 2, 3}}, color);
-    }
     Material& add_triangle(float z) {
-        return add({{-0.5f, -0.5f, z}, {0.5f, -0.5f, z}, {0, 0.6f, z}}, {{0, 1, 2}},
+        return add(mesh_of({{-0.5f, -0.5f, z}, {0.5f, -0.5f, z}, {0, 0.6f, z}}, {{0, 1, 2}}),
                    vec3(1 - 0.01f * z));
     }
 
     SceneAssets assets(const lesson_12::Options& options) const {
         return make_scene_assets(scene, options);
-    }
-
-  private:
-    Material& add(std::vector<vec3> positions,
-                  const std::vector<std::array<std::uint32_t, 3>>& triangles, vec3 color) {
-        const auto material = static_cast<std::uint32_t>(scene.materials.size());
-        scene.meshes.push_back(mesh_of(std::move(positions), triangles));
-        for (Triangle& triangle : scene.meshes.back().triangles) triangle.material = material;
-        Material& added = scene.materials.emplace_back();
-        added.illumination = 0;
-        added.diffuse = added.ambient = color;
-        return added;
     }
 };
 
@@ -86,7 +62,7 @@ class Surfaces {
 Surfaces squares_in(std::span<const int> order) {
     Surfaces squares;
     for (const int nearness : order)
-        squares.add_square(0.01f * static_cast<float>(nearness), vec3(0.1f, 0.5f, 0.3f));
+        squares.add(0.01f * static_cast<float>(nearness), vec3(0.1f, 0.5f, 0.3f));
     return squares;
 }
 
@@ -296,11 +272,11 @@ TEST(VisibilityBuffer, HardCase_HolesAreFoundBeforeAnIdIsWritten) {
             const bool is_hole = opacity < 0.5f;
             Surfaces squares;
             const auto add_leaf = [&](float z) {
-                Material& leaf = squares.add_square(z, green);
+                Material& leaf = squares.add(z, green);
                 leaf.alpha = AlphaMode::mask, leaf.opacity = opacity;
             };
             if (is_leaf_first) add_leaf(0.5f);
-            squares.add_square(0, red);
+            squares.add(0, red);
             if (!is_leaf_first) add_leaf(0.5f);
             add_leaf(-1);  // behind the wall that is there: not asked whether it is a hole
             lesson_12::Options options = plain_picture({8, 8});
@@ -321,16 +297,12 @@ TEST(VisibilityBuffer, HardCase_HolesAreFoundBeforeAnIdIsWritten) {
 TEST(VisibilityBuffer, HardCase_GlassIsShadedAfterAllThatIsOpaque) {
     look_up("Eq. 12.3");
     Surfaces squares;
-    const auto add_glass = [&](float z, vec3 color) {
-        Material& glass = squares.add_square(z, color);
-        glass.alpha = AlphaMode::blend, glass.opacity = 0.5f;
-    };
-    add_glass(1, vec3(0, 0, 1));
-    add_glass(0.5f, vec3(1, 0, 0));
-    squares.add_square(-1, vec3(0));
-    squares.add_square(0, vec3(0, 1, 0));  // hides the one before
-    add_glass(-0.5f, vec3(1));             // behind the wall: neither shaded nor blended
-    add_glass(0, vec3(1));                 // as far as the wall, which is there first: neither
+    squares.add_glass(1, vec3(0, 0, 1), 0.5f);
+    squares.add_glass(0.5f, vec3(1, 0, 0), 0.5f);
+    squares.add(-1, vec3(0));
+    squares.add(0, vec3(0, 1, 0));            // hides the one before
+    squares.add_glass(-0.5f, vec3(1), 0.5f);  // behind the wall: neither shaded nor blended
+    squares.add_glass(0, vec3(1), 0.5f);      // as far as the wall, which is there first: neither
     ThreadPool pool(2);
     for (const int max_ids : {1, unlimited_ids}) {
         lesson_12::Options options = plain_picture({16, 16});
@@ -398,9 +370,8 @@ TEST(VisibilityBuffer, HardCase_HowOftenAPixelIsShadedIsShownAsItWas) {
     // Four squares that cut through each other in the middle: from the left of the picture, each
     // is nearer than the one before it; from its right, none is. In front of them there is glass.
     Surfaces squares;
-    for (const float tilt : {-0.2f, 0.1f, 0.3f, 0.4f}) squares.add_square(0, vec3(0.5f), tilt);
-    Material& glass = squares.add_square(1, vec3(1));
-    glass.alpha = AlphaMode::blend, glass.opacity = 0.5f;
+    for (const float tilt : {-0.2f, 0.1f, 0.3f, 0.4f}) squares.add(0, vec3(0.5f), tilt);
+    squares.add_glass(1, vec3(1), 0.5f);
     ThreadPool pool(2);
     for (const int max_ids : {1, unlimited_ids}) {
         lesson_12::Options options = plain_picture({16, 16});

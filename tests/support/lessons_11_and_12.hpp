@@ -26,18 +26,18 @@ constexpr int unlimited_ids = std::numeric_limits<int>::max();
 
 inline Drawn drawn_by_11(const lesson_12::Options& options, const SceneAssets& assets,
                          ThreadPool& pool) {
-    Drawn result;
-    StepClock clock;
-    result.picture = lesson_11::render(options, assets, pool, result.counters, clock);
-    return result;
+    return drawn(options, assets, [&](const auto& of, const auto& with, Counters& counters) {
+        StepClock clock;
+        return lesson_11::render(of, with, pool, counters, clock);
+    });
 }
 
 inline Drawn drawn_by_12(const lesson_12::Options& options, const SceneAssets& assets,
                          ThreadPool& pool) {
-    Drawn result;
-    StepClock clock;
-    result.picture = lesson_12::render(options, assets, pool, result.counters, clock);
-    return result;
+    return drawn(options, assets, [&](const auto& of, const auto& with, Counters& counters) {
+        StepClock clock;
+        return lesson_12::render(of, with, pool, counters, clock);
+    });
 }
 
 /// In how many pixels an opaque surface is visible, as lesson 11's depth buffer has it.
