@@ -615,8 +615,8 @@ TEST(Textures, Eq5_10_GoesEvenlyFromLevelToLevel) {
 
 TEST(Textures, Eq5_1_UvOfAFragmentAndItsDerivatives) {
     const std::array uvs = {vec2(0, 0), vec2(1, 0), vec2(1, 2)};
-    const FragmentUv uv =
-        fragment_uv(uvs, {{0.5f, 0.25f, 0.25f}, {-0.5f, 0.25f, 0.25f}, {0, -1, 1}});
+    const FragmentUv uv = fragment_uv(
+        uvs, FragmentBarycentrics{{0.5f, 0.25f, 0.25f}, {-0.5f, 0.25f, 0.25f}, {0, -1, 1}});
     EXPECT_EQ(uv.here, vec2(0.5f, 0.5f)) << "(0, 0) / 2 + (1, 0) / 4 + (1, 2) / 4";
     EXPECT_EQ(uv.ddx, vec2(0.5f, 0.5f)) << "(0, 0) (-1/2) + (1, 0) / 4 + (1, 2) / 4";
     EXPECT_EQ(uv.ddy, vec2(0, 2)) << "(0, 0) 0 + (1, 0) (-1) + (1, 2)";

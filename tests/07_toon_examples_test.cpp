@@ -42,8 +42,8 @@ int rim_above(const Image<Seen>& seen, int x) {
 }  // namespace
 
 TEST(Toon, Eq7_1_AnExampleOfBrightness) {
-    EXPECT_EQ(brightness({0.7f, 0.68f, 0.6f}), 0.7f);
-    EXPECT_EQ(brightness({0.7f, 0, 0}), 0.7f);
+    EXPECT_EQ(brightness(vec3(0.7f, 0.68f, 0.6f)), 0.7f);
+    EXPECT_EQ(brightness(vec3(0.7f, 0, 0)), 0.7f);
 }
 
 TEST(Toon, Eq7_2_ExamplesOfTones) {

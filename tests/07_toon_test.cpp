@@ -63,11 +63,11 @@ const SurfaceColor some_color{{0.1f, 0.2f, 0.3f}, {0.4f, 0.5f, 0.6f}, vec3(0.8f)
 }  // namespace
 
 TEST(Toon, Eq7_1_BrightnessIsTheLargestComponent) {
-    EXPECT_EQ(brightness({0.2f, 0.7f, 0.1f}), 0.7f);
-    EXPECT_EQ(brightness({2, 0.7f, 0.1f}), 2);
-    EXPECT_EQ(brightness({0, 0, 0.25f}), 0.25f);
+    EXPECT_EQ(brightness(vec3(0.2f, 0.7f, 0.1f)), 0.7f);
+    EXPECT_EQ(brightness(vec3(2, 0.7f, 0.1f)), 2);
+    EXPECT_EQ(brightness(vec3(0, 0, 0.25f)), 0.25f);
     EXPECT_EQ(brightness(vec3(0)), 0);
-    EXPECT_EQ(brightness({-1, -2, -0.5f}), 0);
+    EXPECT_EQ(brightness(vec3(-1, -2, -0.5f)), 0);
     EXPECT_EQ(brightness(vec3(not_a_number)), 0);
     for (int i = 0; i < 3; ++i) {
         vec3 light(0.5f);

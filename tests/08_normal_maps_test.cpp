@@ -218,13 +218,13 @@ TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
 }
 
 TEST(NormalMaps, Eq8_8_TheThirdComponentFromTwo) {
-    EXPECT_EQ(with_z({0, 0}), out_of_the_surface);
-    EXPECT_NEAR(with_z({0.6f, 0}).z, 0.8f, one_rounding);
-    EXPECT_NEAR(with_z({0.6f, 0.48f}).z, 0.64f, one_rounding);  // the worked example
-    EXPECT_NEAR(with_z({0.48f, -0.64f}).z, 0.6f, one_rounding);
-    EXPECT_EQ(with_z({1, 0}).z, 0);
-    EXPECT_EQ(with_z({0.9f, 0.9f}).z, 0) << "too long for a third";
-    EXPECT_EQ(with_z({-3, 4}), vec3(-3, 4, 0));
+    EXPECT_EQ(with_z(vec2(0, 0)), out_of_the_surface);
+    EXPECT_NEAR(with_z(vec2(0.6f, 0)).z, 0.8f, one_rounding);
+    EXPECT_NEAR(with_z(vec2(0.6f, 0.48f)).z, 0.64f, one_rounding);  // the worked example
+    EXPECT_NEAR(with_z(vec2(0.48f, -0.64f)).z, 0.6f, one_rounding);
+    EXPECT_EQ(with_z(vec2(1, 0)).z, 0);
+    EXPECT_EQ(with_z(vec2(0.9f, 0.9f)).z, 0) << "too long for a third";
+    EXPECT_EQ(with_z(vec2(-3, 4)), vec3(-3, 4, 0));
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(-1, 1);
     for (int i = 0; i < 1000; ++i) {
@@ -349,7 +349,7 @@ TEST(NormalMaps, HardCase_MirroredCopiesOfAMap) {
     // The normals all point to the right and up: in a mirrored copy they point to the left.
     Texture texture = make_texture(Image<vec4>({8, 8}, vec4(0.6f, 0.48f, 0.64f, 1)), Wrap::mirror);
     const auto at = [&](vec2 uv) {
-        return sample_normal(texture, Filter::bilinear, {uv, vec2(0), vec2(0)});
+        return sample_normal(texture, Filter::bilinear, FragmentUv{uv, vec2(0), vec2(0)});
     };
     const vec3 n(0.6f, 0.48f, 0.64f);
     for (const float copy : {-4.0f, -2.0f, 0.0f, 2.0f, 100.0f}) {

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "common/math/functions.hpp"
 
@@ -29,6 +30,17 @@ struct VectorOf {
 };
 template <typename T, int N>
 using Vector = typename VectorOf<T, N>::Type;
+
+/// Of two vectors, one behind the other, the elements at n places: a shuffle. What it takes is one
+/// instruction, or two, up to the width of a register.
+///
+/// @param Place  A function without captures: from an element's index, 0 to n - 1, to its place.
+template <int n, typename V, typename Place>
+inline auto shuffled(V a, V b, Place) {
+    return [&]<int... i>(std::integer_sequence<int, i...>) {
+        return __builtin_shufflevector(a, b, Place()(i)...);
+    }(std::make_integer_sequence<int, n>());
+}
 
 /// One register of this processor holds so many floats: the most arithmetic a step can do
 /// (Eq. 13.6).
@@ -227,6 +239,25 @@ inline F load(const float* from) {
 template <typename F>
 inline void store(float* to, F x) {
     std::memcpy(to, &x, sizeof x);
+}
+
+/// Writes x, y and z of N points as they lie in an array of vec3: one point behind the other.
+template <int N>
+inline void store(vec3* to, const Vec3<Floats<N>>& points) {
+    const auto write = [&]<int part>(std::integral_constant<int, part>) {  // N of the 3 N floats
+        const auto xy = shuffled<N>(points.x.lanes, points.y.lanes, [](int i) constexpr {
+            const int place = part * N + i;
+            return place / 3 + (place % 3 == 1 ? N : 0);
+        });
+        const auto xyz = shuffled<N>(xy, points.z.lanes, [](int i) constexpr {
+            const int place = part * N + i;
+            return place % 3 == 2 ? N + place / 3 : i;
+        });
+        std::memcpy(reinterpret_cast<float*>(to) + part * N, &xyz, sizeof xyz);
+    };
+    write(std::integral_constant<int, 0>());
+    write(std::integral_constant<int, 1>());
+    write(std::integral_constant<int, 2>());
 }
 
 /// Writes a number where the mask holds.

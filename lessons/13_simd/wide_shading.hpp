@@ -139,9 +139,10 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangl
                             lanes);
     };
     const auto scatter = [&](Ints<N> x, Ints<N> y, int count) {
-        const Vec3<F> color = shade(x, y, count);
+        std::array<vec3, N> colors;
+        store(colors.data(), shade(x, y, count));
         for (int i = 0; i < count; ++i)
-            frame.color[{x[i], y[i]}] = {color.x[i], color.y[i], color.z[i]};
+            frame.color[{x[i], y[i]}] = colors[static_cast<std::size_t>(i)];
     };
     Ints<N> x(0), y(0);  // pixels of runs that are shorter than N
     int count = 0;
@@ -149,10 +150,8 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangl
         int i = 0;
         for (; i + N <= run.length; i += N) {
             const ivec2 first = run.first + ivec2(i, 0);
-            const Vec3<F> color = shade(Ints<N>(first.x) + lane_numbers<N>(), Ints<N>(first.y), N);
-            vec3* const to = &frame.color[first];
-            for (int lane = 0; lane < N; ++lane)
-                to[lane] = {color.x[lane], color.y[lane], color.z[lane]};
+            store(&frame.color[first],
+                  shade(Ints<N>(first.x) + lane_numbers<N>(), Ints<N>(first.y), N));
         }
         for (; i < run.length; ++i) {
             x.set(count, run.first.x + i), y.set(count, run.first.y);

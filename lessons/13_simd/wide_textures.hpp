@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "05_textures/texture.hpp"
 #include "13_simd/simd.hpp"
@@ -35,38 +36,81 @@ Floats<N> wrapped(Floats<N> coordinate, Wrap wrap) {
     return max(select(back < there_and_back, back, there_and_back), zero);
 }
 
-/// As sample_bilinear() (Eq. 5.6). The four channels of a texel are neighbours in memory: it is
-/// they that are computed at once here, and the N pixels one after the other.
+/// A texel's four channels are neighbours in memory, those of N pixels are not. So a vector of N
+/// floats holds N / 4 texels: of pixels k, k + 4, k + 8 ...
+///
+/// @param texels  The first one's address.
+/// @param at      Of each pixel's texel: its place behind the first one.
+template <int k, int N>
+Vector<float, N> read_texels(const float* texels, const Ints<N>& at) {
+    const auto read = [&](int pixel) {
+        Vector<float, 4> texel;
+        std::memcpy(&texel, texels + std::ptrdiff_t{at[pixel]} * 4, sizeof texel);
+        return texel;
+    };
+    const auto joined = [](auto a, auto b) {
+        return shuffled<2 * sizeof a / sizeof(float)>(a, b, [](int i) constexpr { return i; });
+    };
+    if constexpr (N == 4)
+        return read(k);
+    else if constexpr (N == 8)
+        return joined(read(k), read(k + 4));
+    else
+        return joined(joined(read(k), read(k + 4)), joined(read(k + 8), read(k + 12)));
+}
+
+/// From vectors of the texels of pixels 0, 4, 8 ..., of pixels 1, 5, 9 ..., and so on to vectors of
+/// the four channels: in each group of four numbers, columns become rows (Eq. 13.7).
+template <int N>
+glm::vec<4, Floats<N>> channels_of(const std::array<Vector<float, N>, 4>& texels) {
+    const auto [a, b, c, d] = texels;
+    const auto first_two = [](int i) constexpr {  // a0 b0 a1 b1
+        return i / 4 * 4 + i % 4 / 2 + i % 2 * N;
+    };
+    const auto last_two = [](int i) constexpr {  // a2 b2 a3 b3
+        return i / 4 * 4 + 2 + i % 4 / 2 + i % 2 * N;
+    };
+    const auto first_halves = [](int i) constexpr {  // a0 b0, c0 d0
+        return i / 4 * 4 + i % 2 + i % 4 / 2 * N;
+    };
+    const auto last_halves = [](int i) constexpr {  // a1 b1, c1 d1
+        return i / 4 * 4 + 2 + i % 2 + i % 4 / 2 * N;
+    };
+    const auto ab01 = shuffled<N>(a, b, first_two), ab23 = shuffled<N>(a, b, last_two);
+    const auto cd01 = shuffled<N>(c, d, first_two), cd23 = shuffled<N>(c, d, last_two);
+    return {Floats<N>(shuffled<N>(ab01, cd01, first_halves)),
+            Floats<N>(shuffled<N>(ab01, cd01, last_halves)),
+            Floats<N>(shuffled<N>(ab23, cd23, first_halves)),
+            Floats<N>(shuffled<N>(ab23, cd23, last_halves))};
+}
+
+/// As sample_bilinear() (Eq. 5.6).
 ///
 /// @param x,y  Positions in the texture, 0 to 1.
 template <int N>
 glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
     using F = Floats<N>;
-    using Texel = Vector<float, 4>;
     const F from_first_x = x * F(static_cast<float>(level.size.x)) + F(0.5f);
     const F from_first_y = y * F(static_cast<float>(level.size.y)) + F(0.5f);
     const Ints<N> column = min(truncated(from_first_x), Ints<N>(level.size.x));
     const Ints<N> row = min(truncated(from_first_y), Ints<N>(level.size.y));
     const F share_x = from_first_x - to_floats(column), share_y = from_first_y - to_floats(row);
-    const std::ptrdiff_t pitch = level.texels.size().x;
-    const vec4* const texels = level.texels.pixels().data();
-    const auto read = [](const vec4* from) {
-        Texel texel;
-        std::memcpy(&texel, from, sizeof texel);
-        return texel;
+    const int pitch = level.texels.size().x;
+    const auto* const upper = reinterpret_cast<const float*>(level.texels.pixels().data());
+    const float* const lower = upper + 4 * static_cast<std::ptrdiff_t>(pitch);
+    const Ints<N> at = row * Ints<N>(pitch) + column;
+    const auto mean = [&]<int k>(std::integral_constant<int, k>) {  // of pixels k, k + 4, ...
+        const auto own = [](int i) constexpr { return i / 4 * 4 + k; };
+        const auto across = shuffled<N>(share_x.lanes, share_x.lanes, own);
+        const auto down = shuffled<N>(share_y.lanes, share_y.lanes, own);
+        const auto upper_left = read_texels<k>(upper, at), lower_left = read_texels<k>(lower, at);
+        const auto in_upper = upper_left + across * (read_texels<k>(upper + 4, at) - upper_left);
+        const auto in_lower = lower_left + across * (read_texels<k>(lower + 4, at) - lower_left);
+        return in_upper + down * (in_lower - in_upper);
     };
-    std::array<Texel, N> means;
-    for (int i = 0; i < N; ++i) {
-        const vec4* const upper = texels + (row[i] * pitch + column[i]);
-        const vec4* const lower = upper + pitch;
-        const Texel in_upper = read(upper) + share_x[i] * (read(upper + 1) - read(upper));
-        const Texel in_lower = read(lower) + share_x[i] * (read(lower + 1) - read(lower));
-        means[static_cast<std::size_t>(i)] = in_upper + share_y[i] * (in_lower - in_upper);
-    }
-    glm::vec<4, F> color;
-    for (int c = 0; c < 4; ++c)
-        for (int i = 0; i < N; ++i) color[c].set(i, means[static_cast<std::size_t>(i)][c]);
-    return color;
+    return channels_of<N>(
+        {mean(std::integral_constant<int, 0>()), mean(std::integral_constant<int, 1>()),
+         mean(std::integral_constant<int, 2>()), mean(std::integral_constant<int, 3>())});
 }
 
 /// As sample_nearest().
