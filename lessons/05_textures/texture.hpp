@@ -116,8 +116,8 @@ struct TextureCoordinates {
 using FragmentUv = TextureCoordinates<float>;
 
 /// @param uvs  Of the triangle's vertices.
-template <typename F>
-TextureCoordinates<F> fragment_uv(const std::array<vec2, 3>& uvs,
+template <typename Uv, typename F>
+TextureCoordinates<F> fragment_uv(const std::array<Uv, 3>& uvs,
                                   const PerspectiveBarycentrics<F>& at) {
     return {interpolate(uvs, at.here), interpolate(uvs, at.ddx), interpolate(uvs, at.ddy)};
 }

@@ -16,15 +16,19 @@
 namespace rasterbook {
 
 /// A triangle's material with its textures, and its vertex attributes.
-struct TriangleSurface {
+///
+/// @tparam F  float; or several floats at once, each of a triangle of its own.
+template <typename F>
+struct SurfaceInputs {
     const Material& material;
     EffectMask effects;
-    const Texture *texture, *specular_texture;  ///< Null where the material names none.
-    SurfaceColor own_color;                     ///< Of the material alone.
-    std::array<vec2, 3> uvs{}, specular_uvs{};  ///< Only of what is read.
-    std::array<vec3, 3> positions_world;
-    std::array<vec3, 3> normals_world;  ///< Length 1, of the side that is seen; 0: none.
+    const Texture *texture, *specular_texture;            ///< Null where the material names none.
+    SurfaceColor own_color;                               ///< Of the material alone.
+    std::array<glm::vec<2, F>, 3> uvs{}, specular_uvs{};  ///< Only of what is read.
+    std::array<Vec3<F>, 3> positions_world;
+    std::array<Vec3<F>, 3> normals_world;  ///< Length 1, of the side that is seen; 0: none.
 };
+using TriangleSurface = SurfaceInputs<float>;
 
 /// @param scene    As complete_normals() leaves its meshes.
 /// @param effects  Of the triangle's material.
@@ -55,9 +59,12 @@ inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTexture
 }
 
 /// The colours of a fragment: the material's own, times its textures.
-template <typename F, typename CounterPolicy>
-FragmentColor<F> surface_color(const TriangleSurface& surface, const PerspectiveBarycentrics<F>& at,
-                               Filter filter, CounterPolicy& counters) {
+///
+/// @tparam G  F, or float where all of them are of one triangle.
+template <typename F, typename G, typename CounterPolicy>
+FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
+                               const PerspectiveBarycentrics<F>& at, Filter filter,
+                               CounterPolicy& counters) {
     FragmentColor<F> color(surface.own_color);
     if (surface.effects[Effect::texture]) {
         counters.add(Counter::texture_samples);
@@ -74,8 +81,8 @@ FragmentColor<F> surface_color(const TriangleSurface& surface, const Perspective
 /// A point of a surface as light falls on it.
 ///
 /// @param normal_world  Of any length (Eq. 6.8); the first vertex's where it is zero or not finite.
-template <typename F, typename CounterPolicy>
-SurfacePoint<F> surface_point(const TriangleSurface& surface, Vec3<F> at, Vec3<F> normal_world,
+template <typename F, typename G, typename CounterPolicy>
+SurfacePoint<F> surface_point(const SurfaceInputs<G>& surface, Vec3<F> at, Vec3<F> normal_world,
                               vec3 eye_world, CounterPolicy& counters) {
     counters.add(Counter::fragments_lit);
     SurfacePoint<F> point{interpolate(surface.positions_world, at),
@@ -89,7 +96,8 @@ SurfacePoint<F> surface_point(const TriangleSurface& surface, Vec3<F> at, Vec3<F
 }
 
 /// The highlight of its material.
-inline PhongHighlight highlight_of(const TriangleSurface& surface) {
+template <typename G>
+PhongHighlight highlight_of(const SurfaceInputs<G>& surface) {
     return {surface.effects[Effect::highlight], surface.material.shininess};
 }
 

@@ -84,16 +84,20 @@ inline void make_tangents(Scene& scene, const NormalMaps& maps, const NormalMapV
 }
 
 /// A triangle's normal map, and what its vertices have for it.
-struct TriangleNormalMap {
+///
+/// @tparam F  As in SurfaceInputs.
+template <typename F>
+struct NormalMapInputs {
     const Texture* texture = nullptr;  ///< Null if there is no map; then the rest means nothing.
     MapSpace space = MapSpace::tangent;
-    float side = 1;             ///< -1 as seen from behind: a bump in front is a dent there.
+    F side{1};                  ///< -1 as seen from behind: a bump in front is a dent there.
     float bump_multiplier = 1;  ///< -bm
-    std::array<vec2, 3> uvs{};
-    std::array<vec3, 3> tangents{};  ///< Of the vertices, or three times that of the face.
-    float handedness = 1;
-    TangentFrame face{};  ///< For FrameOf::face: as Eq. 8.3 finds it.
+    std::array<glm::vec<2, F>, 3> uvs{};
+    std::array<Vec3<F>, 3> tangents{};  ///< Of the vertices, or three times that of the face.
+    F handedness{1};
+    TangentBasis<F> face{};  ///< For FrameOf::face: as Eq. 8.3 finds it.
 };
+using TriangleNormalMap = NormalMapInputs<float>;
 
 /// @param scene  With tangents, as make_tangents() leaves them.
 inline TriangleNormalMap triangle_normal_map(const NormalMapVariant& variant, const Scene& scene,
@@ -130,8 +134,8 @@ inline TriangleNormalMap triangle_normal_map(const NormalMapVariant& variant, co
 }
 
 /// The frame in a fragment, as the variant has it.
-template <typename F>
-TangentBasis<F> frame_at(const TriangleNormalMap& map, const NormalMapVariant& variant, Vec3<F> at,
+template <typename F, typename G>
+TangentBasis<F> frame_at(const NormalMapInputs<G>& map, const NormalMapVariant& variant, Vec3<F> at,
                          Vec3<F> normal) {
     if (variant.frame == FrameOf::face)
         return {Vec3<F>(map.face.tangent), Vec3<F>(map.face.bitangent),
@@ -147,8 +151,8 @@ TangentBasis<F> frame_at(const TriangleNormalMap& map, const NormalMapVariant& v
 ///
 /// @param normal  Interpolated, not yet scaled.
 /// @return        Of any length.
-template <typename F, typename CounterPolicy>
-Vec3<F> normal_mapped(const TriangleNormalMap& map, const NormalMapVariant& variant,
+template <typename F, typename G, typename CounterPolicy>
+Vec3<F> normal_mapped(const NormalMapInputs<G>& map, const NormalMapVariant& variant,
                       const PerspectiveBarycentrics<F>& at, Vec3<F> normal, Filter filter,
                       CounterPolicy& counters) {
     if (map.texture == nullptr) return normal;

@@ -73,9 +73,12 @@ struct Frame {
 };
 
 /// The colors of a triangle's vertices.
-struct VertexColors {
+///
+/// @tparam G  As F in SurfaceInputs.
+template <typename G>
+struct ColorInputs {
     bool are_there = false;
-    std::array<vec4, 3> of_vertices{};
+    std::array<glm::vec<4, G>, 3> of_vertices{};
 
     /// Exactly the vertices' color where all three agree: barycentric coordinates add up to 1 but
     /// for rounding.
@@ -86,6 +89,7 @@ struct VertexColors {
                at.z * Color(of_vertices[2] - of_vertices[0]);
     }
 };
+using VertexColors = ColorInputs<float>;
 
 inline VertexColors vertex_colors(EffectMask effects, const ProjectedTriangle& projected) {
     const std::vector<vec4>& colors = projected.mesh.colors;
@@ -134,15 +138,17 @@ TriangleInputs triangle_inputs(const Frame<Maps>& frame, const ProjectedTriangle
 
 /// The colour of a fragment: the stages of lessons 05 to 11, without those that the permutation
 /// lacks.
-template <Permutation with, typename F, typename Maps, typename CounterPolicy>
-Vec3<F> shaded(const Frame<Maps>& frame, TriangleInputs& triangle,
-               const PerspectiveBarycentrics<F>& at, CounterPolicy& counters) {
-    const TriangleSurface& surface = triangle.surface;
+///
+/// @param inputs  TriangleInputs; or those of several triangles, one in each number of F.
+template <Permutation with, typename F, typename Maps, typename Inputs, typename CounterPolicy>
+Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBarycentrics<F>& at,
+               CounterPolicy& counters) {
+    const auto& surface = inputs.surface;
     const std::span<const Light> lights = frame.assets.lit_by.lights;
     FragmentColor<F> own = surface_color(surface, at, frame.filter, counters);
-    if (triangle.colors.are_there) {  // Eq. 11.10
+    if (inputs.colors.are_there) {  // Eq. 11.10
         counters.add(Counter::colored_fragments);
-        own.tint(Vec3<F>(triangle.colors.at(at.here)));
+        own.tint(Vec3<F>(inputs.colors.at(at.here)));
     }
     if constexpr (with.model == ShadingModel::unlit) {
         return unlit(own);
@@ -150,14 +156,14 @@ Vec3<F> shaded(const Frame<Maps>& frame, TriangleInputs& triangle,
         const Vec3<F> own_normal = interpolate(surface.normals_world, at.here);
         Vec3<F> normal = own_normal;
         if constexpr (with.normal_map)
-            normal = normal_mapped(triangle.normal_map, frame.normal_map, at, own_normal,
+            normal = normal_mapped(inputs.normal_map, frame.normal_map, at, own_normal,
                                    frame.filter, counters);
         const SurfacePoint<F> point =
             surface_point(surface, at.here, normal, frame.eye_world, counters);
         const auto visibility = [&](std::size_t l) {
             if constexpr (with.shadow)
-                return light_visibility(frame.shadow_maps, l, triangle.receiver,
-                                        point.position_world, own_normal, counters);
+                return light_visibility(frame.shadow_maps, l, inputs.receiver, point.position_world,
+                                        own_normal, counters);
             else
                 return F(1.0f);
         };

@@ -116,31 +116,23 @@ class VisibleShaders {
                                 std::span<FragmentToShade>, CounterPolicy&);
     };
 
-    using OfPermutations = std::array<Shader, all_permutations.size()>;
-
-    /// @param shaders  Of each permutation.
-    explicit VisibleShaders(const ScenePlan& plan, const OfPermutations& shaders = one_by_one) {
+    explicit VisibleShaders(const ScenePlan& plan) {
         for (const MaterialPlan& material : plan.materials)
-            of_material_.push_back(shaders[permutation_of(material)]);
+            of_material_.push_back(table[permutation_of(material)]);
     }
 
     const Shader& operator[](std::size_t material) const { return of_material_[material]; }
 
-    /// A pixel after the other.
-    static const OfPermutations one_by_one;
-
   private:
+    template <std::size_t... i>
+    static constexpr std::array<Shader, sizeof...(i)> compiled(std::index_sequence<i...>) {
+        return {Shader{&rasterbook::shade_pixels<all_permutations[i], Maps, CounterPolicy>,
+                       &rasterbook::shade_fragments<all_permutations[i], Maps, CounterPolicy>}...};
+    }
+    static constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
+
     std::vector<Shader> of_material_;
 };
-
-template <typename Maps, typename CounterPolicy>
-constexpr typename VisibleShaders<Maps, CounterPolicy>::OfPermutations
-    VisibleShaders<Maps, CounterPolicy>::one_by_one =
-        []<std::size_t... i>(std::index_sequence<i...>) {
-            return OfPermutations{
-                Shader{&rasterbook::shade_pixels<all_permutations[i], Maps, CounterPolicy>,
-                       &rasterbook::shade_fragments<all_permutations[i], Maps, CounterPolicy>}...};
-        }(std::make_index_sequence<all_permutations.size()>());
 
 /// Draws the colours of all pixels in which a triangle is visible, each once: Eq. 12.5 says what
 /// that saves. Then the tile has no triangles any more.

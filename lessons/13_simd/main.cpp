@@ -52,7 +52,6 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 
     clock.begin("picture");
     const WideDrawing<CounterPolicy> wide = drawing_of_width(options.wide.width);
-    const VisibleShaders<ShadowMapsOnDemand, CounterPolicy> shaders(plan, wide.shaders);
     const Frame frame{assets,
                       options.normal_map,
                       options.texture.filter,
@@ -67,7 +66,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         TileVisibility& visible = visible_of[worker];
         visible.begin(tile);
         const auto shade = [&] {
-            shade_visible(frame, shaders, visible, options.visibility.show, heat, counters);
+            wide.shade_visible(frame, visible, options.visibility.show, heat, counters);
         };
         for (const BinnedTriangles& pass : passes.opaque)
             pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
@@ -84,8 +83,8 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)
                 pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                    wide.draw_transparent(frame, projected, part, depths, shaders, transparent,
-                                          heat, counters);
+                    wide.draw_transparent(frame, projected, part, depths, transparent, heat,
+                                          counters);
                 });
             transparent.blend_over(color);
         });

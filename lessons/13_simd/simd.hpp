@@ -4,6 +4,7 @@
 /// derivation: docs/derivations/13_simd.md.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -169,6 +170,20 @@ inline Floats<N> select(Mask<N> mask, Floats<N> yes, Floats<N> no) {
     if constexpr (N <= native_width) return {mask.lanes ? yes.lanes : no.lanes};
     return {std::bit_cast<Vector<float, N>>((mask.lanes & std::bit_cast<Bits>(yes.lanes)) |
                                             (~mask.lanes & std::bit_cast<Bits>(no.lanes)))};
+}
+
+/// Some lanes get a number that they have in common; the others keep theirs.
+template <int N>
+inline void blend(Mask<N> lanes, Floats<N>& to, float from) {
+    to = select(lanes, Floats<N>(from), to);
+}
+template <int n, int N>
+inline void blend(Mask<N> lanes, glm::vec<n, Floats<N>>& to, const glm::vec<n, float>& from) {
+    for (int i = 0; i < n; ++i) blend(lanes, to[i], from[i]);
+}
+template <typename To, typename From, int N>
+inline void blend(Mask<N> lanes, std::array<To, 3>& to, const std::array<From, 3>& from) {
+    for (std::size_t i = 0; i < 3; ++i) blend(lanes, to[i], from[i]);
 }
 
 template <int N>

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -21,6 +22,7 @@
 #include "12_visibility_buffer/shadow_parts.hpp"
 #include "12_visibility_buffer/visibility_buffer.hpp"
 #include "12_visibility_buffer/visible_shading.hpp"
+#include "13_simd/pixel_batch.hpp"
 #include "13_simd/simd.hpp"
 #include "13_simd/wide_shadows.hpp"
 #include "13_simd/wide_textures.hpp"
@@ -93,108 +95,106 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
     }
 }
 
-/// As BarycentricPlanes of lesson 12: the same bits at several pixels, wherever they are.
-template <int N>
-class WidePlanes {
-  public:
-    /// @param triangle  As fill_triangle<F>() has it.
-    explicit WidePlanes(const ScreenTriangle& triangle)
-        : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
-        const int winding = triangle.twice_area > 0 ? 1 : -1;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const EdgeWalk edge(triangle.vertices[(i + 1) % 3], triangle.vertices[(i + 2) % 3],
-                                winding, ivec2(0));
-            at_origin_[i] = static_cast<double>(edge.value);
-            step_x_[i] = static_cast<double>(edge.step_x);
-            step_y_[i] = static_cast<double>(edge.step_y);
-        }
-    }
-
-    Vec3<Floats<N>> at(Ints<N> x, Ints<N> y) const {
-        const auto columns = __builtin_convertvector(x.lanes, Vector<double, N>);
-        const auto rows = __builtin_convertvector(y.lanes, Vector<double, N>);
-        const auto share = [&](std::size_t i) {
-            return Floats<N>(__builtin_convertvector(
-                at_origin_[i] + columns * step_x_[i] + rows * step_y_[i], Vector<float, N>));
-        };
-        return Vec3<Floats<N>>(share(0), share(1), share(2)) * Floats<N>(per_area_);
-    }
-
-  private:
-    std::array<double, 3> at_origin_, step_x_, step_y_;
-    float per_area_;
+/// A triangle of a tile, and the pixels in which it is visible.
+struct VisibleTriangle {
+    const ProjectedTriangle* triangle;
+    std::span<const PixelRun> runs;
 };
 
-/// As shade_pixels() of lesson 12, as many pixels at a time as F has numbers (Eq. 13.4).
+/// Draws the triangles of an unlit material if it has one colour: then there is nothing to compute
+/// in their pixels.
+///
+/// @return  Whether it has.
+template <typename CounterPolicy>
+bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, std::span<const VisibleTriangle> visible,
+               CounterPolicy& counters) {
+    const ProjectedTriangle& first = *visible.front().triangle;
+    const EffectMask effects = frame.assets.plan.materials[first.triangle.material].effects;
+    if (effects[Effect::texture] || vertex_colors(effects, first).are_there) return false;
+    const vec3 color = unlit(surface_color(frame.assets.scene.materials[first.triangle.material]));
+    for (const auto& [triangle, runs] : visible)
+        for (const PixelRun& run : runs) {
+            counters.add(Counter::fragments_shaded, static_cast<std::uint64_t>(run.length));
+            std::fill_n(&frame.color[run.first], run.length, color);
+        }
+    return true;
+}
+
+/// As shade_pixels() of lesson 12, of triangles of one mesh and one material.
 template <Permutation with, typename F, typename CounterPolicy>
-void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected,
-                  std::span<const PixelRun> runs, CounterPolicy& counters) {
-    constexpr int N = width_of<F>;
-    TriangleInputs triangle = triangle_inputs<with>(frame, projected);
-    const WidePlanes<N> planes(projected.on_screen);
-    const auto shade = [&](Ints<N> x, Ints<N> y, int count) {
-        LaneCounters<CounterPolicy> lanes{counters, count};
-        lanes.add(Counter::fragments_shaded);
-        return shaded<with>(frame, triangle, perspective_correct(triangle.setup, planes.at(x, y)),
-                            lanes);
-    };
-    const auto scatter = [&](Ints<N> x, Ints<N> y, int count) {
-        std::array<vec3, N> colors;
-        store(colors.data(), shade(x, y, count));
-        for (int i = 0; i < count; ++i)
-            frame.color[{x[i], y[i]}] = colors[static_cast<std::size_t>(i)];
-    };
-    Ints<N> x(0), y(0);  // pixels of runs that are shorter than N
-    int count = 0;
-    for (const PixelRun& run : runs) {
-        int i = 0;
-        for (; i + N <= run.length; i += N) {
-            const ivec2 first = run.first + ivec2(i, 0);
-            store(&frame.color[first],
-                  shade(Ints<N>(first.x) + lane_numbers<N>(), Ints<N>(first.y), N));
+void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, std::span<const VisibleTriangle> visible,
+                  CounterPolicy& counters) {
+    if constexpr (width_of<F> == 1) {
+        for (const auto& [triangle, runs] : visible)
+            shade_pixels<with>(frame, *triangle, runs, counters);
+    } else {
+        if constexpr (with.model == ShadingModel::unlit)
+            if (fill_flat(frame, visible, counters)) return;
+        PixelBatch<with, F, CounterPolicy> batch(frame, *visible.front().triangle, counters);
+        for (const auto& [triangle, runs] : visible) {
+            if (triangle != visible.front().triangle) batch.begin(*triangle);
+            for (const PixelRun& run : runs) batch.add(run);
         }
-        for (; i < run.length; ++i) {
-            x.set(count, run.first.x + i), y.set(count, run.first.y);
-            if (++count == N) scatter(x, y, N), count = 0;
-        }
+        batch.finish();
     }
-    if (count == 0) return;
-    for (int i = count; i < N; ++i) x.set(i, x[count - 1]), y.set(i, y[count - 1]);
-    scatter(x, y, count);
 }
 
 /// As shade_fragments() of lesson 12.
 template <Permutation with, typename F, typename CounterPolicy>
 void shade_fragments(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected,
                      std::span<FragmentToShade> fragments, CounterPolicy& counters) {
-    constexpr std::size_t N = width_of<F>;
-    TriangleInputs triangle = triangle_inputs<with>(frame, projected);
-    for (std::size_t first = 0; first < fragments.size(); first += N) {
-        const std::span<FragmentToShade> some =
-            fragments.subspan(first, std::min(N, fragments.size() - first));
-        Vec3<F> on_screen;
-        for (std::size_t i = 0; i < N; ++i)
-            for (int v = 0; v < 3; ++v)
-                on_screen[v].set(static_cast<int>(i),
-                                 some[std::min(i, some.size() - 1)].on_screen[v]);
-        LaneCounters<CounterPolicy> lanes{counters, static_cast<int>(some.size())};
-        lanes.add(Counter::fragments_shaded);
-        lanes.add(Counter::blended_fragments);
-        const Vec3<F> color =
-            shaded<with>(frame, triangle, perspective_correct(triangle.setup, on_screen), lanes);
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            const int lane = static_cast<int>(i);
-            some[i].fragment.color = {color.x[lane], color.y[lane], color.z[lane]};
+    if constexpr (width_of<F> == 1) {
+        shade_fragments<with>(frame, projected, fragments, counters);
+    } else {
+        constexpr std::size_t N = width_of<F>;
+        TriangleInputs triangle = triangle_inputs<with>(frame, projected);
+        LaneInputs<with, N> inputs(triangle);
+        inputs.set(first_lanes<F>(N), triangle, frame.normal_map.frame, 0);
+        for (std::size_t first = 0; first < fragments.size(); first += N) {
+            const std::span<FragmentToShade> some =
+                fragments.subspan(first, std::min(N, fragments.size() - first));
+            Vec3<F> on_screen;
+            for (std::size_t i = 0; i < N; ++i)
+                for (int v = 0; v < 3; ++v)
+                    on_screen[v].set(static_cast<int>(i),
+                                     some[std::min(i, some.size() - 1)].on_screen[v]);
+            LaneCounters<CounterPolicy> lanes{counters, static_cast<int>(some.size())};
+            lanes.add(Counter::fragments_shaded);
+            lanes.add(Counter::blended_fragments);
+            std::array<vec3, N> colors;
+            store(
+                colors.data(),
+                shaded<with>(frame, inputs, perspective_correct(triangle.setup, on_screen), lanes));
+            for (std::size_t i = 0; i < some.size(); ++i) some[i].fragment.color = colors[i];
         }
     }
+}
+
+/// The two of a permutation.
+template <typename CounterPolicy>
+struct WideShader {
+    void (*shade_pixels)(const Frame<ShadowMapsOnDemand>&, std::span<const VisibleTriangle>,
+                         CounterPolicy&);
+    void (*shade_fragments)(const Frame<ShadowMapsOnDemand>&, const ProjectedTriangle&,
+                            std::span<FragmentToShade>, CounterPolicy&);
+};
+
+template <typename F, typename CounterPolicy>
+WideShader<CounterPolicy> shader_of(const Frame<ShadowMapsOnDemand>& frame,
+                                    const ProjectedTriangle& projected) {
+    constexpr auto shaders = []<std::size_t... i>(std::index_sequence<i...>) {
+        return std::array{WideShader<CounterPolicy>{
+            &rasterbook::shade_pixels<all_permutations[i], F, CounterPolicy>,
+            &rasterbook::shade_fragments<all_permutations[i], F, CounterPolicy>}...};
+    }(std::make_index_sequence<all_permutations.size()>());
+    return shaders[permutation_of(frame.assets.plan.materials[projected.triangle.material])];
 }
 
 /// As draw_transparent() of lesson 12.
 template <typename F, typename CounterPolicy>
 void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected,
-                      const Tile& tile, TileDepths& depths,
-                      const VisibleShaders<ShadowMapsOnDemand, CounterPolicy>& shaders,
-                      TransparentFragments& transparent, HeatMap& heat, CounterPolicy& counters) {
+                      const Tile& tile, TileDepths& depths, TransparentFragments& transparent,
+                      HeatMap& heat, CounterPolicy& counters) {
     std::vector<FragmentToShade> fragments;
     for_each_nearer_fragment<F>(
         frame, projected, tile, depths, counters,
@@ -208,24 +208,41 @@ void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTri
                 heat.add(pixel);
             }
         });
-    shaders[projected.triangle.material].shade_fragments(frame, projected, fragments, counters);
+    shader_of<F, CounterPolicy>(frame, projected)
+        .shade_fragments(frame, projected, fragments, counters);
     for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
+}
+
+/// As shade_visible() of lesson 12.
+template <typename F, typename CounterPolicy>
+void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible, Show show,
+                   HeatMap& heat, CounterPolicy& counters) {
+    std::vector<VisibleTriangle> seen;
+    visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelRun> runs) {
+        seen.push_back({&triangle, runs});
+    });
+    const auto is_alike = [](const VisibleTriangle& a, const VisibleTriangle& b) {
+        return &a.triangle->mesh == &b.triangle->mesh &&
+               a.triangle->triangle.material == b.triangle->triangle.material;
+    };
+    for (auto begin = seen.begin(), end = begin; begin != seen.end(); begin = end) {
+        while (end != seen.end() && is_alike(*begin, *end)) ++end;
+        shader_of<F, CounterPolicy>(frame, *begin->triangle)
+            .shade_pixels(frame, {begin, end}, counters);
+    }
+    for (const auto& [triangle, runs] : seen)
+        for (const PixelRun& run : runs) {
+            heat.add(run);
+            if (show == Show::ids)
+                std::fill_n(&frame.color[run.first], run.length, color_of_triangle(*triangle));
+        }
 }
 
 /// The functions for as many pixels as F has numbers.
 template <typename F, typename CounterPolicy>
 WideDrawing<CounterPolicy> drawing_by() {
-    using Drawing = WideDrawing<CounterPolicy>;
-    using Maps = ShadowMapsOnDemand;
-    Drawing drawing{&draw_id<F, Maps, CounterPolicy>, &draw_transparent<F, CounterPolicy>,
-                    Drawing::Shaders::one_by_one};
-    if constexpr (width_of<F> > 1)
-        [&]<std::size_t... i>(std::index_sequence<i...>) {
-            drawing.shaders = {typename Drawing::Shaders::Shader{
-                &shade_pixels<all_permutations[i], F, CounterPolicy>,
-                &shade_fragments<all_permutations[i], F, CounterPolicy>}...};
-        }(std::make_index_sequence<all_permutations.size()>());
-    return drawing;
+    return {&draw_id<F, ShadowMapsOnDemand, CounterPolicy>, &shade_visible<F, CounterPolicy>,
+            &draw_transparent<F, CounterPolicy>};
 }
 
 template <int N>

@@ -4,6 +4,7 @@
 /// lesson 13; derivation: docs/derivations/13_simd.md.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <optional>
@@ -17,20 +18,48 @@
 
 namespace rasterbook {
 
-/// As PcfKernel, of several points on one side of a triangle.
+/// As Receiver, of several points.
+template <int N>
+struct WideReceiver {
+    glm::vec<2, Floats<N>> slope{Floats<N>(0.0f)};
+    Floats<N> bias{0.0f}, bias_per_w{0.0f};
+    Vec3<Floats<N>> offset{Floats<N>(0.0f)}, offset_times_w{Floats<N>(0.0f)};
+
+    void set(Mask<N> lanes, const Receiver& receiver) {
+        blend(lanes, slope, receiver.slope);
+        blend(lanes, bias, receiver.bias);
+        blend(lanes, bias_per_w, receiver.bias_per_w);
+        blend(lanes, offset, receiver.offset);
+        blend(lanes, offset_times_w, receiver.offset_times_w);
+    }
+};
+
+/// The triangles that several points are on.
+template <int N>
+struct LaneReceivers {
+    std::array<TriangleReceiver*, N + 1> of_slot{};
+    Ints<N> slot_of_lane{};
+
+    void set(Mask<N> lanes, TriangleReceiver& triangle, int slot) {
+        of_slot[static_cast<std::size_t>(slot)] = &triangle;
+        slot_of_lane = select(lanes, Ints<N>(slot), slot_of_lane);
+    }
+};
+
+/// As PcfKernel, of several points.
 template <int N>
 struct WidePcfKernel {
     Mask<N> is_in_map;
     Ints<N> column, row;  ///< Of the texel in the middle; 0 where it is not in the map.
     Floats<N> depth;
-    vec2 slope;
+    glm::vec<2, Floats<N>> slope;
 };
 
 /// As pcf_kernel() (Eq. 9.6).
 ///
 /// @param asked  Which points are asked for; the others are not in the map.
 template <int N>
-WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
+WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideReceiver<N>& receiver,
                             const Vec3<Floats<N>>& position_world, Mask<N> asked) {
     using F = Floats<N>;
     const mat4& m = map.texels_from_world;
@@ -39,8 +68,7 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
     };
     F w(1.0f), per_w(1.0f);
     if (map.is_perspective) w = row_times(3, position_world);
-    const Vec3<F> moved =
-        position_world + Vec3<F>(receiver.offset) + w * Vec3<F>(receiver.offset_times_w);
+    const Vec3<F> moved = position_world + receiver.offset + w * receiver.offset_times_w;
     Mask<N> is_in_map = asked;
     if (map.is_perspective) {
         const F moved_w = row_times(3, moved);
@@ -54,9 +82,9 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
         is_in_map & (place.x >= first) & (place.y >= first) & (place.x < end) & (place.y < end);
     const Ints<N> column = truncated(select(is_in_map, place.x, first));
     const Ints<N> row = truncated(select(is_in_map, place.y, first));
-    const F depth = place.z - (F(receiver.bias) + F(receiver.bias_per_w) * per_w) +
-                    F(receiver.slope.x) * (to_floats(column) + F(0.5f) - place.x) +
-                    F(receiver.slope.y) * (to_floats(row) + F(0.5f) - place.y);
+    const F depth = place.z - (receiver.bias + receiver.bias_per_w * per_w) +
+                    receiver.slope.x * (to_floats(column) + F(0.5f) - place.x) +
+                    receiver.slope.y * (to_floats(row) + F(0.5f) - place.y);
     return {is_in_map, column, row, depth, receiver.slope};
 }
 
@@ -68,17 +96,18 @@ Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     using Row = Vector<float, taps>;
     using Counts = Vector<std::int32_t, taps>;
     const Image<float>& depths = map.depths.depths();
-    Row across{};
+    Row from_middle{};
     Counts counted{};
-    for (int x = 0; x < side; ++x)
-        across[x] = kernel.slope.x * static_cast<float>(x - radius), counted[x] = 1;
+    for (int x = 0; x < side; ++x) from_middle[x] = static_cast<float>(x - radius), counted[x] = 1;
     Ints<N> lit(0);
     for (int i = 0; i < N; ++i) {
         if (!kernel.is_in_map[i]) continue;  // texel (0, 0) may be another thread's just now
         const ivec2 first = ivec2(kernel.column[i], kernel.row[i]) + (max_pcf_radius - radius);
+        const Row across = kernel.slope.x[i] * from_middle;
         Counts in_column{};
         for (int y = 0; y < side; ++y) {
-            const float in_row = kernel.depth[i] + kernel.slope.y * static_cast<float>(y - radius);
+            const float in_row =
+                kernel.depth[i] + kernel.slope.y[i] * static_cast<float>(y - radius);
             const Row at_taps = in_row + across;
             const Row cleared = Row{} + DepthBuffer::cleared;
             const Row at_texels = cleared < at_taps ? cleared : at_taps;
@@ -133,19 +162,30 @@ void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, in
 /// What a triangle's pixels count, so many at a time.
 template <typename CounterPolicy>
 struct LaneCounters {
-    CounterPolicy& counters;
+    CounterPolicy& total;
     int lanes;  ///< So many are pixels; the others repeat the last one.
 
     void add(Counter counter, std::uint64_t times = 1) {
-        counters.add(counter, times * static_cast<std::uint64_t>(lanes));
+        total.add(counter, times * static_cast<std::uint64_t>(lanes));
     }
 };
 
-/// As light_visibility() of lesson 12. All points that are in one map and on one side of the
-/// triangle are asked for together; mostly that is all of them.
+/// In which lanes normals point to the back of a triangle.
+template <int N>
+Mask<N> is_behind(dvec3 front, const Vec3<Floats<N>>& normal) {
+    using Doubles = Vector<double, N>;
+    const auto product = [&](int i) {
+        return front[i] * __builtin_convertvector(normal[i].lanes, Doubles);
+    };
+    return {
+        __builtin_convertvector(product(0) + product(1) + product(2) < 0, Vector<std::int32_t, N>)};
+}
+
+/// As light_visibility() of lesson 12. All points that are in one map are asked for together;
+/// mostly that is all of them.
 template <int N, typename CounterPolicy>
 Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
-                           TriangleReceiver& triangle, const Vec3<Floats<N>>& position,
+                           const LaneReceivers<N>& triangles, const Vec3<Floats<N>>& position,
                            const Vec3<Floats<N>>& normal, LaneCounters<CounterPolicy>& counters) {
     using F = Floats<N>;
     const ShadowMaps& shadow_maps = on_demand.maps();
@@ -161,37 +201,42 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
         select(faces_light, of_light.is_drawn ? min(cosine / F(full_cosine), F(1.0f)) : F(1.0f),
                F(of_light.is_drawn ? 0.0f : 1.0f));
 
-    Ints<N> map_of_lane, side_of_lane;
-    for (int i = 0; i < N; ++i) {
-        const std::size_t view =
-            of_light.has_faces ? cube_face(vec3(from_light.x[i], from_light.y[i], from_light.z[i]))
-                               : 0;
-        map_of_lane.set(i, static_cast<int>(of_light.map_of_view[view]));
-        side_of_lane.set(
-            i, glm::dot(triangle.front, dvec3(normal.x[i], normal.y[i], normal.z[i])) < 0);
-    }
+    Ints<N> map_of_lane(static_cast<int>(of_light.map_of_view[0]));
+    for (int i = 0; of_light.has_faces && i < N; ++i)
+        map_of_lane.set(i, static_cast<int>(of_light.map_of_view[cube_face(
+                               vec3(from_light.x[i], from_light.y[i], from_light.z[i]))]));
     Mask<N> left =
         faces_light & !(map_of_lane == Ints<N>(static_cast<int>(LightShadowMaps::no_map)));
-    counters.counters.add(
-        Counter::shadow_tests,
-        static_cast<std::uint64_t>(count_of(left & first_lanes<F>(counters.lanes))));
+    counters.total.add(Counter::shadow_tests,
+                       static_cast<std::uint64_t>(count_of(left & first_lanes<F>(counters.lanes))));
     while (any_of(left)) {
-        const int first = first_of(left), side = side_of_lane[first];
-        const auto i = static_cast<std::size_t>(map_of_lane[first]);
-        const Mask<N> together =
-            left & (map_of_lane == Ints<N>(map_of_lane[first])) & (side_of_lane == Ints<N>(side));
+        const int map_number = map_of_lane[first_of(left)];
+        const auto i = static_cast<std::size_t>(map_number);
+        const Mask<N> together = left & (map_of_lane == Ints<N>(map_number));
+        left = left & !together;
         const ShadowMap& map = of_light.maps[i];
-        std::optional<Receiver>& bias =
-            triangle.biases[of_light.first_map + i][static_cast<std::size_t>(side)];
-        if (!bias)
-            bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
-                            side == 1 ? -triangle.front : triangle.front);
-        const WidePcfKernel<N> kernel = pcf_kernel(map, *bias, position, together);
+        WideReceiver<N> receivers;
+        for (Mask<N> rest = together; any_of(rest);) {
+            const int slot = triangles.slot_of_lane[first_of(rest)];
+            const Mask<N> own = rest & (triangles.slot_of_lane == Ints<N>(slot));
+            rest = rest & !own;
+            TriangleReceiver& triangle = *triangles.of_slot[static_cast<std::size_t>(slot)];
+            const Mask<N> behind = is_behind(triangle.front, normal);
+            for (const bool is_back : {false, true}) {
+                const Mask<N> on_side = own & (is_back ? behind : !behind);
+                if (!any_of(on_side)) continue;
+                std::optional<Receiver>& bias = triangle.biases[of_light.first_map + i][is_back];
+                if (!bias)
+                    bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
+                                    is_back ? -triangle.front : triangle.front);
+                receivers.set(on_side, *bias);
+            }
+        }
+        const WidePcfKernel<N> kernel = pcf_kernel(map, receivers, position, together);
         draw_around(on_demand.parts()[of_light.first_map + i], kernel, shadow_maps.radius,
-                    counters.counters);
+                    counters.total);
         visibility = select(together, visibility * pcf_visibility(map, shadow_maps.radius, kernel),
                             visibility);
-        left = left & !together;
     }
     return visibility;
 }

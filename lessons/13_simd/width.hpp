@@ -16,13 +16,12 @@ namespace rasterbook {
 template <typename CounterPolicy>
 struct WideDrawing {
     using Maps = ShadowMapsOnDemand;
-    using Shaders = VisibleShaders<Maps, CounterPolicy>;
 
     void (*draw_id)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
                     TileVisibility&, CounterPolicy&);
+    void (*shade_visible)(const Frame<Maps>&, TileVisibility&, Show, HeatMap&, CounterPolicy&);
     void (*draw_transparent)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
-                             const Shaders&, TransparentFragments&, HeatMap&, CounterPolicy&);
-    typename Shaders::OfPermutations shaders;
+                             TransparentFragments&, HeatMap&, CounterPolicy&);
 };
 
 /// Compiled apart, in width_4.cpp and so on.
