@@ -322,7 +322,14 @@ TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
         int outside = 0, inside = 0, partly_lit = 0;
         for (int k = 0; k < 6000 / N; ++k) {
             const ShadowMap map = any_map(dice, k % 2);
-            const Receiver receiver = any_receiver(dice);
+            std::array<Receiver, std::size_t(N)> receivers;
+            WideReceiver<N> of_lanes;
+            for (int i = 0; i < N; ++i) {
+                receivers.at(std::size_t(i)) = i == 0 || dice.one_in(3)
+                                                   ? any_receiver(dice)
+                                                   : receivers.at(std::size_t(i - 1));
+                of_lanes.set(lane_numbers<N>() == Ints<N>(i), receivers.at(std::size_t(i)));
+            }
             std::array<vec3, std::size_t(N)> points;
             const bool are_special = dice.one_in(3);
             for (vec3& p : points) p = any_point(dice, are_special);
@@ -333,14 +340,15 @@ TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
             const auto asked = dice.one_in(2) ? (1u << N) - 1 : dice.below(1u << N);
             Mask<N> mask;
             for (int i = 0; i < N; ++i) mask.lanes[i] = asked >> i & 1 ? -1 : 0;
-            const WidePcfKernel<N> actual = pcf_kernel(map, receiver, in_lanes<N>(points), mask);
+            const WidePcfKernel<N> actual = pcf_kernel(map, of_lanes, in_lanes<N>(points), mask);
             for (int radius = 0; radius <= max_pcf_radius; ++radius) {
                 const Floats<N> visibility = pcf_visibility(map, radius, actual);
                 for (int i = 0; i < N; ++i) {
                     const bool is_asked = asked >> i & 1;
                     const vec3 point = points.at(std::size_t(i));
                     const PcfKernel expected =
-                        is_asked ? pcf_kernel(map, receiver, point) : PcfKernel();
+                        is_asked ? pcf_kernel(map, receivers.at(std::size_t(i)), point)
+                                 : PcfKernel();
                     const std::string where = "lane " + std::to_string(i) + " of " +
                                               std::to_string(N) + ", point " + shown(point) +
                                               (is_asked ? "" : ", which is not asked for") +
@@ -429,10 +437,17 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
             Counters expected_counts, counts;
             for (int batch = 0; batch < 8; ++batch) {
                 const Mesh& mesh = scene.meshes[0];
-                std::array<vec3, 3> vertices;
-                for (std::size_t v = 0; v < 3; ++v)
-                    vertices.at(v) = mesh.positions[3 * dice.below(8) + v];
-                TriangleReceiver receiver = triangle_receiver(vertices), same = receiver;
+                std::vector<TriangleReceiver> receivers;
+                for (int t = 0; t < 3; ++t) {
+                    std::array<vec3, 3> vertices;
+                    for (std::size_t v = 0; v < 3; ++v)
+                        vertices.at(v) = mesh.positions[3 * dice.below(8) + v];
+                    receivers.push_back(triangle_receiver(vertices));
+                }
+                std::vector<TriangleReceiver> same = receivers;
+                const std::uint32_t triangle_count = dice.one_in(2) ? 1 : 3;
+                LaneReceivers<N> in_slots;
+                std::array<std::size_t, std::size_t(N)> triangle_of;
                 // Few of the lanes may be pixels; the others repeat the last one.
                 const int pixels = dice.one_in(2) ? N : 1 + static_cast<int>(dice.below(N));
                 const bool is_small = dice.one_in(2), are_special = dice.one_in(3),
@@ -441,11 +456,16 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                 std::array<vec3, std::size_t(N)> points, normals;
                 for (int i = 0; i < N; ++i) {
                     const auto lane = static_cast<std::size_t>(i);
+                    const std::size_t t = triangle_of.at(lane) =
+                        i < pixels ? dice.below(triangle_count) : triangle_of.at(lane - 1);
+                    in_slots.set(lane_numbers<N>() == Ints<N>(i), receivers.at(t),
+                                 static_cast<int>(t) + N - 2);
                     if (i >= pixels) {
                         points.at(lane) = points.at(lane - 1),
                         normals.at(lane) = normals.at(lane - 1);
                         continue;
                     }
+                    const auto& vertices = receivers.at(t).vertices;
                     const float reach = is_small ? 0.05f : 0.5f;
                     const vec2 at(dice.between(0, reach), dice.between(0, reach));
                     points.at(lane) =
@@ -458,7 +478,7 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                 }
                 for (std::size_t l = 0; l < lights.size(); ++l) {
                     LaneCounters<Counters> lanes{counts, pixels};
-                    const Floats<N> actual = light_visibility(now, l, receiver, in_lanes<N>(points),
+                    const Floats<N> actual = light_visibility(now, l, in_slots, in_lanes<N>(points),
                                                               in_lanes<N>(normals), lanes);
                     std::array<bool, 2> sides{};
                     std::array<bool, 6> faces{};
@@ -466,7 +486,8 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                         const vec3 point = points.at(std::size_t(i)),
                                    normal = normals.at(std::size_t(i));
                         const float expected =
-                            light_visibility(before, l, same, point, normal, expected_counts);
+                            light_visibility(before, l, same.at(triangle_of.at(std::size_t(i))),
+                                             point, normal, expected_counts);
                         ASSERT_TRUE(agree(actual[i], expected))
                             << "visibility of light " << l << " in lane " << i << " of " << N
                             << ": " << actual[i] << ", expected " << expected << "; point "
@@ -476,7 +497,8 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                             << ", a map of " << variant.size << " texels (seed " << seed
                             << ", batch " << batch << ")";
                         half_lit += expected > 0 && expected < 1;
-                        sides[glm::dot(receiver.front, dvec3(normal)) < 0] = true;
+                        sides[glm::dot(receivers.at(triangle_of.at(std::size_t(i))).front,
+                                       dvec3(normal)) < 0] = true;
                         faces.at(cube_face(point - lights[l].position_world)) = true;
                     }
                     both_sides += sides[0] && sides[1];

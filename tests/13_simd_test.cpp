@@ -149,33 +149,37 @@ struct BatchCounters {
 };
 
 /// An unlit material whose colour comes from vertex colours, and a triangle of it.
-struct ColoredTriangle {
+struct ColoredTriangles {
+    static constexpr std::uint32_t count = 3;
     SceneAssets assets;
-    ScreenTriangle on_screen;
 
     static Scene scene() {
         Scene scene;
         scene.materials.resize(1);
         scene.materials[0].illumination = 0;
         Mesh mesh;
-        mesh.positions = {{-1, 1, 0}, {-1, -3, 0}, {3, 1, 0}};
-        mesh.colors = {{1, 0.1f, 0.2f, 1}, {0.3f, 0.7f, 0, 1}, {0, 0.2f, 0.9f, 1}};
-        mesh.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0}};
+        mesh.colors = {{1, 0.1f, 0.2f, 1},    {0.3f, 0.7f, 0, 1}, {0, 0.2f, 0.9f, 1},
+                       {0.4f, 0.4f, 0.1f, 1}, {0, 1, 0.3f, 1},    {0.7f, 0, 0.5f, 1},
+                       {0.9f, 0.8f, 0.6f, 1}, {0.1f, 0, 0, 1},    {0.5f, 1, 1, 1}};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            mesh.positions.insert(mesh.positions.end(), {{-1, 1, 0}, {-1, -3, 0}, {3, 1, 0}});
+            mesh.triangles.push_back({{Vertex{3 * i}, Vertex{3 * i + 1}, Vertex{3 * i + 2}}, 0});
+        }
         for (const vec3 p : mesh.positions) mesh.bounds.add(p);
         scene.meshes.push_back(mesh);
         return scene;
     }
-    ColoredTriangle() : assets(make_scene_assets(scene(), SceneRendererOptions())) {}
+    ColoredTriangles() : assets(make_scene_assets(scene(), SceneRendererOptions())) {}
 
-    ProjectedTriangle projected(ivec2 size) const {
+    ProjectedTriangle projected(ivec2 size, std::size_t number) const {
         const Mesh& mesh = assets.scene.meshes[0];
         const auto corner = [&](std::size_t i) {
-            const vec3 p = mesh.positions[i];
+            const vec3 p = mesh.positions[3 * number + i];
             vec3 at(0);
             at[static_cast<int>(i)] = 1;
-            return ClippedVertex{vec4(p, 1) * (1.0f + static_cast<float>(i)), at};
+            return ClippedVertex{vec4(p, 1) * (1.0f + static_cast<float>((i + number) % 3)), at};
         };
-        return project(mesh, mesh.triangles[0], {corner(0), corner(1), corner(2)}, size);
+        return project(mesh, mesh.triangles[number], {corner(0), corner(1), corner(2)}, size);
     }
 };
 
@@ -862,66 +866,78 @@ TEST(Simd, Eq13_4_BatchesOfTheWorkedExample) {
     };
     EXPECT_EQ(used(20, 16), 0.625);
     EXPECT_EQ(used(20, 4), 1.0);
-    const ColoredTriangle triangle;
+    const ColoredTriangles triangles;
     const ivec2 size(20, 20);
-    const ProjectedTriangle projected = triangle.projected(size);
     ThreadPool pool(1);
     WorkerCounters<Counters> none(1);
-    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{}, false, triangle.assets.scene,
+    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{}, false, triangles.assets.scene,
                                   ShadowBounds(), {}, none, {});
     Image<vec3> color(size);
     DepthBuffer depth(size);
-    const Frame<ShadowMapsOnDemand> frame{triangle.assets, {},   Filter::nearest, vec3(0), maps,
-                                          color,           depth};
-    // 20 pixels in rows of 2 to 6 pixels.
+    const Frame<ShadowMapsOnDemand> frame{
+        triangles.assets, {}, Filter::nearest, vec3(0), maps, color, depth};
+    // 20 pixels in rows of 2 to 6 pixels: all of one triangle, or the first rows of another.
     const std::array runs = {PixelRun{{2, 0}, 2}, PixelRun{{1, 1}, 3}, PixelRun{{1, 2}, 4},
                              PixelRun{{0, 3}, 5}, PixelRun{{0, 4}, 6}};
-    std::vector<std::uint64_t> batches;
-    BatchCounters counters{&batches};
-    shade_pixels<Permutation{}, Floats<16>>(frame, projected, runs, counters);
-    EXPECT_EQ(batches, (std::vector<std::uint64_t>{16, 4})) << "pixels of each batch of 16 lanes";
-    batches.clear();
-    shade_pixels<Permutation{}, Floats<4>>(frame, projected, runs, counters);
-    EXPECT_EQ(batches, (std::vector<std::uint64_t>{4, 4, 4, 4, 4}))
-        << "pixels of each batch of 4 lanes";
+    const ProjectedTriangle one = triangles.projected(size, 0),
+                            other = triangles.projected(size, 1);
+    for (const std::size_t of_other : {0u, 2u}) {
+        const std::array visible = {VisibleTriangle{&other, std::span(runs).first(of_other)},
+                                    VisibleTriangle{&one, std::span(runs).subspan(of_other)}};
+        std::vector<std::uint64_t> batches;
+        BatchCounters counters{&batches};
+        shade_pixels<Permutation{}, Floats<16>>(frame, visible, counters);
+        EXPECT_EQ(batches, (std::vector<std::uint64_t>{16, 4}))
+            << "pixels of each batch of 16 lanes";
+        batches.clear();
+        shade_pixels<Permutation{}, Floats<4>>(frame, visible, counters);
+        EXPECT_EQ(batches, (std::vector<std::uint64_t>{4, 4, 4, 4, 4}))
+            << "pixels of each batch of 4 lanes";
+    }
 }
 
 TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
-    const ColoredTriangle triangle;
+    const ColoredTriangles triangles;
     const ivec2 size(80, 40);
-    const ProjectedTriangle projected = triangle.projected(size);
     ThreadPool pool(1);
     WorkerCounters<Counters> none(1);
-    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{}, false, triangle.assets.scene,
+    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{}, false, triangles.assets.scene,
                                   ShadowBounds(), {}, none, {});
+    const std::array projected = {triangles.projected(size, 0), triangles.projected(size, 1),
+                                  triangles.projected(size, 2)};
     for_each_width([&]<int N>() {
         Dice dice(N);
         for (int k = 0; k < 300; ++k) {
-            std::vector<PixelRun> runs;
+            std::array<std::vector<PixelRun>, ColoredTriangles::count> runs;
+            const std::uint32_t triangle_count = k % 2 ? 1 : ColoredTriangles::count;
             std::uint64_t pixels = 0;
             const std::uint32_t longest = k % 3 ? 5 : 70;
             for (int y = 0; y < size.y; ++y)
                 for (int x = static_cast<int>(dice.below(k % 5 ? 90 : 20)); x < size.x;) {
                     const int length =
                         std::min(size.x - x, 1 + static_cast<int>(dice.below(longest)));
-                    runs.push_back({{x, y}, length});
+                    runs.at(dice.below(triangle_count)).push_back({{x, y}, length});
                     pixels += static_cast<std::uint64_t>(length);
                     x += length + 1 + static_cast<int>(dice.below(80));
                 }
-            if (k == 0) runs.clear(), pixels = 0;
+            if (k == 0) runs = {}, pixels = 0;
             Image<vec3> expected(size, vec3(-1)), actual = expected;
             DepthBuffer depth(size);
             const Frame<ShadowMapsOnDemand> before{
-                triangle.assets, {}, Filter::nearest, vec3(0), maps, expected, depth};
+                triangles.assets, {}, Filter::nearest, vec3(0), maps, expected, depth};
             const Frame<ShadowMapsOnDemand> frame{
-                triangle.assets, {}, Filter::nearest, vec3(0), maps, actual, depth};
+                triangles.assets, {}, Filter::nearest, vec3(0), maps, actual, depth};
             std::vector<std::uint64_t> one_by_one, batches;
             BatchCounters counters{&one_by_one}, wide{&batches};
-            shade_pixels<Permutation{}>(before, projected, runs, counters);
-            shade_pixels<Permutation{}, Floats<N>>(frame, projected, runs, wide);
+            std::vector<VisibleTriangle> visible;
+            for (std::size_t t = 0; t < runs.size(); ++t) {
+                visible.push_back({&projected.at(t), runs.at(t)});
+                shade_pixels<Permutation{}>(before, projected.at(t), runs.at(t), counters);
+            }
+            shade_pixels<Permutation{}, Floats<N>>(frame, visible, wide);
             const std::string where = std::to_string(pixels) + " pixels in " +
-                                      std::to_string(runs.size()) + " runs, " + std::to_string(N) +
-                                      " lanes (" + std::to_string(k) + ")";
+                                      std::to_string(triangle_count) + " triangles, " +
+                                      std::to_string(N) + " lanes (" + std::to_string(k) + ")";
             ASSERT_TRUE(have_the_same_bits(actual, expected))
                 << "beside lesson 12's shade_pixels(); " << where;
             std::uint64_t counted = 0;
@@ -951,7 +967,7 @@ TEST(Simd, Eq13_4_HardCase_BarycentricsAreFoundAgainInEachLane) {
             fill_triangle(triangle, first, first + ivec2(16, 6),
                           [&](ivec2 pixel, Barycentrics at) { expected.push_back({pixel, at}); });
             if (expected.empty()) continue;
-            const WidePlanes<N> planes(triangle);
+            const WideBarycentricPlanes<N> planes(triangle);
             for (int batch = 0; batch < 5; ++batch) {
                 std::array<Filled, std::size_t(N)> some;
                 Ints<N> x(0), y(0);
