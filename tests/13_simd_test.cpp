@@ -824,7 +824,7 @@ TEST(Simd, Eq13_2_HardCase_BehindARowNothingOfTheNextIsTouched) {
         TileDepths depths(tile);
         float* const first = depths.from({5, 3});
         float* const second = depths.from({5, 4});
-        ASSERT_GE(second - first, width + TileDepths::beyond)
+        ASSERT_GE(second - first, width + TileDepths::padding)
             << "floats from a row's first pixel to the next row's, in a tile of " << width
             << " columns";
         depths.test_and_write<Floats<16>>({4 + width, 3}, first_lanes<Floats<16>>(1),

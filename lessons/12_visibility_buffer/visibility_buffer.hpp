@@ -69,9 +69,9 @@ class BarycentricPlanes {
 class TileVisibility {
   public:
     /// @param max_ids  So many triangles can be told apart: 1 to no_triangle.
-    /// @param beyond   So many ids behind each row may be written, and are not read.
-    explicit TileVisibility(std::size_t max_ids, int beyond = 0)
-        : max_ids_(max_ids), beyond_(beyond) {
+    /// @param padding  So many ids behind each row may be written, and are not read.
+    explicit TileVisibility(std::size_t max_ids, int padding = 0)
+        : max_ids_(max_ids), padding_(padding) {
         assert(max_ids >= 1 && max_ids <= no_triangle);
     }
 
@@ -128,7 +128,7 @@ class TileVisibility {
     void clear() {
         triangles_.clear();
         ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) +
-                        static_cast<std::size_t>(width_ + beyond_),
+                        static_cast<std::size_t>(width_ + padding_),
                     no_triangle);
     }
 
@@ -136,7 +136,7 @@ class TileVisibility {
     std::size_t index(ivec2 pixel) const {
         const ivec2 from_first = pixel - tile_.box.first;
         const int row = tile_.row_step == 1 ? from_first.y : from_first.y / tile_.row_step;
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + beyond_) +
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + padding_) +
                static_cast<std::size_t>(from_first.x);
     }
 
@@ -154,7 +154,7 @@ class TileVisibility {
     }
 
     std::size_t max_ids_;
-    int beyond_;
+    int padding_;
     Tile tile_{};
     int width_ = 0;
     std::vector<TriangleId> ids_;

@@ -40,7 +40,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
     std::vector<TileVisibility> visible_of(
-        pool.size(), TileVisibility(options.visibility.most_ids(), TileDepths::beyond));
+        pool.size(), TileVisibility(options.visibility.most_ids(), TileDepths::padding));
     HeatMap heat(options.visibility.show, options.size);
 
     clock.begin("triangles");

@@ -130,7 +130,7 @@ F depth_at(const TriangleDepth& depth, const Vec3<F>& barycentrics) {
 /// last ones may lie beyond the tile.
 class TileDepths {
   public:
-    static constexpr int beyond = 16;  ///< As many as the widest F has.
+    static constexpr int padding = 16;  ///< As many as the widest F has.
 
     /// Cleared.
     explicit TileDepths(const Tile& tile)
@@ -138,14 +138,14 @@ class TileDepths {
           row_step_(tile.row_step),
           width_(tile.box.last.x - tile.box.first.x + 1),
           depths_(static_cast<std::size_t>((tile.box.last.y - first_.y) / row_step_ + 1) *
-                      static_cast<std::size_t>(width_ + beyond),
+                      static_cast<std::size_t>(width_ + padding),
                   DepthBuffer::cleared) {}
 
     /// Those from a pixel to the end of its row.
     float* from(ivec2 pixel) {
         const int from_first = pixel.y - first_.y;
         const int row = row_step_ == 1 ? from_first : from_first / row_step_;
-        return &depths_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + beyond) +
+        return &depths_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + padding) +
                         static_cast<std::size_t>(pixel.x - first_.x)];
     }
 

@@ -4,6 +4,7 @@
 /// derivation: docs/derivations/13_simd.md.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "common/math/functions.hpp"
 
@@ -29,6 +31,17 @@ struct VectorOf {
 };
 template <typename T, int N>
 using Vector = typename VectorOf<T, N>::Type;
+
+/// Of two vectors, one behind the other, the elements at n places: a shuffle. What it takes is one
+/// instruction, or two, up to the width of a register.
+///
+/// @param Place  A function without captures: from an element's index, 0 to n - 1, to its place.
+template <int n, typename V, typename Place>
+inline auto shuffled(V a, V b, Place) {
+    return [&]<int... i>(std::integer_sequence<int, i...>) {
+        return __builtin_shufflevector(a, b, Place()(i)...);
+    }(std::make_integer_sequence<int, n>());
+}
 
 /// One register of this processor holds so many floats: the most arithmetic a step can do
 /// (Eq. 13.6).
@@ -147,6 +160,13 @@ struct Floats {
     friend Mask<N> operator>=(Floats a, Floats b) { return Mask<N>(); }
     friend Mask<N> operator==(Floats a, Floats b) { return Mask<N>(); }
 };
+}
+friend Mask<N> operator>(Floats a, Floats b) { return {a.lanes > b.lanes}; }
+friend Mask<N> operator<=(Floats a, Floats b) { return {a.lanes <= b.lanes}; }
+friend Mask<N> operator>=(Floats a, Floats b) { return {a.lanes >= b.lanes}; }
+friend Mask<N> operator==(Floats a, Floats b) { return {a.lanes == b.lanes}; }
+}
+;
 
 /// `yes` in the lanes where the mask holds, else `no` (Eq. 13.1).
 template <int N>
@@ -154,6 +174,20 @@ inline Floats<N> select(Mask<N> mask, Floats<N> yes, Floats<N> no) {
     // TODO: step 1: Eq. 13.1, on the numbers' bits: std::bit_cast makes whole numbers of them, and
     // floats again. Where N numbers fit into a register, `?:` of vectors is one instruction for it.
     return no;
+}
+
+/// Some lanes get a number that they have in common; the others keep theirs.
+template <int N>
+inline void blend(Mask<N> lanes, Floats<N>& to, float from) {
+    to = select(lanes, Floats<N>(from), to);
+}
+template <int n, int N>
+inline void blend(Mask<N> lanes, glm::vec<n, Floats<N>>& to, const glm::vec<n, float>& from) {
+    for (int i = 0; i < n; ++i) blend(lanes, to[i], from[i]);
+}
+template <typename To, typename From, int N>
+inline void blend(Mask<N> lanes, std::array<To, 3>& to, const std::array<From, 3>& from) {
+    for (std::size_t i = 0; i < 3; ++i) blend(lanes, to[i], from[i]);
 }
 
 template <int N>
@@ -222,6 +256,25 @@ inline F load(const float* from) {
 template <typename F>
 inline void store(float* to, F x) {
     std::memcpy(to, &x, sizeof x);
+}
+
+/// Writes x, y and z of N points as they lie in an array of vec3: one point behind the other.
+template <int N>
+inline void store(vec3* to, const Vec3<Floats<N>>& points) {
+    const auto write = [&]<int part>(std::integral_constant<int, part>) {  // N of the 3 N floats
+        const auto xy = shuffled<N>(points.x.lanes, points.y.lanes, [](int i) constexpr {
+            const int place = part * N + i;
+            return place / 3 + (place % 3 == 1 ? N : 0);
+        });
+        const auto xyz = shuffled<N>(xy, points.z.lanes, [](int i) constexpr {
+            const int place = part * N + i;
+            return place % 3 == 2 ? N + place / 3 : i;
+        });
+        std::memcpy(reinterpret_cast<float*>(to) + part * N, &xyz, sizeof xyz);
+    };
+    write(std::integral_constant<int, 0>());
+    write(std::integral_constant<int, 1>());
+    write(std::integral_constant<int, 2>());
 }
 
 /// Writes a number where the mask holds.

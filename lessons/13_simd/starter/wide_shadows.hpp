@@ -4,6 +4,7 @@
 /// lesson 13; derivation: docs/derivations/13_simd.md.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -18,30 +19,66 @@
 
 namespace rasterbook {
 
-/// As PcfKernel, of several points on one side of a triangle.
+/// As Receiver, of several points.
+template <int N>
+struct WideReceiver {
+    glm::vec<2, Floats<N>> slope{Floats<N>(0.0f)};
+    Floats<N> bias{0.0f}, bias_per_w{0.0f};
+    Vec3<Floats<N>> offset{Floats<N>(0.0f)}, offset_times_w{Floats<N>(0.0f)};
+
+    void set(Mask<N> lanes, const Receiver& receiver) {
+        blend(lanes, slope, receiver.slope);
+        blend(lanes, bias, receiver.bias);
+        blend(lanes, bias_per_w, receiver.bias_per_w);
+        blend(lanes, offset, receiver.offset);
+        blend(lanes, offset_times_w, receiver.offset_times_w);
+    }
+};
+
+/// The triangles that several points are on.
+template <int N>
+struct LaneReceivers {
+    std::array<TriangleReceiver*, N + 1> of_slot{};
+    Ints<N> slot_of_lane{};
+
+    void set(Mask<N> lanes, TriangleReceiver& triangle, int slot) {
+        of_slot[static_cast<std::size_t>(slot)] = &triangle;
+        slot_of_lane = select(lanes, Ints<N>(slot), slot_of_lane);
+    }
+};
+
+/// As PcfKernel, of several points.
 template <int N>
 struct WidePcfKernel {
     Mask<N> is_in_map;
     Ints<N> column, row;  ///< Of the texel in the middle; 0 where it is not in the map.
     Floats<N> depth;
-    vec2 slope;
+    glm::vec<2, Floats<N>> slope;
 };
 
 /// As pcf_kernel() (Eq. 9.6).
 ///
 /// @param asked  Which points are asked for; the others are not in the map.
 template <int N>
-WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
+WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideReceiver<N>& receiver,
                             const Vec3<Floats<N>>& position_world, Mask<N> asked) {
     // TODO: step 3: lesson 09's steps for all points at once, each row of the matrix added up as
     // GLM does it: (x + y) + (z + w). What is not in the map says so in the mask.
     // Until then, one point after the other:
     WidePcfKernel<N> kernel{first_lanes<Floats<N>>(0), Ints<N>(0), Ints<N>(0), Floats<N>(0.0f),
                             receiver.slope};
+    const auto of_lane = [](const Vec3<Floats<N>>& v, int i) {
+        return vec3(v.x[i], v.y[i], v.z[i]);
+    };
     for (int i = 0; i < N; ++i) {
         if (!asked[i]) continue;
-        const PcfKernel of_point = pcf_kernel(
-            map, receiver, vec3(position_world.x[i], position_world.y[i], position_world.z[i]));
+        const PcfKernel of_point = pcf_kernel(map,
+                                              Receiver{{receiver.slope.x[i], receiver.slope.y[i]},
+                                                       receiver.bias[i],
+                                                       receiver.bias_per_w[i],
+                                                       of_lane(receiver.offset, i),
+                                                       of_lane(receiver.offset_times_w, i)},
+                                              of_lane(position_world, i));
         kernel.is_in_map.lanes[i] = of_point.is_in_map ? -1 : 0;
         kernel.column.set(i, of_point.middle.x), kernel.row.set(i, of_point.middle.y);
         kernel.depth.set(i, of_point.depth);
@@ -51,7 +88,6 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const Receiver& receiver,
 
 /// How many taps of each point's kernel say lit. Here it is the taps of a row that are compared at
 /// once, since they are neighbours in memory, and those of N points are not.
-///
 template <int radius, int N>
 Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     // TODO: step 3: point by point, but all taps of a row at once: a vector of 4 or 8 floats holds
@@ -62,7 +98,7 @@ Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     for (int i = 0; i < N; ++i) {
         if (!kernel.is_in_map[i]) continue;
         const PcfKernel of_point{true, ivec2(kernel.column[i], kernel.row[i]), kernel.depth[i],
-                                 kernel.slope};
+                                 vec2(kernel.slope.x[i], kernel.slope.y[i])};
         constexpr int side = 2 * radius + 1;
         lit.set(i, std::round(pcf_visibility<radius>(map, of_point) * (side * side)));
     }
@@ -108,19 +144,30 @@ void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, in
 /// What a triangle's pixels count, so many at a time.
 template <typename CounterPolicy>
 struct LaneCounters {
-    CounterPolicy& counters;
+    CounterPolicy& total;
     int lanes;  ///< So many are pixels; the others repeat the last one.
 
     void add(Counter counter, std::uint64_t times = 1) {
-        counters.add(counter, times * static_cast<std::uint64_t>(lanes));
+        total.add(counter, times * static_cast<std::uint64_t>(lanes));
     }
 };
 
-/// As light_visibility() of lesson 12. All points that are in one map and on one side of the
-/// triangle are asked for together; mostly that is all of them.
+/// In which lanes normals point to the back of a triangle.
+template <int N>
+Mask<N> is_behind(dvec3 front, const Vec3<Floats<N>>& normal) {
+    using Doubles = Vector<double, N>;
+    const auto product = [&](int i) {
+        return front[i] * __builtin_convertvector(normal[i].lanes, Doubles);
+    };
+    return {
+        __builtin_convertvector(product(0) + product(1) + product(2) < 0, Vector<std::int32_t, N>)};
+}
+
+/// As light_visibility() of lesson 12. All points that are in one map are asked for together;
+/// mostly that is all of them.
 template <int N, typename CounterPolicy>
 Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
-                           TriangleReceiver& triangle, const Vec3<Floats<N>>& position,
+                           const LaneReceivers<N>& triangles, const Vec3<Floats<N>>& position,
                            const Vec3<Floats<N>>& normal, LaneCounters<CounterPolicy>& counters) {
     using F = Floats<N>;
     const ShadowMaps& shadow_maps = on_demand.maps();
@@ -136,37 +183,42 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
         select(faces_light, of_light.is_drawn ? min(cosine / F(full_cosine), F(1.0f)) : F(1.0f),
                F(of_light.is_drawn ? 0.0f : 1.0f));
 
-    Ints<N> map_of_lane, side_of_lane;
-    for (int i = 0; i < N; ++i) {
-        const std::size_t view =
-            of_light.has_faces ? cube_face(vec3(from_light.x[i], from_light.y[i], from_light.z[i]))
-                               : 0;
-        map_of_lane.set(i, static_cast<int>(of_light.map_of_view[view]));
-        side_of_lane.set(
-            i, glm::dot(triangle.front, dvec3(normal.x[i], normal.y[i], normal.z[i])) < 0);
-    }
+    Ints<N> map_of_lane(static_cast<int>(of_light.map_of_view[0]));
+    for (int i = 0; of_light.has_faces && i < N; ++i)
+        map_of_lane.set(i, static_cast<int>(of_light.map_of_view[cube_face(
+                               vec3(from_light.x[i], from_light.y[i], from_light.z[i]))]));
     Mask<N> left =
         faces_light & !(map_of_lane == Ints<N>(static_cast<int>(LightShadowMaps::no_map)));
-    counters.counters.add(
-        Counter::shadow_tests,
-        static_cast<std::uint64_t>(count_of(left & first_lanes<F>(counters.lanes))));
+    counters.total.add(Counter::shadow_tests,
+                       static_cast<std::uint64_t>(count_of(left & first_lanes<F>(counters.lanes))));
     while (any_of(left)) {
-        const int first = first_of(left), side = side_of_lane[first];
-        const auto i = static_cast<std::size_t>(map_of_lane[first]);
-        const Mask<N> together =
-            left & (map_of_lane == Ints<N>(map_of_lane[first])) & (side_of_lane == Ints<N>(side));
+        const int map_number = map_of_lane[first_of(left)];
+        const auto i = static_cast<std::size_t>(map_number);
+        const Mask<N> together = left & (map_of_lane == Ints<N>(map_number));
+        left = left & !together;
         const ShadowMap& map = of_light.maps[i];
-        std::optional<Receiver>& bias =
-            triangle.biases[of_light.first_map + i][static_cast<std::size_t>(side)];
-        if (!bias)
-            bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
-                            side == 1 ? -triangle.front : triangle.front);
-        const WidePcfKernel<N> kernel = pcf_kernel(map, *bias, position, together);
+        WideReceiver<N> receivers;
+        for (Mask<N> rest = together; any_of(rest);) {
+            const int slot = triangles.slot_of_lane[first_of(rest)];
+            const Mask<N> own = rest & (triangles.slot_of_lane == Ints<N>(slot));
+            rest = rest & !own;
+            TriangleReceiver& triangle = *triangles.of_slot[static_cast<std::size_t>(slot)];
+            const Mask<N> behind = is_behind(triangle.front, normal);
+            for (const bool is_back : {false, true}) {
+                const Mask<N> on_side = own & (is_back ? behind : !behind);
+                if (!any_of(on_side)) continue;
+                std::optional<Receiver>& bias = triangle.biases[of_light.first_map + i][is_back];
+                if (!bias)
+                    bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
+                                    is_back ? -triangle.front : triangle.front);
+                receivers.set(on_side, *bias);
+            }
+        }
+        const WidePcfKernel<N> kernel = pcf_kernel(map, receivers, position, together);
         draw_around(on_demand.parts()[of_light.first_map + i], kernel, shadow_maps.radius,
-                    counters.counters);
+                    counters.total);
         visibility = select(together, visibility * pcf_visibility(map, shadow_maps.radius, kernel),
                             visibility);
-        left = left & !together;
     }
     return visibility;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "05_textures/texture.hpp"
 #include "13_simd/simd.hpp"
@@ -35,15 +36,63 @@ Floats<N> wrapped(Floats<N> coordinate, Wrap wrap) {
     return max(select(back < there_and_back, back, there_and_back), zero);
 }
 
-/// As sample_bilinear() (Eq. 5.6). The four channels of a texel are neighbours in memory: it is
-/// they that are computed at once here, and the N pixels one after the other.
+/// A texel's four channels are neighbours in memory, those of N pixels are not. So a vector of N
+/// floats holds N / 4 texels: of pixels k, k + 4, k + 8 ...
+///
+/// @param texels  The first one's address.
+/// @param at      Of each pixel's texel: its place behind the first one.
+template <int k, int N>
+Vector<float, N> read_texels(const float* texels, const Ints<N>& at) {
+    const auto read = [&](int pixel) {
+        Vector<float, 4> texel;
+        std::memcpy(&texel, texels + std::ptrdiff_t{at[pixel]} * 4, sizeof texel);
+        return texel;
+    };
+    const auto joined = [](auto a, auto b) {
+        return shuffled<2 * sizeof a / sizeof(float)>(a, b, [](int i) constexpr { return i; });
+    };
+    if constexpr (N == 4)
+        return read(k);
+    else if constexpr (N == 8)
+        return joined(read(k), read(k + 4));
+    else
+        return joined(joined(read(k), read(k + 4)), joined(read(k + 8), read(k + 12)));
+}
+
+/// From vectors of the texels of pixels 0, 4, 8 ..., of pixels 1, 5, 9 ..., and so on to vectors of
+/// the four channels: in each group of four numbers, columns become rows.
+template <int N>
+glm::vec<4, Floats<N>> channels_of(const std::array<Vector<float, N>, 4>& texels) {
+    const auto [a, b, c, d] = texels;
+    const auto first_two = [](int i) constexpr {  // a0 b0 a1 b1
+        return i / 4 * 4 + i % 4 / 2 + i % 2 * N;
+    };
+    const auto last_two = [](int i) constexpr {  // a2 b2 a3 b3
+        return i / 4 * 4 + 2 + i % 4 / 2 + i % 2 * N;
+    };
+    const auto first_halves = [](int i) constexpr {  // a0 b0, c0 d0
+        return i / 4 * 4 + i % 2 + i % 4 / 2 * N;
+    };
+    const auto last_halves = [](int i) constexpr {  // a1 b1, c1 d1
+        return i / 4 * 4 + 2 + i % 2 + i % 4 / 2 * N;
+    };
+    const auto ab01 = shuffled<N>(a, b, first_two), ab23 = shuffled<N>(a, b, last_two);
+    const auto cd01 = shuffled<N>(c, d, first_two), cd23 = shuffled<N>(c, d, last_two);
+    return {Floats<N>(shuffled<N>(ab01, cd01, first_halves)),
+            Floats<N>(shuffled<N>(ab01, cd01, last_halves)),
+            Floats<N>(shuffled<N>(ab23, cd23, first_halves)),
+            Floats<N>(shuffled<N>(ab23, cd23, last_halves))};
+}
+
+/// As sample_bilinear() (Eq. 5.6).
 ///
 /// @param x,y  Positions in the texture, 0 to 1.
 template <int N>
 glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
-    // TODO: step 3: as in lesson 05, the positions of all N pixels at once. Then one pixel after
-    // the other, by vectors of 4: std::memcpy reads a texel, and a lane's share, a float, times
-    // such a vector is one. Finally, of each channel the N pixels: the same numbers transposed.
+    // TODO: step 3: as in lesson 05, the positions of all N pixels at once. Then, for k = 0 to 3,
+    // the mean of the four texels of pixels k, k + 4 ... in one vector: read_texels<k>() reads
+    // them, and shuffled() gives each texel its pixel's shares, four times. channels_of() makes
+    // channels of the four means.
     return glm::vec<4, Floats<N>>(Floats<N>(1.0f));
 }
 

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Pixels that are shaded together, one in each lane. Introduced in lesson 13;
+/// derivation: docs/derivations/13_simd.md.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+
+#include "02_triangle_fill/triangle.hpp"
+#include "05_textures/interpolation.hpp"
+#include "11_scenes/shaders.hpp"
+#include "12_visibility_buffer/shadow_parts.hpp"
+#include "12_visibility_buffer/visibility_buffer.hpp"
+#include "13_simd/simd.hpp"
+#include "13_simd/wide_shadows.hpp"
+#include "13_simd/wide_textures.hpp"
+#include "common/app/counters.hpp"
+
+namespace rasterbook {
+
+/// As BarycentricPlanes of lesson 12: the same bits at several pixels, wherever they are.
+template <int N>
+class WideBarycentricPlanes {
+  public:
+    /// @param triangle  As fill_triangle<F>() has it: then the doubles are whole numbers, and
+    /// exact.
+    explicit WideBarycentricPlanes(const ScreenTriangle& triangle)
+        : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
+        const int winding = triangle.twice_area > 0 ? 1 : -1;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const EdgeWalk edge(triangle.vertices[(i + 1) % 3], triangle.vertices[(i + 2) % 3],
+                                winding, ivec2(0));
+            at_origin_[i] = static_cast<double>(edge.value);
+            step_x_[i] = static_cast<double>(edge.step_x);
+            step_y_[i] = static_cast<double>(edge.step_y);
+        }
+    }
+
+    Vec3<Floats<N>> at(Ints<N> x, Ints<N> y) const {
+        const auto columns = __builtin_convertvector(x.lanes, Vector<double, N>);
+        const auto rows = __builtin_convertvector(y.lanes, Vector<double, N>);
+        const auto share = [&](std::size_t i) {
+            return Floats<N>(__builtin_convertvector(
+                at_origin_[i] + columns * step_x_[i] + rows * step_y_[i], Vector<float, N>));
+        };
+        return Vec3<Floats<N>>(share(0), share(1), share(2)) * Floats<N>(per_area_);
+    }
+
+  private:
+    std::array<double, 3> at_origin_, step_x_, step_y_;
+    float per_area_;
+};
+
+/// As TriangleInputs, but each lane has those of its own triangle. All triangles are of one mesh
+/// and one material.
+template <Permutation with, int N>
+struct LaneInputs {
+    using F = Floats<N>;
+    SurfaceInputs<F> surface;
+    ColorInputs<F> colors;
+    NormalMapInputs<F> normal_map;
+    LaneReceivers<N> receiver;
+
+    /// @param triangle  Any of them: what they have in common is taken from it.
+    explicit LaneInputs(const TriangleInputs& triangle)
+        : surface{.material = triangle.surface.material,
+                  .effects = triangle.surface.effects,
+                  .texture = triangle.surface.texture,
+                  .specular_texture = triangle.surface.specular_texture,
+                  .own_color = triangle.surface.own_color,
+                  .positions_world = {},
+                  .normals_world = {}},
+          colors{triangle.colors.are_there},
+          normal_map{.texture = triangle.normal_map.texture,
+                     .space = triangle.normal_map.space,
+                     .bump_multiplier = triangle.normal_map.bump_multiplier} {}
+
+    /// Gives a triangle's own inputs to some lanes: as many as shading reads.
+    ///
+    /// @param slot  0 to N: the triangle's number among those that lanes have.
+    void set(Mask<N> lanes, TriangleInputs& triangle, FrameOf frame, int slot) {
+        const TriangleSurface& own = triangle.surface;
+        if (own.effects[Effect::texture]) blend(lanes, surface.uvs, own.uvs);
+        if (own.effects[Effect::specular_map]) blend(lanes, surface.specular_uvs, own.specular_uvs);
+        if (colors.are_there) blend(lanes, colors.of_vertices, triangle.colors.of_vertices);
+        if constexpr (with.model != ShadingModel::unlit) {
+            blend(lanes, surface.positions_world, own.positions_world);
+            blend(lanes, surface.normals_world, own.normals_world);
+        }
+        if constexpr (with.normal_map) {
+            const TriangleNormalMap& map = triangle.normal_map;
+            blend(lanes, normal_map.side, map.side);
+            blend(lanes, normal_map.uvs, map.uvs);
+            blend(lanes, normal_map.tangents, map.tangents);
+            blend(lanes, normal_map.handedness, map.handedness);
+            if (frame == FrameOf::face) {
+                blend(lanes, normal_map.face.tangent, map.face.tangent);
+                blend(lanes, normal_map.face.bitangent, map.face.bitangent);
+                blend(lanes, normal_map.face.normal, map.face.normal);
+            }
+        }
+        if constexpr (with.shadow) receiver.set(lanes, triangle.receiver, slot);
+    }
+};
+
+/// Pixels that are shaded together, one in each lane: of one triangle, or of several that are of
+/// one mesh and one material (Eq. 13.4).
+template <Permutation with, typename F, typename CounterPolicy>
+class PixelBatch {
+  public:
+    PixelBatch(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& first,
+               CounterPolicy& counters)
+        : frame_(frame), counters_(counters), inputs_((begin(first), current().inputs)) {}
+
+    /// The pixels that are added from now on are this triangle's.
+    void begin(const ProjectedTriangle& triangle) {
+        end_triangle();
+        slot_ = (slot_ + 1) % triangles_.size();
+        triangles_[slot_].emplace(frame_, triangle);
+        is_in_all_lanes_ = false;
+    }
+
+    /// Adds pixels; whenever the batch is full, it is shaded, and another begins.
+    void add(const PixelRun& run) {
+        // TODO: step 1: write() puts the columns and rows of N pixels behind those that are there.
+        // Of the run's pixels, as many count as the batch has room for. Once it is full: N
+        // neighbours get their colours from store(), any others from shade_and_scatter(). Both
+        // empty the batch; the rest of the run goes into the next one.
+    }
+
+    /// Shades what is left. The lanes that are left over repeat the last pixel.
+    void finish() {
+        // TODO: step 1: write() the last pixel to the lanes that are left over, unless the batch is
+        // empty, and shade what is there.
+    }
+
+  private:
+    std::array<double, 3> at_origin_, step_x_, step_y_;
+    float per_area_;
+};
+
+/// As TriangleInputs, but each lane has those of its own triangle. All triangles are of one mesh
+/// and one material.
+template <Permutation with, int N>
+struct LaneInputs {
+    using F = Floats<N>;
+    SurfaceInputs<F> surface;
+    ColorInputs<F> colors;
+    NormalMapInputs<F> normal_map;
+    LaneReceivers<N> receiver;
+
+    /// @param triangle  Any of them: what they have in common is taken from it.
+    explicit LaneInputs(const TriangleInputs& triangle)
+        : surface{.material = triangle.surface.material,
+                  .effects = triangle.surface.effects,
+                  .texture = triangle.surface.texture,
+                  .specular_texture = triangle.surface.specular_texture,
+                  .own_color = triangle.surface.own_color,
+                  .positions_world = {},
+                  .normals_world = {}},
+          colors{triangle.colors.are_there},
+          normal_map{.texture = triangle.normal_map.texture,
+                     .space = triangle.normal_map.space,
+                     .bump_multiplier = triangle.normal_map.bump_multiplier} {}
+
+    /// Gives a triangle's own inputs to some lanes: as many as shading reads.
+    ///
+    /// @param slot  0 to N: the triangle's number among those that lanes have.
+    void set(Mask<N> lanes, TriangleInputs& triangle, FrameOf frame, int slot) {
+        const TriangleSurface& own = triangle.surface;
+        if (own.effects[Effect::texture]) blend(lanes, surface.uvs, own.uvs);
+        if (own.effects[Effect::specular_map]) blend(lanes, surface.specular_uvs, own.specular_uvs);
+        if (colors.are_there) blend(lanes, colors.of_vertices, triangle.colors.of_vertices);
+        if constexpr (with.model != ShadingModel::unlit) {
+            blend(lanes, surface.positions_world, own.positions_world);
+            blend(lanes, surface.normals_world, own.normals_world);
+        }
+        if constexpr (with.normal_map) {
+            const TriangleNormalMap& map = triangle.normal_map;
+            blend(lanes, normal_map.side, map.side);
+            blend(lanes, normal_map.uvs, map.uvs);
+            blend(lanes, normal_map.tangents, map.tangents);
+            blend(lanes, normal_map.handedness, map.handedness);
+            if (frame == FrameOf::face) {
+                blend(lanes, normal_map.face.tangent, map.face.tangent);
+                blend(lanes, normal_map.face.bitangent, map.face.bitangent);
+                blend(lanes, normal_map.face.normal, map.face.normal);
+            }
+        }
+        if constexpr (with.shadow) receiver.set(lanes, triangle.receiver, slot);
+    }
+};
+
+/// Pixels that are shaded together, one in each lane: of one triangle, or of several that are of
+/// one mesh and one material (Eq. 13.4).
+template <Permutation with, typename F, typename CounterPolicy>
+class PixelBatch {
+  public:
+    PixelBatch(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& first,
+               CounterPolicy& counters)
+        : frame_(frame), counters_(counters), inputs_((begin(first), current().inputs)) {}
+
+    /// The pixels that are added from now on are this triangle's.
+    void begin(const ProjectedTriangle& triangle) {
+        end_triangle();
+        slot_ = (slot_ + 1) % triangles_.size();
+        triangles_[slot_].emplace(frame_, triangle);
+        is_in_all_lanes_ = false;
+    }
+
+    /// Adds pixels; whenever the batch is full, it is shaded, and another begins.
+    void add(const PixelRun& run) {
+        // TODO: step 1: write() puts the columns and rows of N pixels behind those that are there.
+        // Of the run's pixels, as many count as the batch has room for. Once it is full: N
+        // neighbours get their colours from store(), any others from shade_and_scatter(). Both
+        // empty the batch; the rest of the run goes into the next one.
+    }
+
+    /// Shades what is left. The lanes that are left over repeat the last pixel.
+    void finish() {
+        if (count_ == 0) return;
+        write(x_, Ints<N>(x_[static_cast<std::size_t>(count_ - 1)]));
+        write(y_, Ints<N>(y_[static_cast<std::size_t>(count_ - 1)]));
+        shade_and_scatter();
+    }
+
+  private:
+    static constexpr int N = width_of<F>;
+    using Numbers = std::array<std::int32_t, 2 * std::size_t{N}>;  ///< Room for whole vectors.
+
+    struct OfTriangle {
+        TriangleInputs inputs;
+        WideBarycentricPlanes<N> planes;
+
+        OfTriangle(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& triangle)
+            : inputs(triangle_inputs<with>(frame, triangle)), planes(triangle.on_screen) {}
+    };
+    OfTriangle& current() { return *triangles_[slot_]; }
+
+    /// Behind the pixels that are there already.
+    void write(Numbers& numbers, const Ints<N>& more) {
+        std::memcpy(&numbers[static_cast<std::size_t>(count_)], &more, sizeof more);
+    }
+    static Ints<N> read(const Numbers& numbers) {
+        Ints<N> lanes;
+        std::memcpy(&lanes, numbers.data(), sizeof lanes);
+        return lanes;
+    }
+
+    /// Gives the triangle's pixels their coordinates in it and its inputs. So do the lanes behind
+    /// them get these; what comes next overwrites them.
+    void end_triangle() {
+        // TODO: step 1: unless the triangle has no pixel in the batch: its planes and
+        // perspective_correct() give coordinates in all lanes; select() puts them into at_ from
+        // lane first_ on. LaneInputs::set() does so with its inputs, which is not needed where all
+        // lanes have them from the batch before. Then the next triangle's pixels begin at count_.
+    }
+
+    Vec3<F> shade() {
+        end_triangle();
+        LaneCounters<CounterPolicy> lanes{counters_, count_};
+        lanes.add(Counter::fragments_shaded);
+        count_ = first_ = 0;
+        return shaded<with>(frame_, inputs_, at_, lanes);
+    }
+
+    void shade_and_scatter() {
+        const auto count = static_cast<std::size_t>(count_);
+        std::array<vec3, N> colors;
+        store(colors.data(), shade());
+        for (std::size_t i = 0; i < count; ++i) frame_.color[{x_[i], y_[i]}] = colors[i];
+    }
+
+    const Frame<ShadowMapsOnDemand>& frame_;
+    CounterPolicy& counters_;
+    Numbers x_{}, y_{};          ///< Of the pixels.
+    int count_ = 0, first_ = 0;  ///< So many pixels; the first one of the current triangle.
+    /// The current triangle, and those that pixels of the batch are of.
+    std::array<std::optional<OfTriangle>, N + 1> triangles_;
+    std::size_t slot_ = 0;
+    bool is_in_all_lanes_ = false;  ///< The current triangle, in inputs_.
+    PerspectiveBarycentrics<F> at_{};
+    LaneInputs<with, N> inputs_;
+};
+
+}  // namespace rasterbook
