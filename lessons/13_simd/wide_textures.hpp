@@ -36,27 +36,35 @@ Floats<N> wrapped(Floats<N> coordinate, Wrap wrap) {
     return max(select(back < there_and_back, back, there_and_back), zero);
 }
 
-/// A texel's four channels are neighbours in memory, those of N pixels are not. So a vector of N
-/// floats holds N / 4 texels: of pixels k, k + 4, k + 8 ...
+/// Texels of N / 4 pixels, and those to their right.
+template <int N>
+struct TexelPairs {
+    Vector<float, N> left, right;
+};
+
+/// A texel's four channels are neighbours in memory, as are two texels of a row; those of N pixels
+/// are not. So a vector of N floats has the texels of N / 4 pixels: k, k + 4, k + 8 ...
 ///
 /// @param texels  The first one's address.
-/// @param at      Of each pixel's texel: its place behind the first one.
+/// @param at      Of each pixel's left texel: its place behind the first one.
 template <int k, int N>
-Vector<float, N> read_texels(const float* texels, const Ints<N>& at) {
-    const auto read = [&](int pixel) {
-        Vector<float, 4> texel;
-        std::memcpy(&texel, texels + std::ptrdiff_t{at[pixel]} * 4, sizeof texel);
-        return texel;
+TexelPairs<N> read_texels(const float* texels, const Ints<N>& at) {
+    const auto pair_of = [&](int pixel) {
+        Vector<float, 8> pair;
+        std::memcpy(&pair, texels + std::ptrdiff_t{at[pixel]} * 4, sizeof pair);
+        return pair;
     };
-    const auto joined = [](auto a, auto b) {
-        return shuffled<2 * sizeof a / sizeof(float)>(a, b, [](int i) constexpr { return i; });
-    };
-    if constexpr (N == 4)
-        return read(k);
-    else if constexpr (N == 8)
-        return joined(read(k), read(k + 4));
-    else
-        return joined(joined(read(k), read(k + 4)), joined(read(k + 8), read(k + 12)));
+    const auto left = [](int i) constexpr { return i / 4 * 8 + i % 4; };
+    const auto right = [](int i) constexpr { return i / 4 * 8 + i % 4 + 4; };
+    if constexpr (N == 16) {
+        const auto all = [](int i) constexpr { return i; };
+        const auto a = shuffled<N>(pair_of(k), pair_of(k + 4), all);
+        const auto b = shuffled<N>(pair_of(k + 8), pair_of(k + 12), all);
+        return {shuffled<N>(a, b, left), shuffled<N>(a, b, right)};
+    } else {
+        const auto a = pair_of(k), b = pair_of(N == 8 ? k + 4 : k);
+        return {shuffled<N>(a, b, left), shuffled<N>(a, b, right)};
+    }
 }
 
 /// From vectors of the texels of pixels 0, 4, 8 ..., of pixels 1, 5, 9 ..., and so on to vectors of
@@ -103,9 +111,9 @@ glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, F
         const auto own = [](int i) constexpr { return i / 4 * 4 + k; };
         const auto across = shuffled<N>(share_x.lanes, share_x.lanes, own);
         const auto down = shuffled<N>(share_y.lanes, share_y.lanes, own);
-        const auto upper_left = read_texels<k>(upper, at), lower_left = read_texels<k>(lower, at);
-        const auto in_upper = upper_left + across * (read_texels<k>(upper + 4, at) - upper_left);
-        const auto in_lower = lower_left + across * (read_texels<k>(lower + 4, at) - lower_left);
+        const TexelPairs<N> above = read_texels<k>(upper, at), below = read_texels<k>(lower, at);
+        const auto in_upper = above.left + across * (above.right - above.left);
+        const auto in_lower = below.left + across * (below.right - below.left);
         return in_upper + down * (in_lower - in_upper);
     };
     return channels_of<N>(
