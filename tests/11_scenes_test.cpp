@@ -324,8 +324,8 @@ TEST(Scenes, Eq11_5_OnlyTheRelativeBrightnessOfLightsCounts) {
 TEST(Scenes, Eq11_7_TheAlphaTestPassesAtTheCutoff) {
     EXPECT_TRUE(passes_alpha_test(0.5f, 0.5f));
     EXPECT_FALSE(passes_alpha_test(std::nextafter(0.5f, 0.0f), 0.5f));
-    EXPECT_TRUE(passes_alpha_test(0, 0));
-    EXPECT_FALSE(passes_alpha_test(1, 1.01f)) << "a cutoff above 1: all of it is a hole";
+    EXPECT_TRUE(passes_alpha_test(0.0f, 0.0f));
+    EXPECT_FALSE(passes_alpha_test(1.0f, 1.01f)) << "a cutoff above 1: all of it is a hole";
     EXPECT_FALSE(passes_alpha_test(nan_value, 0.5f));
 }
 

@@ -844,6 +844,36 @@ TEST(Simd, Eq13_2_HardCase_BehindARowNothingOfTheNextIsTouched) {
     }
 }
 
+TEST(Simd, HardCase_EmptyRunsAreThePixelsThatNothingCovers) {
+    look_up("Eq. 13.2");
+    Dice dice(7);
+    for (int k = 0; k < 400; ++k) {
+        const ivec2 first(dice.below(9), dice.below(9)),
+            size(1 + dice.below(40), 1 + dice.below(6));
+        Tile tile{{first, first + size - 1}};
+        if (k % 2) tile.row_step = 2;
+        TileDepths depths(tile);
+        Image<int> is_empty(first + size, 0), found(first + size, 0);
+        for (int y = first.y; y < first.y + size.y; y += tile.row_step)
+            for (int x = first.x; x < first.x + size.x; ++x) {
+                const bool is_covered = k % 5 && dice.one_in(k % 7 ? 2 : 12);
+                depths.test_and_write<float>({x, y}, is_covered, 0.5f);
+                is_empty[{x, y}] = !is_covered;
+            }
+        ivec2 last(-1);
+        depths.for_each_empty_run(tile, [&](const PixelRun& run) {
+            ASSERT_GT(run.length, 0);
+            ASSERT_TRUE(last.y < run.first.y || last.x < run.first.x)
+                << "a run touches the one before it, or comes before it";
+            last = run.first + ivec2(run.length, 0);
+            for (int x = 0; x < run.length; ++x) ++found[run.first + ivec2(x, 0)];
+        });
+        ASSERT_EQ(found, is_empty)
+            << "pixels of empty runs; tile of " << size.x << " x " << size.y << " from "
+            << testing::PrintToString(first) << " on, rows by " << tile.row_step;
+    }
+}
+
 TEST(Simd, Eq13_2_DepthsHaveLesson03sBits) {
     for_each_width([]<int N>() {
         Dice dice(N);
