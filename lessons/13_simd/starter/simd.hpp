@@ -160,13 +160,6 @@ struct Floats {
     friend Mask<N> operator>=(Floats a, Floats b) { return Mask<N>(); }
     friend Mask<N> operator==(Floats a, Floats b) { return Mask<N>(); }
 };
-}
-friend Mask<N> operator>(Floats a, Floats b) { return {a.lanes > b.lanes}; }
-friend Mask<N> operator<=(Floats a, Floats b) { return {a.lanes <= b.lanes}; }
-friend Mask<N> operator>=(Floats a, Floats b) { return {a.lanes >= b.lanes}; }
-friend Mask<N> operator==(Floats a, Floats b) { return {a.lanes == b.lanes}; }
-}
-;
 
 /// `yes` in the lanes where the mask holds, else `no` (Eq. 13.1).
 template <int N>
