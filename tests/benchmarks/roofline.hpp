@@ -11,7 +11,7 @@ namespace rasterbook {
 /// - texel fetches, by the texture's size, at random and in order,
 /// - arithmetic, by the number of lanes.
 ///
-/// @param repetitions  Of each, of which the median counts.
+/// @param repetitions  Of each, of which the fastest counts.
 void measure_limits(int repetitions);
 
 }  // namespace rasterbook

@@ -22,7 +22,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/accuracy"))
-from report import BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH, Axis, axes, draw, label, markdown, number, plot_curves
+from report import BOTTOM, HEIGHT, LEFT, TOP, WIDTH, Axis, axes, draw, label, markdown, number, plot_curves
 
 PAGE = ROOT / "docs/roofline.md"
 MEASURED = ROOT / "build/release/roofline.json"
@@ -40,8 +40,8 @@ STEPS = {
 }
 COLORS = {"triangles": "#7c8ca3", "depths and ids": "#d97706", "shading": "#0d9488", "shadow map parts": "#9333ea"}
 
-FLOATS = re.compile(r"v?(?:add|sub|mul|div|sqrt|min|max|u?comi|cmp\w*?|round|cvtt?\w*?)(ps|pd|ss|sd|si|dq|udq)?$")
-INTEGERS = re.compile(r"vp(?:add|sub|mull|muludq|cmpeq|cmpgt|mins|maxs|minu|maxu|abs)([bwdq])?$")
+FLOATS = re.compile(r"v?(?:add|addsub|sub|mul|div|sqrt|min|max|u?comi|cmp\w*|round|cvt\w*)(?:ps|pd|ss|sd|si|dq|qq)$")
+INTEGERS = re.compile(r"vp(?:add|sub|mull|muldq|muludq|cmpeq|cmpgt|mins|maxs|minu|maxu|abs)[bwdq]?$")
 
 
 def operations_of(mnemonic, operands):
@@ -52,7 +52,7 @@ def operations_of(mnemonic, operands):
     if not FLOATS.match(mnemonic):
         return 0
     if "cvt" in mnemonic:
-        if "s2s" in mnemonic or "si" in mnemonic:
+        if re.search("s[sdi]2|2si", mnemonic):
             return 1
         return registers // (8 if "pd" in mnemonic else 4)
     if mnemonic.endswith(("ss", "sd")):
@@ -61,7 +61,8 @@ def operations_of(mnemonic, operands):
 
 
 def instructions_of(program):
-    """Of each address: operations, and how much of an arithmetic instruction of 16 lanes it is."""
+    """Of each address: operations, and how many arithmetic instructions: with 16 lanes there are half as many of the
+    widest."""
     text = subprocess.run(["objdump", "-d", "-M", "intel", "--no-show-raw-insn", program], text=True, check=True,
                           capture_output=True).stdout
     found = {}
@@ -102,8 +103,8 @@ def cache(name):
     return f"{get('SIZE')},{get('ASSOC')},{LINE}"
 
 
-def count(scene, step, instructions):
-    """What a step of a frame executes, and moves."""
+def count(scene, step):
+    """Draws a frame under valgrind, which writes what a step of it executes and moves."""
     out = COUNTED.with_name(f"callgrind_{scene}_{step.replace(' ', '_')}")
     subprocess.run(
         ["valgrind", "--tool=callgrind", "--dump-instr=yes", "--cache-sim=yes", f"--D1={cache('LEVEL1_DCACHE')}",
@@ -112,13 +113,19 @@ def count(scene, step, instructions):
          COUNTED, "--model", scene, "--size", "1280x720", "--threads", "1", "--width", "8",
          "--out", COUNTED.with_name("roofline.bmp")],
         check=True, capture_output=True)
-    costs = costs_of(out)
-    total = dict.fromkeys(("instructions", "operations", "arithmetic", "beyond L1", "beyond L2"), 0)
+    return out
+
+
+def counted(scene, step, instructions):
+    """What a step of a frame executes, and moves."""
+    costs = costs_of(count(scene, step))
+    total = dict.fromkeys(("instructions", "arithmetic", "operations", "slots", "beyond L1", "beyond L2"), 0)
     for address, (executed, *_, read_1, write_1, _, read_2, write_2) in costs.items():
-        operations, arithmetic = instructions.get(address, (0, 0))
+        operations, slots = instructions.get(address, (0, 0))
         total["instructions"] += executed
         total["operations"] += executed * operations
-        total["arithmetic"] += executed * arithmetic
+        total["arithmetic"] += executed * (operations > 0)
+        total["slots"] += executed * slots
         total["beyond L1"] += LINE * (read_1 + write_1)
         total["beyond L2"] += LINE * (read_2 + write_2)
     return {"counted": scene, "step": step, **total}
@@ -145,7 +152,7 @@ def peaks(measured):
 def curves_block(curves, x_name, y_name, heads, name):
     """A plot, and the table of its numbers."""
     picture = PAGE.with_name(f"{PAGE.stem}-{name}.svg")
-    plot_curves(curves, x_name, y_name, picture)
+    plot_curves(curves, x_name, y_name, picture, may_reverse=False)
     xs = [x for x, _ in next(iter(curves.values()))]
     rows = [[f"{x:,g}", *(number(dict(curve)[x]) for curve in curves.values())] for x in xs]
     return "\n".join([f"![{y_name} over {x_name}: {'; '.join(curves)}]({picture.name})", "",
@@ -153,7 +160,8 @@ def curves_block(curves, x_name, y_name, heads, name):
 
 
 def block_memory(measured):
-    curves = {name: [(size / 1024, speed) for size, speed in speeds(measured, name).items()] for name in ("write", "read")}
+    curves = {name: [(size / 1024, speed) for size, speed in speeds(measured, name).items()]
+              for name in ("write", "read")}
     return curves_block(curves, "KiB", "bytes per ns", None, "memory")
 
 
@@ -169,13 +177,18 @@ def block_arithmetic(measured):
                     [[str(lanes), *(number(column[lanes]) for column in columns)] for lanes in columns[0]])
 
 
+def shadow_parts_ms(scene):
+    """What drawing a tile takes longer the first time: none where there are no shadows."""
+    return max(scene["shading"] - scene["shading again"], 0) if scene["shadow fragments"] else 0
+
+
 def steps_of(measured):
     """Each step of each scene: its time, and what was counted of it."""
     steps = []
     for scene in rows_of(measured, "frame"):
-        parts = scene["shading"] - scene["shading again"]
+        parts = shadow_parts_ms(scene)
         ms = {"triangles": scene["casters"] + scene["triangles"], "depths and ids": scene["ids"],
-              "shading": scene["shading again"], "shadow map parts": parts}
+              "shading": scene["shading"] - parts, "shadow map parts": parts}
         for row in rows_of(measured, "counted"):
             if row["counted"] == scene["scene"] and row["operations"] > 0:
                 steps.append({**row, "ms": ms[row["step"]]})
@@ -185,20 +198,18 @@ def steps_of(measured):
 def block_frames(measured):
     rows = []
     for scene in rows_of(measured, "frame"):
-        parts = max(scene["shading"] - scene["shading again"], 0)
-        if scene["shadow fragments"] == 0:
-            parts = 0
-        rows.append([f"`{scene['scene']}`", *(number(ms) for ms in (
-            scene["frame"], scene["casters"], scene["triangles"], scene["ids"], parts,
+        parts = shadow_parts_ms(scene)
+        rows.append([f"`{scene['scene']}`", *(f"{ms:.2f}" if ms < 1 else number(ms) for ms in (
+            scene["frame"], scene["casters"], scene["outlines"], scene["triangles"], scene["ids"], parts,
             scene["shading"] - parts, scene["rest"])), f"{scene['tested']:,.0f}", f"{scene['shaded']:,.0f}"])
-    return markdown(["scene", "frame, ms", "casters", "triangles", "depths and ids", "shadow map parts", "shading",
-                     "rest", "fragments tested", "pixels shaded"], rows)
+    return markdown(["scene", "frame, ms", "casters", "outlines", "triangles", "depths and ids", "shadow map parts",
+                     "shading", "rest", "fragments tested", "pixels shaded"], rows)
 
 
 def bounds_of(step, measured):
     """Milliseconds that a step takes at least (Eq. 13.6)."""
     roofs, peak = cache_roofs(measured), peaks(measured)[16]
-    return {"16 lanes": 1e-6 * step["operations"] / peak, "own widths": 1e-6 * step["arithmetic"] / (peak / 16),
+    return {"16 lanes": 1e-6 * step["operations"] / peak, "own widths": 1e-6 * step["slots"] / (peak / 16),
             "L2": 1e-6 * step["beyond L1"] / roofs["L2"], "L3": 1e-6 * step["beyond L2"] / roofs["L3"],
             "memory": 1e-6 * step["beyond L2"] / roofs["memory"]}
 
@@ -214,7 +225,7 @@ def block_steps(measured):
                      *(number(bounds[name]) for name in ("16 lanes", "own widths", "L2", "memory")),
                      f"{100 * share:.0f}"])
     return markdown(["step", "ms", "million operations", "arithmetic instructions, %", "MB beyond L1", "MB beyond L2",
-                     "at least, ms: 16 lanes", "own widths", "L2", "memory", "greatest bound, % of the time"], rows)
+                     "at least, ms: 16 lanes", "own widths", "L2", "memory", "bound, % of the time"], rows)
 
 
 def block_roofline(measured):
@@ -223,7 +234,7 @@ def block_roofline(measured):
     steps = steps_of(measured)
     points = [(s, s["operations"] / s["beyond L2"], 1e-6 * s["operations"] / s["ms"]) for s in steps]
     right = 116
-    x = Axis(min(p[1] for p in points) / 1.6, max(p[1] for p in points) * 1.6, LEFT, WIDTH - right)
+    x = Axis(0.5, max(p[1] for p in points) * 1.6, LEFT, WIDTH - right)
     y = Axis(min(*(p[2] for p in points), peak[1]) / 1.6, peak[16] * 1.5, HEIGHT - BOTTOM, TOP)
     ticks = [m * 10.0**e for e in range(-1, 4) for m in (1, 2, 5) if y.low <= m * 10.0**e <= y.high]
     picture = PAGE.with_name(f"{PAGE.stem}-steps.svg")
@@ -238,22 +249,23 @@ def block_roofline(measured):
 
     for lanes, height in peak.items():
         add("lines linewidth 1.5 dashtype 2 linecolor rgb '#94a3b8'", [(x.low, height), (x.high, height)])
-        script.append(label(f"{lanes} lane{'s' if lanes > 1 else ''}", (x.to_px + 8, y.at(height), "left"), "sans-serif,13"))
+        name = f"{lanes} lane{'s' if lanes > 1 else ''}"
+        script.append(label(name, (x.to_px + 8, y.at(height), "left"), "sans-serif,13"))
     for level in ("L3", "memory"):
         ridge = peak[16] / roofs[level]
         start = max(x.low, y.low / roofs[level])
         add("lines linewidth 2 linecolor rgb '#94a3b8'", [(start, start * roofs[level]), (ridge, peak[16])])
-        # The name lies along the slope.
-        at = (max(x.low, start) * ridge) ** 0.5 if ridge > x.low * 1.5 else None
-        if at:
-            script.append(label(level, (x.at(at) - 10, y.at(at * roofs[level]) - 6, "right"), "sans-serif,13"))
+        at = x.low * (ridge / x.low) ** 0.86  # between the roofs of 8 and 16 lanes
+        script.append(label(level, (x.at(at) + 10, y.at(at * roofs[level]) + 2, "left"), "sans-serif,13"))
     shapes = dict(zip(SCENES, (7, 5, 9, 13)))  # disc, square, triangle, diamond
     for step, across, up in points:
         add(f"points pointtype {shapes[step['counted']]} pointsize 0.9 linecolor rgb '{COLORS[step['step']]}'",
             [(across, up)])
-    for i, (step, color) in enumerate(COLORS.items()):
-        script.append(label(step, (LEFT + 10 + 118 * i, HEIGHT - BOTTOM - 12, "left"), "sans-serif,13")
-                      + f" textcolor rgb '{color}'")
+    in_px = lambda axis, px: axis.low * (axis.high / axis.low) ** ((px - axis.from_px) / (axis.to_px - axis.from_px))
+    for i, (step, color) in enumerate(COLORS.items()):  # below on the right, where no step is
+        at = x.to_px - 136, HEIGHT - BOTTOM - 68 + 18 * i
+        script.append(label(step, (at[0] + 12, at[1], "left"), "sans-serif,13"))
+        add(f"points pointtype 7 pointsize 0.9 linecolor rgb '{color}'", [(in_px(x, at[0]), in_px(y, at[1]))])
     script.append("plot " + ", ".join(lines))
     draw(script + data, picture)
     return (f"![Operations per ns over operations per byte from beyond L2: the steps of four scenes under the roofs of "
@@ -273,20 +285,37 @@ def block_sizes(measured):
     return curves_block(scaling(measured, "size", 1e6), "million pixels", "ms per frame", None, "sizes")
 
 
+def thousands(count):
+    return f"{float(f'{count / 1e3:.3g}'):,g}"
+
+
 def block_triangles(measured):
-    curves = scaling(measured, "triangles", 1e3)
-    for step in ("casters", "triangles", "picture"):
-        curves[f"13: {step}"] = [(float(f"{row['at'] / 1e3:.3g}"), row[step]) for row in rows_of(measured, "steps")]
-    return curves_block(curves, "thousand triangles", "ms per frame", None, "triangles")
+    picture = curves_block(scaling(measured, "triangles", 1e3), "thousand triangles", "ms per frame", None, "triangles")
+    steps = ("casters", "triangles", "picture")
+    return f"{picture}\n\nThe steps of lesson 13, ms:\n\n" + markdown(
+        ["thousand triangles", *steps],
+        [[thousands(row['at']), *(number(row[step]) for step in steps)]
+         for row in rows_of(measured, "steps")])
 
 
 def block_threads(measured):
-    rows = [[f"`{row['threads']}`", *(number(row[key]) for key in (
-        "1", "2")), f"{row['1'] / row['2']:.2f}", f"{row['cpu 2'] / row['cpu 1']:.2f}", number(row["serial"]),
-        *(number(row[key]) for key in ("amdahl 2", "schedule 2", "amdahl 16", "schedule 16")),
-        f"{row['1'] / row['schedule 16']:.1f}"] for row in rows_of(measured, "threads")]
-    return markdown(["scene", "1 thread, ms", "2 threads", "times as fast", "CPU time, 2 against 1", "serial, ms",
-                     "predicted for 2: Amdahl", "schedule", "predicted for 16: Amdahl", "schedule", "times as fast"], rows)
+    is_quiet = float(rows_of(measured, "machine")[0]["load"]) < 1
+    head = ["scene", "1 thread, ms", "serial, ms", "CPU time of 2 threads against 1"]
+    if is_quiet:
+        head += ["2 threads, by the clock, ms", "times as fast"]
+    head += ["predicted for 2: Amdahl, ms", "schedule, ms", "predicted for 16: Amdahl, ms", "schedule, ms",
+             "times as fast"]
+    rows = []
+    for row in rows_of(measured, "threads"):
+        cells = [f"`{row['threads']}`", number(row["work"]), number(row["serial"]),
+                 f"{row['cpu 2'] / row['cpu 1']:.2f}"]
+        if is_quiet:
+            cells += [number(row["2"]), f"{row['1'] / row['2']:.2f}"]
+        rows.append([*cells, *(number(row[key]) for key in ("amdahl 2", "schedule 2", "amdahl 16", "schedule 16")),
+                     f"{row['work'] / row['schedule 16']:.1f}"])
+    table = markdown(head, rows)
+    return table if is_quiet else (
+        f"{table}\n\nThe machine was too busy for two threads to be timed by the clock.")
 
 
 def block_machine(measured):
@@ -299,9 +328,9 @@ def machine():
     cpu = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
     compiler = re.search(r"CMAKE_CXX_COMPILER:\w+=(.*)", (ROOT / "build/release/CMakeCache.txt").read_text())
     version = subprocess.run([compiler[1], "--version"], text=True, capture_output=True).stdout.splitlines()[0]
-    sizes = [int(cache(name).split(",")[0]) // 1024 for name in ("LEVEL1_DCACHE", "LEVEL2_CACHE", "LEVEL3_CACHE")]
+    sizes = [int(cache(name).split(",")[0]) // 1024 for name in ("LEVEL1_DCACHE", "LEVEL2_CACHE")]
     return {"machine": cpu[1] if cpu else os.uname().machine, "compiler": version,
-            "caches": f"{sizes[0]} KiB (L1), {sizes[1]:,} KiB (L2) and {sizes[2]:,} KiB (L3)",
+            "caches": f"{sizes[0]} KiB (L1) and {sizes[1]:,} KiB (L2)",
             "load": f"{os.getloadavg()[0]:.1f}"}
 
 
@@ -315,7 +344,10 @@ def measure(options):
     measured = [machine(), *map(json.loads, lines)]
     print("how much: a minute", flush=True)
     instructions = instructions_of(COUNTED)
-    measured += [count(scene, step, instructions) for scene in SCENES for step in STEPS]
+    measured += [counted(scene, step, instructions) for scene in SCENES for step in STEPS]
+    for step, functions in STEPS.items():
+        if not any(row["operations"] for row in rows_of(measured, "counted") if row["step"] == step):
+            sys.exit(f"error: callgrind saw nothing of {step}: has {functions[0]} another name now?")
     MEASURED.write_text("\n".join(map(json.dumps, measured)) + "\n")
 
 
