@@ -278,14 +278,15 @@ def grid(measured, page, has_plot, comparison, rows_name, counter, names):
     return lines
 
 
-def plot_curves(curves, x_name, y_name, file):
-    """Lines on logarithmic axes, each with its name at its right end: x grows to the left if they differ more there."""
+def plot_curves(curves, x_name, y_name, file, may_reverse=True):
+    """Lines on logarithmic axes, each with its name at its right end: x grows to the left if they differ more there
+    and it may."""
     points = [point for curve in curves.values() for point in curve]
     columns = sorted({x for x, _ in points})
     right = RIGHT + 8 * max(len(name) for name in curves)
     low, high = min(y for _, y in points), max(y for _, y in points)
     spread = [max(ends) / min(ends) for ends in zip(*((curve[0][1], curve[-1][1]) for curve in curves.values()))]
-    is_reversed = spread[0] > spread[1]
+    is_reversed = may_reverse and spread[0] > spread[1]
     x = Axis(columns[0] / 1.1, columns[-1] * 1.1, LEFT, WIDTH - right)
     y = Axis(low / 1.3, high * 1.3, HEIGHT - BOTTOM, TOP)
     y_ticks = [f'"{t:,g}" {t}' for t in time_ticks(y.low, y.high)]

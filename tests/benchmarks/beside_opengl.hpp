@@ -32,6 +32,9 @@ struct BenchmarkScene {
 };
 std::vector<BenchmarkScene> benchmark_scenes();
 
+/// Hills of 2 n^2 triangles: texture, Phong, shadow.
+Scene hills_of(int n);
+
 /// In which numbers OpenGL stores textures and its picture.
 enum class GlNumbers {
     floats,  ///< Linear floats, as the course: RGBA32F. Whoever shows the picture encodes it.
