@@ -154,7 +154,7 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
                                          counters_of, lit_by.casts);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
-    TileVisibility visible(options.visibility.most_ids(), TileDepths::beyond);
+    TileVisibility visible(options.visibility.most_ids(), TileDepths::padding);
     HeatMap heat(options.visibility.show, options.size);
 
     const double start_of_outlines = cpu_ms();
@@ -169,7 +169,6 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
     parts.triangles = cpu_ms() - start_of_triangles;
 
     const WideDrawing<Counters> wide = drawing_of_width(options.wide.width);
-    const VisibleShaders<ShadowMapsOnDemand, Counters> shaders(plan, wide.shaders);
     const Frame frame{assets,
                       options.normal_map,
                       options.texture.filter,
@@ -188,7 +187,7 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
                 wide.draw_id(frame, projected, tile, depths, visible, counters);
             });
         const auto start_of_shading = Clock::now();
-        shade_visible(frame, shaders, visible, options.visibility.show, heat, counters);
+        wide.shade_visible(frame, visible, options.visibility.show, heat, counters);
         const auto start_of_rest = Clock::now();
         depths.for_each_empty_run(tile, [&](const PixelRun& run) {
             const PixelBox box{run.first, run.first + ivec2(run.length - 1, 0)};
@@ -199,8 +198,8 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)
                 pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                    wide.draw_transparent(frame, projected, part, depths, shaders, transparent,
-                                          heat, counters);
+                    wide.draw_transparent(frame, projected, part, depths, transparent, heat,
+                                          counters);
                 });
             transparent.blend_over(color);
         });

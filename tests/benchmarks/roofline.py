@@ -36,7 +36,7 @@ LINE = 64  # bytes of a cache line
 STEPS = {
     "triangles": ["rasterbook::BinnedTriangles::BinnedTriangles<*"],
     "depths and ids": ["void rasterbook::draw_id<rasterbook::Floats<8>*"],
-    "shading": ["void rasterbook::shade_pixels<*", "void rasterbook::draw_tile<rasterbook::Floats<8>*"],
+    "shading": ["void rasterbook::shade_visible<*", "void rasterbook::draw_tile<rasterbook::Floats<8>*"],
     "shadow map parts": ["void rasterbook::draw_tile<rasterbook::Floats<8>*"],
 }
 COLORS = {"triangles": "#7c8ca3", "depths and ids": "#d97706", "shading": "#0d9488", "shadow map parts": "#9333ea"}
