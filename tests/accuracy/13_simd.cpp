@@ -95,7 +95,6 @@ void add_triangles() {
             add_frame("triangles", std::to_string(side) + ": " + variant, pixels_of(reference), of,
                       assets, reference);
         };
-        add("12", options_of<lesson_12::Options>(layers));
         for (const int width : widths) {
             add(std::to_string(width), of_width(width, options));
             if (width == 1) continue;
