@@ -7,6 +7,7 @@
 
 #include "05_textures/interpolation.hpp"
 #include "13_simd/simd.hpp"
+#include "13_simd/wide_shadows.hpp"
 #include "accuracy/simd_estimates.hpp"
 #include "common/math/functions.hpp"
 
@@ -50,12 +51,18 @@ inline Floats<16> power(Floats<16> x, Floats<16> y) { return power_in_use(x, y);
 #elif ARITHMETIC == COUNTED
 static std::uint64_t batches = 0;
 
-template <int N>
-PerspectiveBarycentrics<Floats<N>> perspective_correct(const PerspectiveSetup& setup,
-                                                       glm::vec<3, Floats<N>> on_screen) {
-    ++batches;
-    return perspective_correct<Floats<N>>(setup, on_screen);
-}
+/// As the course has it; each batch counts its fragments once.
+template <>
+struct LaneCounters<Counters> {
+    Counters& total;
+    int lanes;
+    Counters& counters = total;
+
+    void add(Counter counter, std::uint64_t times = 1) {
+        batches += counter == Counter::fragments_shaded;
+        total.add(counter, times * static_cast<std::uint64_t>(lanes));
+    }
+};
 #endif
 
 }  // namespace rasterbook

@@ -25,8 +25,7 @@ using PowerInLanes = Floats<16> (*)(const Floats<16>& x, const Floats<16>& y);
 WideDrawing<Counters> drawing_powers();
 void set_power(PowerInLanes power);
 
-/// As the course has it, but batches of pixels are counted: without transparent materials, each
-/// has its perspective divided out once.
+/// As the course has it, but batches of pixels are counted.
 ///
 /// @param width  4, 8 or 16.
 WideDrawing<Counters> drawing_counted(int width);
