@@ -306,7 +306,7 @@ def plot_curves(curves, x_name, y_name, file, may_reverse=True):
         places[name] = min(places[name], free)
         free = places[name] - 15
     colors = {"11": "#7c8ca3", "12": "#0d9488"}
-    others = ["#0d9488", "#7c8ca3", "#d97706"]
+    others = ["#0d9488", "#7c8ca3", "#d97706", "#7c3aed"]
     seen, parts = {}, []
     for name in curves:
         first = name.partition(",")[0]

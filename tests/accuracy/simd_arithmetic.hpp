@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Lesson 13's drawing, 16 pixels at a time, with other arithmetic. Each is a shared library of
+/// simd_arithmetic.cpp, so that none of its functions takes the place of the course's.
+#pragma once
+
+#include <cstdint>
+
+#include "13_simd/simd.hpp"
+#include "13_simd/width.hpp"
+
+namespace rasterbook::test {
+
+/// 1/x of perspective and 1/sqrt(x) of unit vectors from an estimate and so many Newton steps.
+WideDrawing<Counters> drawing_hardware_0();
+WideDrawing<Counters> drawing_hardware_1();
+WideDrawing<Counters> drawing_bits_1();
+WideDrawing<Counters> drawing_bits_2();
+
+/// Products and sums fused as the compiler likes.
+WideDrawing<Counters> drawing_contracted();
+
+/// The power of a highlight by a function of the caller's.
+using PowerInLanes = Floats<16> (*)(const Floats<16>& x, const Floats<16>& y);
+WideDrawing<Counters> drawing_powers();
+void set_power(PowerInLanes power);
+
+/// As the course has it, but batches of pixels are counted.
+///
+/// @param width  4, 8 or 16.
+WideDrawing<Counters> drawing_counted(int width);
+std::uint64_t& batches_counted();
+
+}  // namespace rasterbook::test

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Lesson 13's render(), compiled once, with all arithmetic that it may be given.
+#include "accuracy/simd_frames.hpp"
+
+namespace rasterbook::test {
+
+WideDrawing<Counters> drawing_of_arithmetic(int width_or_arithmetic) {
+    switch (width_or_arithmetic) {
+        case hardware_0:
+            return drawing_hardware_0();
+        case hardware_1:
+            return drawing_hardware_1();
+        case bits_1:
+            return drawing_bits_1();
+        case bits_2:
+            return drawing_bits_2();
+        case contracted:
+            return drawing_contracted();
+        case powers:
+            return drawing_powers();
+        case counted_4:
+            return drawing_counted(4);
+        case counted_8:
+            return drawing_counted(8);
+        case counted_16:
+            return drawing_counted(16);
+        default:
+            return drawing_of_width(width_or_arithmetic);
+    }
+}
+
+}  // namespace rasterbook::test
+
+namespace lesson_13 {
+
+Image<vec3> render(const Options& options, const SceneAssets& assets, ThreadPool& pool,
+                   Counters& counters, StepClock& clock) {
+    return render<>(options, assets, pool, counters, clock);
+}
+
+}  // namespace lesson_13

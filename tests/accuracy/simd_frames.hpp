@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Frames of lessons 11, 12 and 13 as their programs draw them, counters included, on one thread.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+
+#include "13_simd/width.hpp"
+#include "accuracy/simd_arithmetic.hpp"
+#include "accuracy/visibility_frames.hpp"
+
+namespace rasterbook::test {
+
+/// In place of a width: other arithmetic.
+enum Arithmetic {
+    hardware_0 = 100,
+    hardware_1,
+    bits_1,
+    bits_2,
+    contracted,
+    powers,
+    counted_4,
+    counted_8,
+    counted_16
+};
+
+WideDrawing<Counters> drawing_of_arithmetic(int width_or_arithmetic);
+
+}  // namespace rasterbook::test
+
+// Lesson 13's render(), which takes these for widths.
+#define drawing_of_width rasterbook::test::drawing_of_arithmetic
+#include "support/lesson_13.hpp"
+#undef drawing_of_width
+
+namespace rasterbook::test {
+
+inline Image<vec3> rendered(const lesson_13::Options& options, const SceneAssets& assets,
+                            Counters& counters) {
+    StepClock clock;
+    return lesson_13::render(options, assets, one_thread(), counters, clock);
+}
+
+/// Without it, the template would take the options for those of lesson 11, their base class.
+inline Drawn counted(const lesson_13::Options& options, const SceneAssets& assets) {
+    Drawn drawn;
+    drawn.picture = rendered(options, assets, drawn.counters);
+    return drawn;
+}
+
+/// A frame that is thrown away.
+template <typename Options>
+void draw(const Options& options, const SceneAssets& assets) {
+    Counters counters;
+    rendered(options, assets, counters);
+}
+
+/// @param width  Or an Arithmetic.
+inline lesson_13::Options of_width(int width, lesson_13::Options options = {}) {
+    options.wide.width = width;
+    return options;
+}
+
+/// Differences of 8-bit codes, three to a pixel.
+struct CodeDifference {
+    double percent = 0, greatest = 0;
+
+    CodeDifference(const Image<vec3>& a, const Image<vec3>& b) {
+        const Image<u8vec3> file_a = srgb8_from_linear(a), file_b = srgb8_from_linear(b);
+        for (std::size_t i = 0; i < file_a.pixels().size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const int apart = std::abs(file_a.pixels()[i][c] - file_b.pixels()[i][c]);
+                percent += apart != 0;
+                greatest = std::max(greatest, static_cast<double>(apart));
+            }
+        percent *= 100 / (3 * pixels_of(a));
+    }
+};
+
+}  // namespace rasterbook::test
