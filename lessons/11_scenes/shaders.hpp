@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
 #include "05_textures/interpolation.hpp"
 #include "06_phong/phong.hpp"
 #include "06_phong/studio_lights.hpp"
@@ -71,6 +72,19 @@ struct Frame {
     Image<vec3>& color;
     DepthBuffer& depth;
 };
+
+/// @param options  Those of lesson 11 or a later one.
+template <typename Options, typename Maps>
+Frame<Maps> make_frame(const Options& options, const SceneAssets& assets, const Camera& camera,
+                       const Maps& shadow_maps, Image<vec3>& color, DepthBuffer& depth) {
+    return {assets,
+            options.normal_map,
+            options.texture.filter,
+            camera.position_world,
+            shadow_maps,
+            color,
+            depth};
+}
 
 /// The colors of a triangle's vertices.
 ///

@@ -48,13 +48,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 
     clock.begin("picture");
     const VisibleShaders<ShadowMapsOnDemand, CounterPolicy> shaders(plan);
-    const Frame frame{assets,
-                      options.normal_map,
-                      options.texture.filter,
-                      camera.position_world,
-                      shadow_maps,
-                      color,
-                      depth};
+    const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
         CounterPolicy& counters = counters_of[worker];

@@ -52,13 +52,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 
     clock.begin("picture");
     const WideDrawing<CounterPolicy> wide = drawing_of_width(options.wide.width);
-    const Frame frame{assets,
-                      options.normal_map,
-                      options.texture.filter,
-                      camera.position_world,
-                      shadow_maps,
-                      color,
-                      depth};
+    const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
         CounterPolicy& counters = counters_of[worker];
@@ -74,11 +68,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
                 wide.draw_id(frame, projected, tile, depths, visible, counters);
             });
         shade();
-        depths.for_each_empty_run(tile, [&](const PixelRun& run) {
-            const PixelBox box{run.first, run.first + ivec2(run.length - 1, 0)};
-            draw_backdrop(color, box.first, box.last);
-            if (is_on_paper) draw_paper(color, Tile{box});
-        });
+        draw_background(color, tile, depths, is_on_paper);
         TransparentFragments transparent;
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)

@@ -18,9 +18,11 @@
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/split.hpp"
 #include "10_threading/threaded_shadows.hpp"
+#include "11_scenes/scene_assets.hpp"
 #include "12_visibility_buffer/visibility_buffer.hpp"
 #include "13_simd/simd.hpp"
 #include "common/app/counters.hpp"
+#include "common/image/backdrop.hpp"
 
 namespace rasterbook {
 
@@ -185,6 +187,17 @@ class TileDepths {
     int row_step_, width_;
     std::vector<float> depths_;
 };
+
+/// Draws what lies behind the triangles, where none of them is. Before that, the pixels have no
+/// colour: nobody writes what is overwritten anyway.
+inline void draw_background(Image<vec3>& color, const Tile& tile, TileDepths& depths,
+                            bool is_on_paper) {
+    depths.for_each_empty_run(tile, [&](const PixelRun& run) {
+        const PixelBox box{run.first, run.first + ivec2(run.length - 1, 0)};
+        draw_backdrop(color, box.first, box.last);
+        if (is_on_paper) draw_paper(color, Tile{box});
+    });
+}
 
 /// As draw_tile() of lesson 10: draws a part of a shadow map.
 template <typename F, typename CounterPolicy>

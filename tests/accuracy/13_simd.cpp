@@ -31,10 +31,10 @@ constexpr std::array widths = {1, 4, 8, 16};
 /// The share of lanes that hold a pixel, when pixels are shaded so many at a time.
 double lanes_counted(int width, const lesson_13::Options& options, const SceneAssets& assets) {
     const int counting = width == 4 ? counted_4 : width == 8 ? counted_8 : counted_16;
-    batches_counted() = 0;
-    const auto pixels = static_cast<double>(
-        counted(of_width(counting, options), assets).count(Counter::fragments_shaded));
-    return 100 * pixels / (width * static_cast<double>(batches_counted()));
+    batches_counted() = {};
+    counted(of_width(counting, options), assets);
+    return 100 * static_cast<double>(batches_counted().pixels) /
+           (width * static_cast<double>(batches_counted().count));
 }
 
 // Whole frames.
@@ -66,7 +66,7 @@ void add_scenes() {
 
 // Lanes.
 
-/// The share of lanes that hold a pixel, of triangles of n pixels (Eq. 13.4).
+/// What that share would be if each triangle had batches of its own, of n pixels (Eq. 13.4).
 double lanes_used(const std::vector<int>& pixels, int width) {
     double used = 0, all = 0;
     for (const int n : pixels) {
@@ -103,7 +103,7 @@ void add_triangles() {
                             {{"lanes, %", percent}}, [] {});
             };
             add_lanes("", lanes_counted(width, options, *assets));
-            add_lanes("Eq. 13.4, ", 100 * lanes_used(of_cell, width));
+            add_lanes("alone, ", 100 * lanes_used(of_cell, width));
         }
     }
 }

@@ -49,17 +49,17 @@ inline Vec3<Wide> unit_or(Vec3<Wide> v, Vec3<Wide> fallback) {
 static test::PowerInLanes power_in_use = nullptr;
 inline Floats<16> power(Floats<16> x, Floats<16> y) { return power_in_use(x, y); }
 #elif ARITHMETIC == COUNTED
-static std::uint64_t batches = 0;
+static test::BatchesCounted batches;
 
 /// As the course has it; each batch counts its fragments once.
 template <>
 struct LaneCounters<Counters> {
     Counters& total;
     int lanes;
-    Counters& counters = total;
 
     void add(Counter counter, std::uint64_t times = 1) {
-        batches += counter == Counter::fragments_shaded;
+        if (counter == Counter::fragments_shaded)
+            ++batches.count, batches.pixels += static_cast<std::uint64_t>(lanes);
         total.add(counter, times * static_cast<std::uint64_t>(lanes));
     }
 };
@@ -75,7 +75,7 @@ namespace rasterbook::test {
 #if ARITHMETIC == POWERS
 EXPORTED void set_power(PowerInLanes power) { power_in_use = power; }
 #elif ARITHMETIC == COUNTED
-EXPORTED std::uint64_t& batches_counted() { return batches; }
+EXPORTED BatchesCounted& batches_counted() { return batches; }
 EXPORTED WideDrawing<Counters> drawing_counted(int width) {
     return width == 4   ? drawing_of_width<4>()
            : width == 8 ? drawing_of_width<8>()

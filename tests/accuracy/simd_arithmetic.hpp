@@ -25,10 +25,14 @@ using PowerInLanes = Floats<16> (*)(const Floats<16>& x, const Floats<16>& y);
 WideDrawing<Counters> drawing_powers();
 void set_power(PowerInLanes power);
 
+struct BatchesCounted {
+    std::uint64_t count = 0, pixels = 0;
+};
+
 /// As the course has it, but batches of pixels are counted.
 ///
 /// @param width  4, 8 or 16.
 WideDrawing<Counters> drawing_counted(int width);
-std::uint64_t& batches_counted();
+BatchesCounted& batches_counted();
 
 }  // namespace rasterbook::test
