@@ -16,7 +16,7 @@ from urllib.parse import unquote, urlsplit
 
 ROOT = Path(__file__).resolve().parents[1]
 TEXTS = (
-    r"index|costs|side_by_side|troubleshooting|glossary|conventions|gltf|animation|assets"
+    r"index|costs|roofline|side_by_side|troubleshooting|glossary|conventions|gltf|animation|assets"
     r"|(lesson|derivation|accuracy|changes)_\d\d|code_.+"
 )
 CODE = r"files|annotated|(triangle|image|lesson__app)_8hpp(_source)?|classrasterbook_1_1Image"

@@ -42,6 +42,7 @@ COURSE = [lesson_pages(lesson) for lesson in LESSONS]
 OTHERS = [
     Page("index", "Start", ROOT / "README.md"),
     Page("costs", "What accuracy costs", ROOT / "docs/accuracy/costs.md"),
+    Page("roofline", "Where the time goes", ROOT / "docs/roofline.md"),
     Page("side_by_side", "Side by side", ROOT / "docs/side_by_side.md"),
     Page("troubleshooting", "Troubleshooting", ROOT / "docs/troubleshooting.md"),
     Page("glossary", "Glossary", ROOT / "docs/glossary.md"),
