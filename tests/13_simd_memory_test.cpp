@@ -323,7 +323,7 @@ TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
         for (int k = 0; k < 6000 / N; ++k) {
             const ShadowMap map = any_map(dice, k % 2);
             std::array<Receiver, std::size_t(N)> receivers;
-            WideReceiver<N> of_lanes;
+            WideReceiver<N> of_lanes{};
             for (int i = 0; i < N; ++i) {
                 receivers.at(std::size_t(i)) = i == 0 || dice.one_in(3)
                                                    ? any_receiver(dice)

@@ -21,9 +21,9 @@ namespace rasterbook {
 /// As Receiver, of several points.
 template <int N>
 struct WideReceiver {
-    glm::vec<2, Floats<N>> slope{Floats<N>(0.0f)};
-    Floats<N> bias{0.0f}, bias_per_w{0.0f};
-    Vec3<Floats<N>> offset{Floats<N>(0.0f)}, offset_times_w{Floats<N>(0.0f)};
+    glm::vec<2, Floats<N>> slope;
+    Floats<N> bias, bias_per_w;
+    Vec3<Floats<N>> offset, offset_times_w;
 
     void set(Mask<N> lanes, const Receiver& receiver) {
         blend(lanes, slope, receiver.slope);
@@ -215,7 +215,7 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
         const Mask<N> together = left & (map_of_lane == Ints<N>(map_number));
         left = left & !together;
         const ShadowMap& map = of_light.maps[i];
-        WideReceiver<N> receivers;
+        WideReceiver<N> receivers{};  // no bias where no point is asked for
         for (Mask<N> rest = together; any_of(rest);) {
             const int slot = triangles.slot_of_lane[first_of(rest)];
             const Mask<N> own = rest & (triangles.slot_of_lane == Ints<N>(slot));
