@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What accuracy costs: the choices of all lessons on one scale, in one frame of the last one.
+/// What accuracy costs: the choices of all lessons on one scale, in one frame of lesson 13.
 ///
 /// Each choice is raised alone from the cheapest frame, and lowered alone from the most exact one;
 /// the choices that take most of the time are tried together, in all combinations; and the filters
-/// are tried once more on a floor that reaches to the horizon. Writes JSON, of which
+/// are tried once more on a floor that reaches to the horizon. Choices that lesson 13 does not have
+/// are compared with each other in frames of lesson 11. Writes JSON, of which
 /// report_costs.py makes tables and a plot. Takes 2 GB of memory.
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,11 @@ namespace {
 ThreadPool& all_threads() {
     static ThreadPool pool(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
     return pool;
+}
+
+Settings by_lesson_11(Settings settings) {
+    settings.is_by_lesson_11 = true;
+    return settings;
 }
 
 /// Milliseconds of the processor, on one thread: what else it does in the meantime does not count.
@@ -123,7 +129,7 @@ class Reference {
     std::vector<bool> is_edge_;  ///< For each pixel.
 };
 
-constexpr std::size_t most_rounds = 7;
+constexpr std::size_t most_rounds = 15;
 
 /// A frame, and what was measured of it.
 struct Shot {
@@ -132,7 +138,7 @@ struct Shot {
     std::vector<double> ms{};  ///< In each round.
 
     /// Slow ones are drawn less often: they vary less.
-    std::size_t rounds() const { return settings.samples_per_side == 1 ? most_rounds : 3; }
+    std::size_t rounds() const { return settings.samples_per_side == 1 ? most_rounds : 7; }
 };
 
 using Shots = std::map<Choices, Shot>;
@@ -159,6 +165,13 @@ double median(std::vector<double> numbers) {
     const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>((numbers.size() - 1) / 2);
     std::nth_element(numbers.begin(), middle, numbers.end());
     return *middle;
+}
+
+/// Half of the numbers lie within this of their median.
+double deviation(std::vector<double> numbers) {
+    const double middle = median(numbers);
+    for (double& number : numbers) number = std::abs(number - middle);
+    return median(numbers);
 }
 
 /// By how much a frame takes longer than another one in the same round.
@@ -219,14 +232,22 @@ void print_choices(const Choices& choices) {
                     knobs()[knob].levels[choices[knob]].name);
 }
 
+/// Who does not draw the picture that lesson 13 draws, bit for bit; or null.
+const char* other_picture() {
+    const Settings plain;
+    const Image<vec3> picture = samples_of(plain, all_threads());
+    if (samples_by_11(plain, all_threads(), NoCounters()) != picture) return "lesson 11";
+    if (samples_by_11(plain, all_threads(), LitBy<Shading::phong, Power::polynomial>()) != picture)
+        return "lesson 11's shader with choices";
+    return nullptr;
+}
+
 }  // namespace
 
 int main() {
     keep_freed_memory();
-    if (const Settings plain;
-        samples_of(plain, all_threads(), LitBy<Shading::phong, Power::polynomial>()) !=
-        samples_of(plain, all_threads())) {
-        std::cerr << "error: the shader with choices draws another picture than the lesson's\n";
+    if (const char* other = other_picture()) {
+        std::cerr << "error: " << other << " draws another picture than lesson 13\n";
         return 1;
     }
     Choices cheapest, most_exact;
@@ -246,12 +267,17 @@ int main() {
     const std::vector<Choices> combined = combinations(cheapest);
     for (const Choices& choices : combined) shot_of(choices);
     for (const auto& [name, choices] : presets) shot_of(choices);
+    Shots shots_by_11;
     for (const Choices& from : {cheapest, most_exact})
         for (std::size_t knob = 0; knob < knobs().size(); ++knob)
             for (std::size_t level = 0; level < knobs()[knob].levels.size(); ++level)
-                shot_of(with(from, knob, level));
+                if (const Choices choices = with(from, knob, level); knobs()[knob].is_of_lesson_11)
+                    shots_by_11.try_emplace(choices, Shot{by_lesson_11(settings_of(choices))});
+                else
+                    shot_of(choices);
     std::vector<Shot*> all;
     for (auto& [choices, shot] : shots) all.push_back(&shot);
+    for (auto& [choices, shot] : shots_by_11) all.push_back(&shot);
     const Reference reference(settings_of(most_exact));
     measure(all, reference);
 
@@ -276,17 +302,32 @@ int main() {
 #else
     std::printf("{\"context\": {\"compiler\": \"g++ %s\"},\n", __VERSION__);
 #endif
-    std::printf(" \"share of edges\": %.6f,\n \"steps\": [", reference.share_of_edges());
+    std::printf(" \"share of edges\": %.6f,\n \"ends\": [", reference.share_of_edges());
     const char* between = "\n";
+    for (const auto& [name, choices] :
+         {std::pair("cheapest", cheapest), std::pair("most exact", most_exact)})
+        for (const auto& [lesson, drawn] :
+             {std::pair("11", &shots_by_11), std::pair("13", &shots)}) {
+            const Shot& shot = drawn->at(choices);
+            std::printf("%s  {\"frame\": \"%s\", \"drawn by\": \"%s\", \"deviation\": %.4f, ",
+                        between, name, lesson, deviation(shot.ms));
+            print_shot(shot);
+            std::printf("}");
+            between = ",\n";
+        }
+    std::printf("],\n \"steps\": [");
+    between = "\n";
     for (std::size_t knob = 0; knob < knobs().size(); ++knob)
         for (std::size_t level = 1; level < knobs()[knob].levels.size(); ++level) {
             const Knob& k = knobs()[knob];
-            std::printf(
-                "%s  {\"knob\": \"%s\", \"lesson\": \"%s\", \"from\": \"%s\", \"to\": \"%s\", ",
-                between, k.name, k.lesson, k.levels[level - 1].name, k.levels[level].name);
+            std::printf("%s  {\"knob\": \"%s\", \"lesson\": \"%s\", \"drawn by\": \"%s\", ",
+                        between, k.name, k.lesson, k.is_of_lesson_11 ? "11" : "13");
+            std::printf("\"from\": \"%s\", \"to\": \"%s\", ", k.levels[level - 1].name,
+                        k.levels[level].name);
             const auto step = [&](const char* name, const Choices& from) {
-                print_step(name, shots.at(with(from, knob, level - 1)),
-                           shots.at(with(from, knob, level)));
+                const Shots& drawn = k.is_of_lesson_11 ? shots_by_11 : shots;
+                print_step(name, drawn.at(with(from, knob, level - 1)),
+                           drawn.at(with(from, knob, level)));
             };
             step("cheapest", cheapest);
             std::printf(", ");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A frame of the last lesson with a place on each lesson's knob, for costs.cpp.
+/// A frame of lesson 13 with a place on each lesson's knob, for costs.cpp. What lesson 13 leaves no
+/// choice of, lesson 11 draws.
 #pragma once
 
 #include <array>
@@ -17,7 +18,9 @@
 #include "11_scenes/explain.hpp"
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/shaders.hpp"
+#include "common/app/counters.hpp"
 #include "support/lesson_11.hpp"
+#include "support/lesson_13.hpp"
 #include "support/pictures.hpp"
 
 namespace rasterbook {
@@ -100,8 +103,9 @@ namespace rasterbook::test {
 namespace {  // as the lesson's options are
 
 /// A place on each knob.
-struct Settings : lesson_11::Options {
-    Shading light = Shading::phong;  ///< Lesson 06's --shading and --power.
+struct Settings : lesson_13::Options {
+    bool is_by_lesson_11 = false;
+    Shading light = Shading::phong;  ///< Lesson 06's --shading and --power: only by lesson 11.
     Power power = Power::polynomial;
     bool has_shadows = true;
     bool is_moved = false;  ///< The camera: by half a pixel or so.
@@ -137,32 +141,44 @@ const SceneAssets& assets_of(const Settings& settings) {
     return known.emplace(key, std::move(assets)).first->second;
 }
 
-/// All samples of a picture, before they are averaged.
+/// Settings of the picture of all samples, before they are averaged.
+Settings of_samples(Settings settings) {
+    settings.size *= settings.samples_per_side;
+    if (settings.is_moved && assets_of(settings).scene.cameras.empty())
+        settings.orbit.yaw_degrees += glm::degrees(way_radians.x);
+    return settings;
+}
+
+/// All samples of a picture, as lesson 11 draws them.
 ///
 /// @param counters  NoCounters, or LitBy.
 template <typename CounterPolicy>
-Image<vec3> samples_of(Settings settings, ThreadPool& pool, CounterPolicy counters) {
-    settings.size *= settings.samples_per_side;
-    const SceneAssets& assets = assets_of(settings);
-    if (settings.is_moved && assets.scene.cameras.empty())
-        settings.orbit.yaw_degrees += glm::degrees(way_radians.x);
+Image<vec3> samples_by_11(const Settings& settings, ThreadPool& pool, CounterPolicy counters) {
+    lesson_11::Options options = of_samples(settings);
+    options.threads = lesson_11::Options().threads;  // its own tiles
     StepClock clock;
-    return lesson_11::render(settings, assets, pool, counters, clock);
+    return lesson_11::render(options, assets_of(settings), pool, counters, clock);
 }
 
-/// The same as the settings have it. Light and power are never both other than the lesson's.
+/// All samples of a picture. Lesson 11 draws all of them by the shader with choices, so that code
+/// of the same kind is timed. Light and power are never both other than the lesson's.
 Image<vec3> samples_of(const Settings& settings, ThreadPool& pool) {
+    if (!settings.is_by_lesson_11) {
+        Counters counters;
+        StepClock clock;
+        return lesson_13::render(of_samples(settings), assets_of(settings), pool, counters, clock);
+    }
     if (settings.power == Power::schlick)
-        return samples_of(settings, pool, LitBy<Shading::phong, Power::schlick>());
+        return samples_by_11(settings, pool, LitBy<Shading::phong, Power::schlick>());
     switch (settings.light) {
         case Shading::flat:
-            return samples_of(settings, pool, LitBy<Shading::flat, Power::polynomial>());
+            return samples_by_11(settings, pool, LitBy<Shading::flat, Power::polynomial>());
         case Shading::gouraud:
-            return samples_of(settings, pool, LitBy<Shading::gouraud, Power::polynomial>());
+            return samples_by_11(settings, pool, LitBy<Shading::gouraud, Power::polynomial>());
         case Shading::phong:
             break;
     }
-    return samples_of(settings, pool, NoCounters());
+    return samples_by_11(settings, pool, LitBy<Shading::phong, Power::polynomial>());
 }
 
 Image<vec3> picture_of(const Settings& settings, ThreadPool& pool) {
@@ -181,6 +197,7 @@ struct Knob {
     const char* lesson;
     std::size_t cheapest, most_exact;  ///< Which of its levels.
     std::vector<Level> levels;         ///< Each at least as exact as the one before, by its lesson.
+    bool is_of_lesson_11 = false;      ///< Which draws all its levels: lesson 13 leaves no choice.
 };
 
 constexpr std::size_t samples = 0, textures = 1, maps = 2, texels = 3;  ///< Indices into knobs().
@@ -237,13 +254,15 @@ const std::vector<Knob>& knobs() {
          2,
          {{"flat", [](S& s) { s.light = Shading::flat; }},
           {"Gouraud", [](S& s) { s.light = Shading::gouraud; }},
-          {"Phong", [](S& s) { s.light = Shading::phong; }}}},
+          {"Phong", [](S& s) { s.light = Shading::phong; }}},
+         true},
         {"power",
          "06",
          1,
          1,
          {{"Schlick", [](S& s) { s.power = Power::schlick; }},
-          {"polynomial", [](S& s) { s.power = Power::polynomial; }}}},
+          {"polynomial", [](S& s) { s.power = Power::polynomial; }}},
+         true},
         {"normal maps",
          "08",
          2,

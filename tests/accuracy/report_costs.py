@@ -61,13 +61,19 @@ def block_presets(measured, _):
 def block_steps(measured, _):
     rows = []
     for step in measured["steps"]:
-        cells = [f"{step['knob']}: {step['from']} → {step['to']}", step["lesson"]]
+        cells = [f"{step['knob']}: {step['from']} → {step['to']}", step["lesson"], step["drawn by"]]
         for start in ("cheapest", "most exact"):
             change = step[start]
             cells += [milliseconds(change["ms"]), thousandths(change["still"]), thousandths(change["moving"])]
         rows.append(cells)
-    return table(["step", "lesson", "cheapest frame: ms", "still", "moving", "most exact one: ms", "still", "moving"],
-                 ["---", "---"] + ["---:"] * 6, rows)
+    return table(["step", "lesson", "drawn by", "cheapest frame: ms", "still", "moving",
+                  "most exact one: ms", "still", "moving"], ["---", "---", "---"] + ["---:"] * 6, rows)
+
+
+def block_ends(measured, _):
+    rows = [[f"{end['frame']} frame", end["drawn by"], number(end["ms"]), number(end["deviation"]), *errors(end)]
+            for end in measured["ends"]]
+    return table(["frame", "drawn by", "ms", "± ms", "still", "moving", "error"], ["---", "---"] + ["---:"] * 5, rows)
 
 
 def block_front(measured, page):
@@ -82,8 +88,8 @@ def block_front(measured, page):
         f"({picture.name})", "",
         table([*DIALS, "ms", "still", "moving", "error", "at edges, %", ""],
               ["---:"] * 9 + ["---"], rows), "",
-        "Medians of the processor's time in 7 rounds, in 3 with several samples; each draws all frames in a "
-        "random order, on one thread "
+        "Medians of the processor's time in 15 rounds, in 7 with several samples; each draws all frames in a "
+        "random order, on one thread of a machine that does other work, too "
         f"({machine(measured)}, {measured['context']['compiler']}). The Pareto front of {len(frames)} frames: no "
         f"other has a smaller error and is as fast (by {TIME_TOLERANCE:.0%})."])
 
