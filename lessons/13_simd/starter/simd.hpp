@@ -35,7 +35,7 @@ using Vector = typename VectorOf<T, N>::Type;
 /// Of two vectors, one behind the other, the elements at n places: a shuffle. What it takes is one
 /// instruction, or two, up to the width of a register.
 ///
-/// @param Place  A function without captures: from an element's index, 0 to n - 1, to its place.
+/// @tparam Place  A function without captures: from an element's index, 0 to n - 1, to its place.
 template <int n, typename V, typename Place>
 inline auto shuffled(V a, V b, Place) {
     return [&]<int... i>(std::integer_sequence<int, i...>) {
