@@ -272,9 +272,8 @@ TEST(Simd, HardCase_AttributesAreInterpolatedInEachLane) {
     });
 }
 
-TEST(Simd, Eq13_6_ABilinearSampleTakesFourTexelsAndNoOthers) {
-    // Of the worked example: 36 operations and 64 bytes a sample, 100 operations and 10 bytes a
-    // nanosecond. All texels but the four around a position are NaN, and none comes through.
+TEST(Simd, Eq13_6_TimesOfTheWorkedExample) {
+    // 36 operations and 64 bytes a sample, 100 operations and 10 bytes a nanosecond.
     constexpr std::size_t bytes = 4 * sizeof(vec4), operations = 4 * (3 + 3 + 3);
     EXPECT_EQ(bytes, 64u);
     EXPECT_EQ(operations, 36u);
@@ -285,6 +284,25 @@ TEST(Simd, Eq13_6_ABilinearSampleTakesFourTexelsAndNoOthers) {
     EXPECT_NEAR(milliseconds(1.0 / 16), 6.4, 1e-12) << "a million samples with one lane of 16";
     EXPECT_NEAR(1e6 * operations / 100 / 1e6, 0.36, 1e-12) << "their arithmetic, 16 lanes";
     EXPECT_NEAR(1e6 * operations / 6.25 / 1e6, 5.76, 1e-12) << "their arithmetic, one lane";
+}
+
+TEST(Simd, Eq13_7_ChannelsOfTexels) {
+    for_each_width([]<int N>() {
+        std::array<Vector<float, N>, 4> texels;  // pixel p's channel c is 4 p + c
+        for (int k = 0; k < 4; ++k)
+            for (int j = 0; j < N / 4; ++j)
+                for (int c = 0; c < 4; ++c)
+                    texels[std::size_t(k)][4 * j + c] = static_cast<float>(4 * (k + 4 * j) + c);
+        const auto channels = channels_of<N>(texels);
+        for (int c = 0; c < 4; ++c)
+            EXPECT_TRUE(
+                has_in_lanes(channels[c], [&](int p) { return 4.0f * float(p) + float(c); }))
+                << "channel " << c << " of " << N << " pixels";
+    });
+}
+
+TEST(Simd, Eq13_7_ABilinearSampleTakesFourTexelsAndNoOthers) {
+    // All texels but the four around a position are NaN, and none comes through.
     for_each_width([]<int N>() {
         Dice dice(N);
         for (int k = 0; k < 200; ++k) {
@@ -316,7 +334,7 @@ TEST(Simd, Eq13_6_ABilinearSampleTakesFourTexelsAndNoOthers) {
 }
 
 TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
-    look_up("Eq. 13.1");
+    look_up("Eq. 9.6");
     for_each_width([]<int N>() {
         Dice dice(N);
         int outside = 0, inside = 0, partly_lit = 0;

@@ -68,7 +68,7 @@ TexelPairs<N> read_texels(const float* texels, const Ints<N>& at) {
 }
 
 /// From vectors of the texels of pixels 0, 4, 8 ..., of pixels 1, 5, 9 ..., and so on to vectors of
-/// the four channels: in each group of four numbers, columns become rows.
+/// the four channels: in each group of four numbers, columns become rows (Eq. 13.7).
 template <int N>
 glm::vec<4, Floats<N>> channels_of(const std::array<Vector<float, N>, 4>& texels) {
     const auto [a, b, c, d] = texels;

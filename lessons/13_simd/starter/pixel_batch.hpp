@@ -166,10 +166,13 @@ class PixelBatch {
     /// Gives the triangle's pixels their coordinates in it and its inputs. So do the lanes behind
     /// them get these; what comes next overwrites them.
     void end_triangle() {
-        // TODO: step 1: unless the triangle has no pixel in the batch: its planes and
-        // perspective_correct() give coordinates in all lanes; select() puts them into at_ from
-        // lane first_ on. LaneInputs::set() does so with its inputs, which is not needed where all
-        // lanes have them from the batch before. Then the next triangle's pixels begin at count_.
+        // TODO: step 1: unless the triangle has no pixel in the batch: current() has its planes and
+        // its inputs.setup, of which perspective_correct() makes coordinates for all lanes.
+        // select() puts them into at_ from lane first_ on, so where first_lanes<F>(first_) does not
+        // hold. inputs_.set() does so with the triangle's inputs; it takes frame_.normal_map.frame
+        // and the number slot_, too. Where is_in_all_lanes_ holds, they are there from the batch
+        // before. Say whether they are in all lanes now. The next triangle's pixels begin at
+        // count_.
     }
 
     Vec3<F> shade() {

@@ -63,7 +63,8 @@ template <int N>
 WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideReceiver<N>& receiver,
                             const Vec3<Floats<N>>& position_world, Mask<N> asked) {
     // TODO: step 3: lesson 09's steps for all points at once, each row of the matrix added up as
-    // GLM does it: (x + y) + (z + w). What is not in the map says so in the mask.
+    // GLM does it: (x + y) + (z + w). What is not in the map says so in the mask, and is replaced
+    // by 0 before it is truncated.
     // Until then, one point after the other:
     WidePcfKernel<N> kernel{first_lanes<Floats<N>>(0), Ints<N>(0), Ints<N>(0), Floats<N>(0.0f),
                             receiver.slope};
@@ -92,8 +93,9 @@ template <int radius, int N>
 Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     // TODO: step 3: point by point, but all taps of a row at once: a vector of 4 or 8 floats holds
     // them. Skip points that are not in the map, and read no texel that is not a tap: another
-    // thread may be drawing it. Comparisons are -1 where they hold, so masks that are added up
-    // count. Until then, one point after the other:
+    // thread may be drawing it. A comparison AND 1 is 1 where it holds: these are added up.
+    // Depths at the taps are at most `cleared`: cleared < depth ? cleared : depth.
+    // Until then, one point after the other:
     Floats<N> lit(0.0f);
     for (int i = 0; i < N; ++i) {
         if (!kernel.is_in_map[i]) continue;
