@@ -18,6 +18,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "common/image/bmp.hpp"
 #include "common/image/input_error.hpp"
@@ -517,6 +518,18 @@ TEST_F(ImageIo, HardCase_UndefinedPartOfAJpegIsTheSameEachTime) {
     const Image<u8vec4> before = read(bytes);
     read_image(data_folder / "color_progressive.jpg");  // leaves other bytes behind in freed memory
     EXPECT_EQ(read(bytes), before);
+}
+
+TEST_F(ImageIo, HardCase_JpegThatTheDecoderGivesNoReasonForIsAnError) {
+    // Found by random inputs: it crashed, but only in a thread that had read no other damaged file.
+    const Bytes bytes = bytes_of(data_folder / "../finds/no_reason.jpg");
+    std::string message;
+    std::thread([&] {
+        try {
+            read(bytes);
+        } catch (const InputError& error) { message = error.what(); }
+    }).join();
+    EXPECT_NE(message.find("damaged or unsupported"), message.npos) << message;
 }
 
 TEST_F(ImageIo, HardCase_JpegWhoseScansEndEarlyIsAnErrorOrTheSameEachTime) {

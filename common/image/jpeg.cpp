@@ -90,8 +90,11 @@ Image<u8vec4> decode_jpeg(ByteView bytes, const std::filesystem::path& file,
         stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.x, &size.y,
                               &channels, 4),
         stbi_image_free);
-    if (!pixels)
-        throw InputError(file, std::string("damaged or unsupported: ") + stbi_failure_reason());
+    if (!pixels) {
+        const char* const reason = stbi_failure_reason();  // null where the decoder gives none
+        throw InputError(file,
+                         "damaged or unsupported" + (reason ? std::string(": ") + reason : ""));
+    }
     Image<u8vec4> image(size);
     const stbi_uc* stored = pixels.get();
     for (u8vec4& color : image.pixels()) {
