@@ -109,6 +109,16 @@ struct LaneInputs {
     }
 };
 
+/// A triangle that pixels of a batch are of.
+template <Permutation with, int N>
+struct BatchTriangle {
+    TriangleInputs inputs;
+    WideBarycentricPlanes<N> planes;
+
+    BatchTriangle(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& triangle)
+        : inputs(triangle_inputs<with>(frame, triangle)), planes(triangle.on_screen) {}
+};
+
 /// Pixels that are shaded together, one in each lane: of one triangle, or of several that are of
 /// one mesh and one material (Eq. 13.4).
 template <Permutation with, typename F, typename CounterPolicy>
@@ -153,14 +163,7 @@ class PixelBatch {
     static constexpr int N = width_of<F>;
     using Numbers = std::array<std::int32_t, 2 * std::size_t{N}>;  ///< Room for whole vectors.
 
-    struct OfTriangle {
-        TriangleInputs inputs;
-        WideBarycentricPlanes<N> planes;
-
-        OfTriangle(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& triangle)
-            : inputs(triangle_inputs<with>(frame, triangle)), planes(triangle.on_screen) {}
-    };
-    OfTriangle& current() { return *triangles_[slot_]; }
+    BatchTriangle<with, N>& current() { return *triangles_[slot_]; }
 
     /// Behind the pixels that are there already.
     void write(Numbers& numbers, const Ints<N>& more) {
@@ -207,7 +210,7 @@ class PixelBatch {
     Numbers x_{}, y_{};          ///< Of the pixels.
     int count_ = 0, first_ = 0;  ///< So many pixels; the first one of the current triangle.
     /// The current triangle, and those that pixels of the batch are of.
-    std::array<std::optional<OfTriangle>, N + 1> triangles_;
+    std::array<std::optional<BatchTriangle<with, N>>, N + 1> triangles_;
     std::size_t slot_ = 0;
     bool is_in_all_lanes_ = false;  ///< The current triangle, in inputs_.
     PerspectiveBarycentrics<F> at_{};
