@@ -520,16 +520,19 @@ TEST_F(ImageIo, HardCase_UndefinedPartOfAJpegIsTheSameEachTime) {
     EXPECT_EQ(read(bytes), before);
 }
 
-TEST_F(ImageIo, HardCase_JpegThatTheDecoderGivesNoReasonForIsAnError) {
+TEST_F(ImageIo, HardCase_JpegThatTheDecoderGivesNoReasonForDoesNotCrash) {
     // Found by random inputs: it crashed, but only in a thread that had read no other damaged file.
+    // A newer decoder reads it.
     const Bytes bytes = bytes_of(data_folder / "../finds/no_reason.jpg");
-    std::string message;
+    std::string outcome;
     std::thread([&] {
         try {
-            read(bytes);
-        } catch (const InputError& error) { message = error.what(); }
+            outcome = testing::PrintToString(read(bytes).size());
+        } catch (const InputError& error) { outcome = error.what(); }
     }).join();
-    EXPECT_NE(message.find("damaged or unsupported"), message.npos) << message;
+    EXPECT_TRUE(outcome == testing::PrintToString(ivec2(9, 7)) ||
+                outcome.find("damaged or unsupported") != outcome.npos)
+        << outcome;
 }
 
 TEST_F(ImageIo, HardCase_JpegWhoseScansEndEarlyIsAnErrorOrTheSameEachTime) {
