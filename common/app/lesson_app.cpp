@@ -27,6 +27,11 @@
 
 namespace rasterbook {
 
+class CommandLine : public CLI::App {
+  public:
+    using CLI::App::App;
+};
+
 namespace {
 
 constexpr int greatest_side = 16384;
@@ -206,8 +211,7 @@ void make_pictures(const LessonProgram& program) {
         std::cout << "wrote " << first << '\n';
 }
 
-/// @throws std::runtime_error  When something that was said could not be written, now or before:
-///         what an osyncstream hands on is buffered, and may be lost, in stdout alone.
+/// @throws std::runtime_error  When something that was said could not be written, now or before.
 void flush_output() {
     if (!std::cout.flush() || std::ferror(stdout))
         throw std::runtime_error("standard output cannot be written");
@@ -271,26 +275,11 @@ void Knobs::choice(const char* name, const char* preset,
         ->type_name(all);
 }
 
-void Knobs::add_word(const char* word, double meaning, bool is_preset) {
-    words_.emplace_back(word, meaning);
-    if (is_preset) preset_ = word;
-}
-
-void Knobs::add_choice(const char* name, const char* help, void* value,
-                       void (*set)(void*, double)) {
-    std::vector<std::pair<const char*, std::function<void()>>> calls;
-    for (const auto& [word, meaning] : words_)
-        calls.emplace_back(word, [=, chosen = meaning] { set(value, chosen); });
-    choice(name, preset_, std::move(calls), help);
-    words_.clear();
-    preset_ = "";
-}
-
 std::optional<int> read_command_line(const LessonProgram& program, int argc, char** argv) {
     LessonOptions& options = program.options;
     options.jobs = threads_of_the_machine();
     options.out = program.name + ".png";
-    CLI::App line(program.title, program.name);
+    CommandLine line(program.title, program.name);
     line.add_option(
             "--model", options.model,
             "The model to draw: .obj, .gltf or .glb [" + options.model.string() + " of the course]")
@@ -320,18 +309,7 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
                   "Read no file that lies outside of the model's folder");
     line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
     Knobs knobs(line);
-    knobs.choice(
-        "--samples", options.samples_per_side, {{"1", 1}, {"4", 2}, {"16", 4}, {"64", 8}},
-        "Samples per pixel (supersampling): smoother, and that many times the time and memory");
     if (program.orbit) {
-        Orbit& orbit = *program.orbit;
-        knobs.number("--yaw", orbit.yaw_degrees, -36000, 36000,
-                     "The camera's azimuth around the scene, in degrees");
-        knobs.number("--pitch", orbit.pitch_degrees, -90, 90,
-                     "Its elevation above the horizon, in degrees");
-        knobs.number("--distance", orbit.distance, 0.01f, 1e6f,
-                     "Its distance from the scene's centre, in radii of the scene");
-        knobs.number("--fov", orbit.fov_degrees, 1, 170, "Its vertical field of view, in degrees");
         line.add_option_function<std::string>(
                 "--frames", [&](const std::string& text) { options.frames = parse_frames(text); },
                 "Pictures of one turn around the scene, or of a part of it; --out then takes "
@@ -341,10 +319,7 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
                      "Frames at once, each with its share of the threads; unasked, no more than "
                      "take 1 GiB");
     }
-    if (program.show_depth)
-        knobs.flag("--depth", *program.show_depth,
-                   "Show the depth buffer: near is bright, nothing is black");
-    program.declare_knobs(knobs);
+    declare_picture_knobs(knobs, program);
 
     line.footer(
         "Exit status: 0 for success, 1 when something cannot be read or written, 2 for wrong "

@@ -17,10 +17,6 @@
 #include "common/image/image.hpp"
 #include "common/model/mesh.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace rasterbook {
 
 /// What every lesson can be asked for. A lesson adds its own knobs in a struct derived from this.
@@ -47,11 +43,14 @@ struct Orbit {
     bool operator==(const Orbit&) const = default;
 };
 
+/// What takes the knobs' values: a command line, or the controls of a page.
+class CommandLine;
+
 /// Where a lesson declares its knobs: one line gives the flag, its help, its check and its default.
 /// Texts have to outlive it, as literals do.
 class Knobs {
   public:
-    explicit Knobs(CLI::App& command_line) : command_line_(command_line) {}
+    explicit Knobs(CommandLine& command_line) : command_line_(command_line) {}
 
     /// `--name`: sets `value` to true.
     void flag(const char* name, bool& value, const char* help);
@@ -86,7 +85,7 @@ class Knobs {
     void add_word(const char* word, double meaning, bool is_preset);
     void add_choice(const char* name, const char* help, void* value, void (*set)(void*, double));
 
-    CLI::App& command_line_;
+    CommandLine& command_line_;
     std::vector<std::pair<const char*, double>> words_;  ///< Of the choice that is being declared.
     const char* preset_ = "";
 };
@@ -124,6 +123,10 @@ template <typename Assets>
 const Scene& scene_of(const Assets& assets) {
     return assets.scene;
 }
+
+/// Declares the knobs of a picture that all lessons have, each as far as it has it: samples, orbit,
+/// depth; then the program's own.
+void declare_picture_knobs(Knobs& knobs, const LessonProgram& program);
 
 /// Reads the command line into the program's options.
 ///

@@ -1,9 +1,9 @@
-"""Makes Doxygen's pages of the course's texts: pages.py BUILD_FOLDER KATEX_FOLDER.
+"""Makes Doxygen's pages of the course's texts: pages.py BUILD_FOLDER KATEX_FOLDER [--live].
 
 The texts are written for GitHub. Here their formulas, links, pictures and quoted equations become
 what Doxygen 1.9.4 understands, each lesson gets a page of what it changes, and the pages of
-a lesson get links to each other. It writes BUILD_FOLDER/site_pages, and BUILD_FOLDER/site what
-Doxygen does not bring itself.
+a lesson get links to each other. With --live, a lesson's page draws its picture itself. It writes
+BUILD_FOLDER/site_pages, and BUILD_FOLDER/site what Doxygen does not bring itself.
 """
 
 import html
@@ -86,7 +86,8 @@ EMPHASIS_WITH_FORMULA = re.compile(
 class Site:
     """The folders that are written, and the texts on their way there."""
 
-    def __init__(self, build: Path) -> None:
+    def __init__(self, build: Path, is_live: bool) -> None:
+        self.is_live = is_live
         self.pages, self.site = build / "site_pages", build / "site"
         self.code: list[Page] = []  # code that texts link to and Doxygen does not read
         for folder in (self.pages, self.site):
@@ -119,6 +120,14 @@ class Site:
         shutil.copy(file, self.site)
         return f'<img src="{file.name}" alt="{html.escape(alt)}"/>'
 
+    def comparison(self, page: Page, comment: str) -> str:
+        """A link to what `compare: OPTIONS | in words` says, in the picture of the page's lesson."""
+        asked = re.fullmatch(r"<!-- compare: (\S+) \| (.+) -->", comment)
+        if not asked or not self.is_live:
+            return ""
+        address = f"lesson_{page.name[-2:]}.html#{html.escape(asked[1])}"
+        return html_only(f'<p class="compare"><a href="{address}">Compare</a> {asked[2]}</p>')
+
     def write(self, name: str, text: str) -> None:
         (self.pages / f"{name}.md").write_text(text, encoding="utf-8")
 
@@ -136,7 +145,7 @@ class Site:
             if formula := found["inline"] or found["math"]:
                 return f"\\htmlonly\\({html.escape(formula)}\\)\\endhtmlonly"
             if found["comment"]:
-                return ""
+                return self.comparison(page, found["comment"])
             if found["summary"]:
                 return html_only(f"<details><summary>{found['summary']}</summary>")
             if found["end"]:
@@ -166,6 +175,17 @@ class Site:
         else:  # its headings are not to stand between the lessons in the tree
             text = re.sub(r"^## (.*)$", r"<h2>\1</h2>", text, flags=re.MULTILINE)
         return text
+
+
+def with_live_picture(lesson: str, text: str) -> str:
+    """A lesson's text with the place, behind its first picture, where the page draws."""
+    models = " ".join(
+        file.name for file in sorted((ROOT / "assets/models").iterdir())
+        if file.suffix in (".obj", ".glb", ".gltf")
+    )
+    live = f'<div class="live" data-lesson="{lesson}" data-models="{models}"></div>'
+    script = '<script src="live/live.js" defer></script>'
+    return re.sub(r"<img [^>]*>", lambda image: image[0] + html_only(live + script), text, count=1)
 
 
 def with_anchor(heading: re.Match[str]) -> str:
@@ -295,8 +315,8 @@ def copy_katex(katex: Path, site: Path) -> None:
 
 
 def main() -> None:
-    build, katex = map(Path, sys.argv[1:])
-    site = Site(build)
+    build, katex = map(Path, sys.argv[1:3])
+    site = Site(build, is_live="--live" in sys.argv)
     copy_katex(katex, site.site)
     for page in OTHERS:
         label = "mainpage" if page.name == "index" else page.name
@@ -305,6 +325,8 @@ def main() -> None:
         for page in pages:
             name = title(page) if page.text else f"What lesson {LESSONS[lesson][:2]} changes"
             text = site.convert(page) if page.text else changes(lesson)
+            if site.is_live and page == pages[0]:
+                text = with_live_picture(LESSONS[lesson], text)
             text = f"{steps(lesson, page)}\n{text}{neighbours(lesson, page)}"
             site.write(page.name, f"# {name} {{#{page.name}}}\n{text}")
     (site.pages / "layout.xml").write_text(layout(site.code), encoding="utf-8")

@@ -5,7 +5,6 @@
 #include <iostream>
 #include <map>
 #include <sstream>
-#include <syncstream>
 
 namespace rasterbook {
 
@@ -21,7 +20,7 @@ void add_word(std::string& words, const std::string& word) {
 void explain(const SceneAssets& assets, const std::string& camera, const Counters& counters,
              StepClock& clock) {
     clock.end();
-    std::osyncstream out(std::cout);  // not between the words of another frame
+    std::ostringstream out;
     const Scene& scene = assets.scene;
     std::size_t triangles = 0;
     for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size();
@@ -71,6 +70,7 @@ void explain(const SceneAssets& assets, const std::string& camera, const Counter
         number << ms;
         out << "  " << step << ": " << number.str() << '\n';
     }
+    std::cout << out.str();  // at once: not between the words of another frame
 }
 
 }  // namespace rasterbook

@@ -1,0 +1,558 @@
+// SPDX-License-Identifier: MIT
+// A lesson's page draws its picture itself. What the address says after # is what the
+// controls say: #filter=nearest&against=trilinear compares two values of an option.
+
+const place = document.querySelector(".live");
+const still = place.closest(".contents").querySelector("img");
+const lessonName = place.dataset.lesson;
+const sizes = ["480x270", "640x360", "960x540", "1280x720", "1920x1080"];
+const usualSize = "1280x720";
+const models = place.dataset.models.split(" ");
+const unavailable = {
+  "--threads": "A page draws with one thread.",
+  "--keep-going": "All images of the page's scenes can be read.",
+};
+const viewOptions = ["--samples", "--yaw", "--pitch", "--distance", "--fov", "--depth"];
+/** Options that later lessons have, too, by the lesson that brings them. */
+const inherited = {
+  "05": "filter wrap srgb keep-going",
+  "06": "light two-sided all-effects",
+  "08": "frame orthonormal handedness normal-map green normal-format channels bits",
+  "09": "shadow-size bias pcf",
+  10: "threads split tile show-threads",
+  11: "quality camera explain",
+  12: "show max-ids shadow-part",
+};
+const onlyHow = "It decides how the picture is computed, not what it shows.";
+const whyNoChange = {
+  "--split": onlyHow,
+  "--tile": onlyHow,
+  "--max-ids": onlyHow,
+  "--shadow-part": onlyHow,
+  "--width": onlyHow,
+  "--all-effects": "It computes what cannot be seen, too.",
+  "--explain": "It says what was done, below.",
+};
+
+let lesson = null;  // { model, controls }
+let model = "";
+let size = usualSize;  // of a picture that stands still
+let sides = [{}, {}];  // what differs from the lesson's presets, left and right
+let mode = "picture";  // or "compare", "difference"
+let gain = 8;
+let pictures = [];  // the last answers, for each side
+
+// --- The page's parts
+
+const element = (tag, values = {}, ...children) => {
+  const made = Object.assign(document.createElement(tag), values);
+  made.append(...children);
+  return made;
+};
+const labelled = (made, label) => {
+  made.setAttribute("aria-label", label);
+  return made;
+};
+const canvases = [0, 1].map(() => element("canvas"));
+const handle = labelled(element("input", { type: "range", className: "split", min: 0, max: 100, step: 0.5, value: 50 }), "The border between left and right");
+const tags = ["left", "right"].map((className) => element("span", { className: `tag ${className}` }));
+const stage = element("div", { className: "stage", hidden: true }, ...canvases, ...tags, handle);
+const status = element("p", { className: "status" });
+status.setAttribute("role", "status");
+const stop = element("button", { type: "button", textContent: "Stop", hidden: true });
+const printed = element("pre", { className: "printed", hidden: true });
+const modelChoice = element("select", {}, ...models.map((name) => element("option", { textContent: name })));
+const sizeChoice = element("select", {}, ...sizes.map((value) => element("option", { value, textContent: value.replace("x", " × ") })));
+const modeChoice = element("select", {}, ...[["picture", "Picture"], ["compare", "Compare"], ["difference", "Difference"]].map(([value, text]) => element("option", { value, textContent: text })));
+const gainChoice = element("select", {}, ...[1, 2, 4, 8, 16, 32, 64].map((value) => element("option", { value, textContent: `× ${value}` })));
+const gainLabel = element("label", {}, "Enlarged ", gainChoice);
+const presets = element("select", {}, ...[["", "its own settings"], ["lesson", "as the lesson draws it"], ["samples", "with 16 samples a pixel"]].map(([value, text]) => element("option", { value, textContent: text })));
+const presetLabel = element("label", {}, "Right side ", presets);
+const reset = element("button", { type: "button", textContent: "Reset" });
+const bar = element("div", { className: "bar" }, element("label", {}, "Scene ", modelChoice), element("label", {}, "Size ", sizeChoice), element("label", {}, "Show ", modeChoice), gainLabel, presetLabel, reset);
+const groups = ["Options of this lesson", "Camera and samples", "Options of earlier lessons"].map((title, i) =>
+  element("details", { open: i === 0 && innerWidth >= 768 }, element("summary", { textContent: title }), element("div", { className: i === 0 ? "options own" : "options" })));
+const commands = element("div", { className: "commands" });
+
+// --- The worker
+
+const url = URL.createObjectURL(new Blob([workerSource], { type: "text/javascript" }));
+let worker = null;
+let waiting = new Map();  // by id: what takes the answer
+let lastId = 0;
+let given = new Map();  // by name: what a worker has to be given first
+
+function startWorker() {
+  worker?.terminate();
+  for (const { reject } of waiting.values()) reject(new Error("Stopped."));
+  waiting.clear();
+  given.clear();
+  worker = new Worker(url);
+  worker.onmessage = ({ data }) => {
+    const { resolve, reject } = waiting.get(data.id);
+    waiting.delete(data.id);
+    if (data.error) reject(new Error(data.error));
+    else resolve(data);
+  };
+  worker.onerror = (event) => {
+    event.preventDefault();
+    startWorker();
+    say("The part of the page that draws has ended. Any change starts it again.", true);
+  };
+}
+
+function ask(task, values) {
+  return new Promise((resolve, reject) => {
+    waiting.set(++lastId, { resolve, reject });
+    worker.postMessage({ id: lastId, task, ...values });
+  });
+}
+
+/** What the script live/NAME.js has, loaded at most once: pages opened from a folder may load nothing else. */
+const scripts = new Map();
+function textOf(name) {
+  if (!scripts.has(name))
+    scripts.set(name, new Promise((resolve, reject) => {
+      const script = element("script", { src: `live/${encodeURIComponent(name)}.js` });
+      script.onload = () => resolve(script.remove() ?? window.liveTexts[name]);
+      script.onerror = () => {
+        scripts.delete(name);
+        reject(new Error(`${script.src} cannot be read.`));
+      };
+      document.head.append(script);
+    }));
+  return scripts.get(name);
+}
+
+function give(task, name) {
+  if (!given.has(name))
+    given.set(name, textOf(name).then((text) => ask(task, { name, text })).catch((error) => {
+      given.delete(name);
+      throw error;
+    }));
+  return given.get(name);
+}
+
+// --- Drawing
+
+let isBusy = false;
+let wanted = null;  // what is to be drawn next
+let whole = 0;  // a timer: the picture is drawn in full when nothing has changed for a while
+let busySince = 0;
+
+/** @param {boolean} isMoving  Then a smaller picture will do, if a whole one takes long. */
+function draw(isMoving = false, changed = "") {
+  clearTimeout(whole);
+  wanted = { isMoving, changed };
+  if (isBusy && performance.now() - busySince > 3000) startWorker();  // not for what nobody waits for
+  if (!isBusy) drawWanted();
+}
+
+const wholeSize = () => size.split("x").map(Number);
+
+/** The largest that takes 50 ms at most, as far as one can tell; the smallest of all else. */
+function movingSize() {
+  const [width, height] = wholeSize();
+  const ms = pictures.reduce((sum, picture) => sum + (picture?.wholeMs ?? 0), 0);
+  const share = [1, 3 / 4, 1 / 2].find((part) => ms * part * part < 50) ?? 3 / 8;
+  return [Math.round(width * share), Math.round(height * share)];
+}
+
+const isCompared = () => mode !== "picture";
+const shownSides = () => (isCompared() ? [0, 1] : [0]);
+
+async function drawWanted() {
+  const { isMoving, changed } = wanted;
+  wanted = null;
+  isBusy = true;
+  busySince = performance.now();
+  const slow = setTimeout(() => {
+    say("Drawing …");
+    stop.hidden = false;
+  }, 700);
+  place.dataset.state = "drawing";
+  try {
+    await give("lesson", lessonName);
+    await give("scene", model);
+    const pixels = isMoving ? movingSize() : wholeSize();
+    for (const side of shownSides()) {
+      const before = pictures[side];
+      const answer = await ask("draw", { side, name: lessonName, model, settings: sides[side], size: pixels });
+      answer.size = pixels;
+      answer.wholeMs = isMoving ? before?.wholeMs ?? answer.ms : answer.ms;
+      answer.isSame = before?.pixels.length === answer.pixels.length && before.pixels.every((value, i) => value === answer.pixels[i]);
+      pictures[side] = answer;
+    }
+    clearTimeout(slow);
+    stop.hidden = true;
+    show();
+    if (!isMoving) report(changed);
+    place.dataset.state = isMoving ? "moving" : "ready";
+    if (isMoving) whole = setTimeout(draw, 200);
+    else await timeAgain(changed);
+  } catch (error) {
+    say(error.message, true);
+    place.dataset.state = "failed";
+  }
+  clearTimeout(slow);
+  stop.hidden = true;
+  isBusy = false;
+  if (wanted) drawWanted();
+}
+
+/** A program's first pictures are slow, until the browser has optimised it: times are of several, by turns. */
+async function timeAgain(changed) {
+  const times = [[], []];
+  const end = performance.now() + 1500;
+  for (let i = 0; i < 5 && performance.now() < end; ++i)
+    for (const side of shownSides()) {
+      if (wanted) return;
+      busySince = performance.now();
+      const { ms } = await ask("draw", { side, name: lessonName, model, settings: sides[side], size: wholeSize() });
+      times[side].push(ms);
+    }
+  for (const side of shownSides()) pictures[side].ms = pictures[side].wholeMs = median(times[side]);
+  if (!wanted) report(changed);
+}
+
+const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
+
+function put(canvas, { pixels, size }) {
+  [canvas.width, canvas.height] = size;
+  canvas.getContext("2d").putImageData(new ImageData(pixels, ...size), 0, 0);
+}
+
+/** How much two pictures differ: the root of the mean square, in codes, and the share of pixels. */
+function differenceOf([left, right]) {
+  const enlarged = new Uint8ClampedArray(left.pixels.length);
+  let squares = 0;
+  let pixels = 0;
+  for (let i = 0; i < enlarged.length; i += 4) {
+    let isOther = false;
+    for (let c = i; c < i + 3; ++c) {
+      const difference = Math.abs(left.pixels[c] - right.pixels[c]);
+      squares += difference * difference;
+      isOther ||= difference > 0;
+      enlarged[c] = gain * difference;
+    }
+    enlarged[i + 3] = 255;
+    if (isOther) ++pixels;
+  }
+  return { rms: Math.sqrt((squares / enlarged.length) * (4 / 3)), share: (4 * pixels) / enlarged.length, pixels: enlarged, size: left.size };
+}
+
+function show() {
+  if (mode === "difference") put(canvases[0], differenceOf(pictures));
+  else put(canvases[0], pictures[0]);
+  if (mode === "compare") put(canvases[1], pictures[1]);
+  canvases[1].hidden = handle.hidden = mode !== "compare";
+  tags.forEach((tag, i) => {
+    tag.textContent = differing(i);
+    tag.hidden = mode !== "compare" || tag.textContent === "";
+  });
+  placeSplit();
+  stage.hidden = false;
+  if (still) still.hidden = true;
+}
+
+/** In what a side differs from the other one, in words. */
+function differing(side) {
+  return lesson.controls
+    .map(({ name, preset }) => [name, sides[side][name] ?? preset, sides[1 - side][name] ?? preset])
+    .filter(([, own, other]) => own !== other)
+    .map(([name, own]) => `${bare(name)} ${own}`)
+    .join(", ");
+}
+
+function placeSplit() {
+  stage.style.setProperty("--split", `${handle.value}%`);
+}
+
+function say(text, isWrong = false) {
+  status.textContent = text;
+  status.classList.toggle("wrong", isWrong);
+}
+
+const inMs = (ms) => `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`;
+
+function report(changed) {
+  const [left, right] = pictures;
+  const words = [`${left.size.join(" × ")} pixels in ${inMs(left.ms)}`];
+  if (isCompared()) {
+    const { rms, share } = differenceOf(pictures);
+    words[0] = `Left ${inMs(left.ms)}, right ${inMs(right.ms)}.`;
+    words.push(share === 0 ? "No pixel differs." : `${percent(share)} of the pixels differ, by ${rms.toPrecision(2)} of 255 (RMS of all).`);
+  } else words[0] += " in this browser, by one thread.";
+  if (changed && (isCompared() ? left.isSame && right.isSame : left.isSame))
+    words.push(`${changed} changes no pixel. ${whyNoChange[changed] ?? "Nothing in this picture asks for it."}`);
+  say(words.join(" "));
+  printed.textContent = left.printed;
+  printed.hidden = left.printed === "";
+}
+
+const percent = (share) => `${(100 * share).toPrecision(share < 0.01 ? 1 : 2)} %`;
+
+// --- Controls
+
+const bare = (name) => name.replace(/^--/, "");
+
+/** One control for one side. */
+function inputOf(control, side) {
+  const value = sides[side][control.name] ?? control.preset;
+  const label = `${bare(control.name)}${isCompared() ? (side === 0 ? ", left" : ", right") : ""}: ${control.help}`;
+  let input;
+  if (control.kind === "choice")
+    input = element("select", {}, ...control.words.map((word) => element("option", { textContent: word, selected: word === value })));
+  else if (control.kind === "flag") input = element("input", { type: "checkbox", checked: value === "true" });
+  else if (control.kind === "number")
+    input = element("input", { type: "number", value, min: control.least, max: control.most, step: control.isWhole ? 1 : "any" });
+  else input = element("input", { type: "text", value });
+  input.disabled = control.name in unavailable;
+  input.title = unavailable[control.name] ?? control.help;
+  input.onchange = () => {
+    const chosen = input.type === "checkbox" ? String(input.checked) : input.value;
+    setOption(side, control, chosen);
+    if (!isCompared()) setOption(1, control, chosen);
+    changed(control.name);
+  };
+  return labelled(input, label);
+}
+
+function setOption(side, control, value) {
+  if (value === control.preset || value === "") delete sides[side][control.name];
+  else sides[side][control.name] = value;
+}
+
+/** The group that an option belongs to: of groups, the index. */
+function groupOf({ name }) {
+  if (viewOptions.includes(name)) return 1;
+  const from = Object.keys(inherited).find((number) => inherited[number].split(" ").includes(bare(name)));
+  return from && from < lessonName.slice(0, 2) ? 2 : 0;
+}
+
+function buildOptions() {
+  groups.forEach((group, i) => {
+    const options = lesson.controls.filter((control) => groupOf(control) === i);
+    group.hidden = options.length === 0;
+    const box = group.lastElementChild;
+    box.classList.toggle("compared", isCompared());
+    const heads = isCompared() ? [element("div", { className: "option" }, ...["", "left", "right"].map((textContent) => element("span", { textContent })))] : [];
+    box.replaceChildren(...heads, ...options.map((control) => {
+      const why = unavailable[control.name] ?? (i === 0 ? control.help : "");
+      const name = element("span", { className: "name", textContent: bare(control.name), title: control.help });
+      return element("div", { className: "option" }, name, ...shownSides().map((side) => inputOf(control, side)), ...(why ? [element("small", { textContent: why })] : []));
+    }));
+  });
+}
+
+function buildCommands() {
+  commands.replaceChildren(...shownSides().map((i) => {
+    const side = sides[i];
+    const words = [`./lessons/run ${lessonName.slice(0, 2)}`];
+    if (size !== usualSize) words.push(`--size ${size}`);
+    if (model !== lesson.model) words.push(`--model ${model}`);
+    for (const { name, kind } of lesson.controls)
+      if (name in side) words.push(kind === "flag" ? name : `${name} ${/^[\w.,-]+$/.test(side[name]) ? side[name] : `'${side[name]}'`}`);
+    const text = words.join(" ");
+    const copy = labelled(element("button", { type: "button", textContent: "Copy" }), "Copy the command line");
+    copy.onclick = async () => {
+      await navigator.clipboard.writeText(text);
+      copy.textContent = "Copied";
+      setTimeout(() => (copy.textContent = "Copy"), 1500);
+    };
+    return element("div", {}, element("code", { textContent: text }), copy);
+  }));
+}
+
+function buildAll() {
+  modelChoice.value = model;
+  sizeChoice.value = size;
+  modeChoice.value = mode;
+  gainChoice.value = gain;
+  gainLabel.hidden = mode !== "difference";
+  presetLabel.hidden = !isCompared();
+  buildOptions();
+  buildCommands();
+}
+
+/** After any change of the state: the address, the command line, and the picture. */
+function changed(name = "", isMoving = false) {
+  history.replaceState(null, "", addressOf());
+  buildCommands();
+  draw(isMoving, name);
+}
+
+// --- The address
+
+function addressOf() {
+  const pairs = [];
+  if (model !== lesson.model) pairs.push(["model", model]);
+  if (size !== usualSize) pairs.push(["size", size]);
+  for (const { name, preset } of lesson.controls) {
+    const [left, right] = sides.map((side) => side[name] ?? preset);
+    if (left !== preset || (isCompared() && left !== right)) pairs.push([bare(name), left]);
+    if (isCompared() && left !== right) pairs.push(["against", right]);
+  }
+  if (isCompared() && !pairs.some(([name]) => name === "against")) pairs.push(["compare", "yes"]);
+  if (mode === "difference") pairs.push(["difference", gain]);
+  return pairs.length > 0 ? `#${pairs.map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&")}` : location.pathname + location.search;
+}
+
+/** @throws  Says what of the address is wrong. */
+function readAddress() {
+  model = lesson.model;
+  size = usualSize;
+  sides = [{}, {}];
+  mode = "picture";
+  if (!location.hash.includes("=")) return;
+  let last = null;
+  for (const pair of location.hash.slice(1).split("&")) {
+    const [name, ...rest] = pair.split("=");
+    const value = decodeURIComponent(rest.join("="));
+    const control = lesson.controls.find((each) => each.name === `--${name}`);
+    if (name === "model" && models.includes(value)) model = value;
+    else if (name === "size" && sizes.includes(value)) size = value;
+    else if (name === "compare") mode = "compare";
+    else if (name === "difference" && [1, 2, 4, 8, 16, 32, 64].includes(+value)) [mode, gain] = ["difference", +value];
+    else if (name === "against" && last) {
+      setOption(1, last, value);
+      if (mode === "picture") mode = "compare";
+    } else if (control && !(control.name in unavailable)) {
+      setOption(0, control, value);
+      setOption(1, control, value);
+      last = control;
+    } else throw new Error(`The address asks for ${pair}, which this page does not have.`);
+  }
+}
+
+function takeAddress() {
+  try {
+    readAddress();
+    buildAll();
+    draw();
+  } catch (error) {
+    buildAll();
+    say(error.message, true);
+    place.dataset.state = "failed";
+  }
+}
+
+// --- Turning by pointer and keys
+
+function turn(right, up, nearer = 0) {
+  const orbit = (name) => lesson.controls.find((control) => control.name === name);
+  if (!orbit("--yaw")) return;
+  for (const side of [0, 1]) {
+    const add = (name, amount, factor = 1) => {
+      const control = orbit(name);
+      const value = +(sides[side][name] ?? control.preset) * factor + amount;
+      const digits = name === "--distance" ? 3 : 1;
+      setOption(side, control, String(+Math.min(Math.max(value, control.least), control.most).toFixed(digits)));
+    };
+    add("--yaw", -right);
+    add("--pitch", up);
+    if (nearer !== 0) add("--distance", 0, Math.exp(-nearer));
+  }
+  changed("", true);
+}
+
+const pointers = new Map();
+let pinch = 0;
+canvases.forEach((canvas) => {
+  canvas.tabIndex = 0;
+  canvas.setAttribute("role", "img");
+});
+stage.addEventListener("pointerdown", (event) => {
+  if (event.target === handle) return;
+  pointers.set(event.pointerId, event);
+  stage.setPointerCapture(event.pointerId);
+  pinch = 0;
+});
+stage.addEventListener("pointermove", (event) => {
+  const before = pointers.get(event.pointerId);
+  if (!before) return;
+  pointers.set(event.pointerId, event);
+  if (pointers.size === 2) {
+    const [a, b] = [...pointers.values()];
+    const apart = Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+    if (pinch > 0 && apart > 0) turn(0, 0, Math.log(apart / pinch));
+    pinch = apart;
+  } else {
+    const degrees = 200 / stage.clientWidth;  // a picture's width
+    turn((event.clientX - before.clientX) * degrees, (event.clientY - before.clientY) * degrees);
+  }
+});
+for (const end of ["pointerup", "pointercancel"])
+  stage.addEventListener(end, (event) => {
+    pointers.delete(event.pointerId);
+    if (lesson && pointers.size === 0) buildOptions();
+  });
+stage.addEventListener("wheel", (event) => {
+  if (!stage.contains(document.activeElement)) return;  // the page scrolls
+  event.preventDefault();
+  turn(0, 0, -event.deltaY / 800);
+}, { passive: false });
+stage.addEventListener("keydown", (event) => {
+  const steps = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5], "+": [0, 0, 0.1], "-": [0, 0, -0.1] };
+  const step = event.target !== handle && steps[event.key];
+  if (!step) return;
+  event.preventDefault();
+  turn(...step);
+});
+
+handle.oninput = placeSplit;
+stop.onclick = startWorker;
+modelChoice.onchange = () => {
+  model = modelChoice.value;
+  changed();
+};
+sizeChoice.onchange = () => {
+  size = sizeChoice.value;
+  changed();
+};
+modeChoice.onchange = () => {
+  mode = modeChoice.value;
+  buildAll();
+  changed();
+};
+gainChoice.onchange = () => {
+  gain = +gainChoice.value;
+  changed();
+};
+presets.onchange = () => {
+  const view = Object.fromEntries(Object.entries(sides[0]).filter(([name]) => ["--yaw", "--pitch", "--distance", "--fov", "--camera"].includes(name)));
+  if (presets.value === "lesson") sides[1] = view;
+  if (presets.value === "samples") sides[1] = { ...sides[0], "--samples": "16" };
+  presets.value = "";
+  buildOptions();
+  changed();
+};
+reset.onclick = () => {
+  history.replaceState(null, "", location.pathname + location.search);
+  takeAddress();
+};
+addEventListener("hashchange", () => lesson && takeAddress());
+
+async function begin() {
+  if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function") {
+    say("This browser has no WebAssembly, or cannot unpack what is compressed: the picture stands still.", true);
+    place.dataset.state = "failed";
+    return;
+  }
+  try {
+    startWorker();
+    lesson = await give("lesson", lessonName);
+    place.append(bar, ...groups, commands);
+    const canTurn = lesson.controls.some(({ name }) => name === "--yaw");
+    stage.classList.toggle("turns", canTurn);
+    const label = `The lesson's picture, drawn here${canTurn ? "; the arrow keys turn it, + and - go nearer and farther" : ""}`;
+    canvases.forEach((canvas) => labelled(canvas, label));
+    takeAddress();
+  } catch (error) {
+    say(error.message, true);
+    place.dataset.state = "failed";
+  }
+}
+
+place.append(stage, element("div", { className: "said" }, status, stop), printed);
+begin();
