@@ -136,7 +136,7 @@ class Site:
             if formula := found["inline"] or found["math"]:
                 return f"\\htmlonly\\({html.escape(formula)}\\)\\endhtmlonly"
             if found["comment"]:
-                return ""
+                return live_figure(found["comment"])
             if found["summary"]:
                 return html_only(f"<details><summary>{found['summary']}</summary>")
             if found["end"]:
@@ -177,6 +177,19 @@ def with_anchor(heading: re.Match[str]) -> str:
 def title(page: Page) -> str:
     """The first line of a text, without its "# "."""
     return page.text.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
+
+
+def live_figure(comment: str) -> str:
+    """The place of a figure that docs/live/figures/make compiles; nothing for other comments."""
+    name = re.fullmatch(r"<!-- figure: (\w+) -->", comment)
+    if not name or not shutil.which("clang++-19"):
+        return ""
+    return html_only(
+        f'<div class="figure" data-name="{name[1]}"></div>\n'
+        '<link rel="stylesheet" href="live/figure.css">'
+        '<script src="live/figure.js" defer></script>'
+        f'<script src="live/figure_{name[1]}.js" defer></script>'
+    )
 
 
 def html_only(code: str) -> str:

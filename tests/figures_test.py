@@ -1,0 +1,146 @@
+"""Drags the live figures of the built site in headless Chromium: figures_test.py SITE_FOLDER.
+
+Each figure is opened at desk and phone width. Every handle has to answer the pointer and the
+keyboard, every control has to change the picture, and the values shown first are those of the
+texts' examples. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED
+is set.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+from site_test import ROOT, WIDTHS, check_log, skip, start_browser
+
+# What a figure's readout says at first: numbers of the derivation beside it.
+EXAMPLES = {
+    "edge_functions": "p = (2.5, 2.5) Ebc = 4 Eca = 6 Eab = 6 2A = 16",
+}
+
+LIVE = """return document.querySelector(".figure.live") !== null &&
+    document.querySelector(".figure .drawing").childElementCount > 0"""
+STILL = """const still = [...document.querySelectorAll(".contents img")].filter(
+  (image) => image.compareDocumentPosition(document.querySelector(".figure")) & 4).pop();
+return still.getClientRects().length > 0;"""
+DRAWN = """const figure = document.querySelector(".figure figure");
+return figure.querySelector(".drawing").innerHTML + figure.querySelector(".readout").innerHTML;"""
+TOO_WIDE = """return [...document.querySelectorAll(".figure svg *")].filter((it) => {
+  const { left, right } = it.getBoundingClientRect();
+  return it.closest(".reach, .handle, defs") === null && (left < 0 || right > innerWidth);
+}).map((it) => it.outerHTML.slice(0, 80));"""
+# Every control in turn; what it changes is compared with what was drawn before it.
+NEXT_VALUE = """const control = arguments[0];
+if (control.type === "range") control.value = +control.value + (control.max - control.min) / 3;
+if (control.type === "range" && arguments[1]) control.value = control.min;
+else if (control.type !== "range") control.click();
+control.dispatchEvent(new Event("input"));"""
+
+
+def figures() -> dict[str, str]:
+    """Each figure's page, by the marks in the derivations."""
+    return {
+        name: f"derivation_{text.name[:2]}.html"
+        for text in sorted(ROOT.glob("docs/derivations/*.md"))
+        for name in re.findall(r"<!-- figure: (\w+) -->", text.read_text(encoding="utf-8"))
+    }
+
+
+class Figure:
+    """A figure in an open page."""
+
+    def __init__(self, browser, page: Path, width: str) -> None:
+        from selenium.webdriver.support.ui import WebDriverWait
+
+        columns, rows = WIDTHS[width]
+        metrics = {"width": columns, "height": rows, "deviceScaleFactor": 1, "mobile": False}
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+        browser.get(page.as_uri())
+        WebDriverWait(browser, 10).until(lambda _: browser.execute_script(LIVE))
+        self.browser = browser
+
+    def all(self, selector: str) -> list:
+        return self.browser.find_elements("css selector", f".figure {selector}")
+
+    def changed_by(self, action) -> bool:
+        before = self.browser.execute_script(DRAWN)
+        action()
+        return self.browser.execute_script(DRAWN) != before
+
+    def drag(self, handle, x: int, y: int) -> None:
+        from selenium.webdriver import ActionChains
+
+        self.browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", handle)
+        knob = handle.find_element("css selector", ".knob")
+        ActionChains(self.browser, 0).click_and_hold(knob).move_by_offset(x, y).release().perform()
+
+    def press(self, handle, keys: list[str]) -> None:
+        for key in keys:
+            handle.send_keys(key)
+
+
+def check_figure(browser, name: str, page: Path, width: str) -> list[str]:
+    from selenium.webdriver.common.keys import Keys
+
+    figure = Figure(browser, page, width)
+    problems = []
+    if browser.execute_script(STILL):
+        problems.append("the still picture stays beside it")
+    shown = " ".join(figure.all(".readout")[0].text.split())
+    if EXAMPLES[name] not in shown:
+        problems.append(f"shows {shown!r}, not {EXAMPLES[name]!r}")
+    problems += [f"is too wide: {shape}" for shape in browser.execute_script(TOO_WIDE)]
+    ways = {"sideways": (-40, 0), "down": (0, 40)}
+    keys = {"back": [Keys.ARROW_RIGHT] * 2, "up": [Keys.ARROW_UP] * 2}
+    for handle in figure.all(".handle"):
+        label = handle.get_attribute("aria-label")
+        if not any([figure.changed_by(lambda: figure.drag(handle, *way)) for way in ways.values()]):
+            problems.append(f"the pointer does not move {label!r}")
+        if not any([figure.changed_by(lambda: figure.press(handle, key)) for key in keys.values()]):
+            problems.append(f"the keyboard does not move {label!r}")
+    for control in figure.all("input:not(:checked)"):
+        changes = [
+            figure.changed_by(lambda: browser.execute_script(NEXT_VALUE, control, to_the_least))
+            for to_the_least in (False, True)
+        ]
+        if not any(changes):
+            text = control.find_element("xpath", "./..").text
+            problems.append(f"{text!r} changes nothing")
+    return [f"{name}, {width}: {problem}" for problem in problems]
+
+
+def check_without_webassembly(browser, pages: list[Path]) -> list[str]:
+    """The still pictures stay."""
+    script = {"source": "delete window.WebAssembly"}
+    browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", script)
+    problems = []
+    for page in pages:
+        browser.get(page.as_uri())
+        if not browser.execute_script(STILL):
+            problems.append(f"{page.name}: no still picture without WebAssembly")
+        problems += check_log(browser, f"{page.name} without WebAssembly")
+    return problems
+
+
+def main() -> None:
+    site = Path(sys.argv[1]).resolve()
+    browser = start_browser(site)
+    if not (site / "live/figure.js").exists():
+        skip("the figures are not compiled; that takes clang++-19 when the site is built")
+    pages = {name: site / page for name, page in figures().items()}
+    problems = []
+    try:
+        for name, page in pages.items():
+            for width in WIDTHS:
+                problems += check_figure(browser, name, page, width)
+                problems += check_log(browser, f"{name}, {width}")
+        problems += check_without_webassembly(browser, list(pages.values()))
+    finally:
+        browser.quit()
+    for problem in problems:
+        print(problem)
+    print(f"{len(pages)} figures at two widths; {len(problems)} problems")
+    sys.exit(1 if problems or not pages else 0)
+
+
+if __name__ == "__main__":
+    main()
