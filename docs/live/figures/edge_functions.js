@@ -98,7 +98,7 @@ figure("edge_functions", (code) => {
       {
         label: "Show",
         value: shown,
-        options: { coverage: "Coverage", bc: names[0], ca: names[1], ab: names[2] },
+        options: [["coverage", "Coverage"], ["bc", names[0]], ["ca", names[1]], ["ab", names[2]]],
         set: (value) => (shown = value),
       },
     ],

@@ -43,7 +43,7 @@ async function instantiate(name) {
   return instance.exports;
 }
 
-// Puts the live figure of this name after the still picture, which then goes.
+// Puts the live figure of this name into its place; the still picture before it then goes.
 //
 // describe(code) gives, `code` being what NAME.cpp exports:
 //   caption
@@ -52,7 +52,7 @@ async function instantiate(name) {
 //   draw(layout)   the picture as SVG
 //   readout()      what stands below the picture, item by item
 //   handles        [{ name, at(), move(x, y), text(), step, letter }]: a point that can be dragged, in the figure's units
-//   controls       [{ label, value, set(value), options }] or, for a slider, { label, value, set, min, max, step, text }
+//   controls       [{ label, value, set(value), options: [[value, text], ...] }] or, for a slider, { label, value, set, min, max, step, text }
 async function figure(name, describe) {
   const place = document.querySelector(`.figure[data-name="${name}"]`);
   if (!place || !window.WebAssembly || !window.DecompressionStream) return;  // the still picture stays
@@ -83,10 +83,8 @@ async function figure(name, describe) {
   place.append(box);
   fit();
   new ResizeObserver(fit).observe(svg);
-  const before = [...document.querySelectorAll(".contents img")].filter(
-    (image) => image.compareDocumentPosition(place) & Node.DOCUMENT_POSITION_FOLLOWING,
-  );
-  before.pop()?.classList.add("replaced");
+  const still = place.previousElementSibling?.querySelector(":scope > img:only-child");
+  still?.classList.add("replaced");
   place.classList.add("live");
 }
 
@@ -144,7 +142,7 @@ function addControl(controls, control, draw) {
   if (control.options) {
     const group = document.createElement("fieldset");
     group.innerHTML = `<legend>${control.label}</legend>`;
-    for (const [value, text] of Object.entries(control.options)) {
+    for (const [value, text] of control.options) {
       const option = document.createElement("label");
       option.innerHTML = `<input type="radio" value="${value}"><span>${text}</span>`;
       const radio = option.firstElementChild;
