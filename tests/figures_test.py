@@ -16,6 +16,7 @@ from site_test import ROOT, WIDTHS, check_log, skip, start_browser
 EXAMPLES = {
     "line_methods": "k = 7 r = 2.5 e = 14 ≤ Δx = 14 so j = 2, e = 14 float y = 2.5000002",
     "edge_functions": "p = (2.5, 2.5) Ebc = 4 Eca = 6 Eab = 6 2A = 16",
+    "shadow_bias": "light 38° above the floor bias of the floor: 0.0342 × 0 = 0",
 }
 
 LIVE = """return document.querySelector(".figure.live") !== null &&

@@ -16,6 +16,13 @@ function segment([x1, y1], [x2, y2], kind) {
   return shape("line", { x1, y1, x2, y2, class: kind });
 }
 
+function arrow([x1, y1], [x2, y2], kind) {
+  const angle = (Math.atan2(y2 - y1, x2 - x1) * 180) / Math.PI;
+  const tip = shape("path", { d: "M0 0L-10 4.5V-4.5Z", transform: `translate(${x2},${y2}) rotate(${angle})`, class: `mark ${kind}` });
+  const length = Math.hypot(x2 - x1, y2 - y1), share = Math.max(length - 8, 0) / (length || 1);
+  return segment([x1, y1], [x1 + (x2 - x1) * share, y1 + (y2 - y1) * share], `rule ${kind}`) + tip;
+}
+
 function dot([cx, cy], r, kind) {
   return shape("circle", { cx, cy, r, class: kind });
 }
