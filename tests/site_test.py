@@ -140,8 +140,8 @@ def check_log(browser, after: str) -> list[str]:
     return problems
 
 
-def main() -> None:
-    site = Path(sys.argv[1]).resolve()
+def start_browser(site: Path):
+    """Chromium without a window, if all is there that it takes."""
     try:
         from selenium import webdriver
         from selenium.webdriver.chrome.service import Service
@@ -152,14 +152,18 @@ def main() -> None:
         skip("chromium and chromium-driver are not installed")
     if not (site / "index.html").exists():
         skip("the site is not built; cmake --build --preset release --target docs builds it")
-
-    problems = check_links(site)
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    browser = webdriver.Chrome(options=options, service=Service(driver))
+    return webdriver.Chrome(options=options, service=Service(driver))
+
+
+def main() -> None:
+    site = Path(sys.argv[1]).resolve()
+    browser = start_browser(site)
+    problems = check_links(site)
     files = sorted(site.glob("*.html"))
     pages = [file for file in files if re.fullmatch(f"{TEXTS}|{CODE}", file.stem)]
     try:

@@ -120,13 +120,25 @@ class Site:
         shutil.copy(file, self.site)
         return f'<img src="{file.name}" alt="{html.escape(alt)}"/>'
 
-    def comparison(self, page: Page, comment: str) -> str:
-        """A link to what `compare: OPTIONS | in words` says, in the picture of the page's lesson."""
-        asked = re.fullmatch(r"<!-- compare: (\S+) \| (.+) -->", comment)
-        if not asked or not self.is_live:
+    def live(self, page: Page, comment: str) -> str:
+        """What a comment asks for where pages draw: a figure, or a link to a comparison.
+
+        `figure: NAME` is docs/live/figures/NAME; `compare: OPTIONS | in words` are options of the
+        page's lesson.
+        """
+        if not self.is_live:
             return ""
-        address = f"lesson_{page.name[-2:]}.html#{html.escape(asked[1])}"
-        return html_only(f'<p class="compare"><a href="{address}">Compare</a> {asked[2]}</p>')
+        if name := re.fullmatch(r"<!-- figure: (\w+) -->", comment):
+            return html_only(
+                f'<div class="figure" data-name="{name[1]}"></div>\n'
+                '<link rel="stylesheet" href="live/figure.css">'
+                '<script src="live/figure.js" defer></script>'
+                f'<script src="live/figure_{name[1]}.js" defer></script>'
+            )
+        if asked := re.fullmatch(r"<!-- compare: (\S+) \| (.+) -->", comment):
+            address = f"lesson_{page.name[-2:]}.html#{html.escape(asked[1])}"
+            return html_only(f'<p class="compare"><a href="{address}">Compare</a> {asked[2]}</p>')
+        return ""
 
     def write(self, name: str, text: str) -> None:
         (self.pages / f"{name}.md").write_text(text, encoding="utf-8")
@@ -145,7 +157,7 @@ class Site:
             if formula := found["inline"] or found["math"]:
                 return f"\\htmlonly\\({html.escape(formula)}\\)\\endhtmlonly"
             if found["comment"]:
-                return self.comparison(page, found["comment"])
+                return self.live(page, found["comment"])
             if found["summary"]:
                 return html_only(f"<details><summary>{found['summary']}</summary>")
             if found["end"]:
