@@ -82,7 +82,7 @@ def check_links(site: Path) -> list[str]:
                     problems.append(f"{name}: loads from elsewhere: {target}")
             elif not (site / file).exists():
                 problems.append(f"{name}: a dead link: {target}")
-            elif url.fragment and file in pages and url.fragment not in pages[file].anchors:
+            elif url.fragment and "=" not in url.fragment and file in pages and url.fragment not in pages[file].anchors:
                 problems.append(f"{name}: a link to no anchor: {target}")
     for script in ("navtreedata.js", "menudata.js"):
         # But for Doxygen's own list of where parts of the tree begin.
@@ -126,7 +126,7 @@ def formulas_of(page: Path) -> str:
     return re.sub(r'<div class="line">.*?</div>|<(code|pre)\b.*?</\1>', "", text, flags=re.DOTALL)
 
 
-def check_log(browser, after: str) -> list[str]:
+def check_log(browser, after: str, hosts: tuple[str, ...] = ("file:",)) -> list[str]:
     """What the browser noted since last asked: errors, requests that failed or left the site."""
     problems = [f"{after}: {entry['message']}" for entry in browser.get_log("browser")]
     for entry in browser.get_log("performance"):
@@ -135,7 +135,7 @@ def check_log(browser, after: str) -> list[str]:
             problems.append(f"{after}: a request failed: {event['params']['errorText']}")
         elif event["method"] == "Network.requestWillBeSent":
             url = event["params"]["request"]["url"]
-            if not url.startswith(("file:", "data:")):
+            if not url.startswith((*hosts, "data:", "blob:", "about:")):
                 problems.append(f"{after}: asks another host: {url}")
     return problems
 

@@ -82,9 +82,9 @@ let waiting = new Map();  // by id: what takes the answer
 let lastId = 0;
 let given = new Map();  // by name: what a worker has to be given first
 
-function startWorker() {
+function startWorker(whyStopped) {
   worker?.terminate();
-  for (const { reject } of waiting.values()) reject(new Error("Stopped."));
+  for (const { reject } of waiting.values()) reject(new Error(whyStopped));
   waiting.clear();
   given.clear();
   worker = new Worker(url);
@@ -96,8 +96,7 @@ function startWorker() {
   };
   worker.onerror = (event) => {
     event.preventDefault();
-    startWorker();
-    say("The part of the page that draws has ended. Any change starts it again.", true);
+    startWorker("The part of the page that draws has ended; any change starts it again.");
   };
 }
 
@@ -144,7 +143,8 @@ let busySince = 0;
 function draw(isMoving = false, changed = "") {
   clearTimeout(whole);
   wanted = { isMoving, changed };
-  if (isBusy && performance.now() - busySince > 3000) startWorker();  // not for what nobody waits for
+  place.dataset.state = "drawing";
+  if (isBusy && performance.now() - busySince > 3000) startWorker("Stopped.");  // not for what nobody waits for
   if (!isBusy) drawWanted();
 }
 
@@ -170,7 +170,6 @@ async function drawWanted() {
     say("Drawing …");
     stop.hidden = false;
   }, 700);
-  place.dataset.state = "drawing";
   try {
     await give("lesson", lessonName);
     await give("scene", model);
@@ -187,12 +186,14 @@ async function drawWanted() {
     stop.hidden = true;
     show();
     if (!isMoving) report(changed);
-    place.dataset.state = isMoving ? "moving" : "ready";
+    if (!wanted) place.dataset.state = isMoving ? "moving" : "ready";
     if (isMoving) whole = setTimeout(draw, 200);
     else await timeAgain(changed);
   } catch (error) {
-    say(error.message, true);
-    place.dataset.state = "failed";
+    if (!wanted) {
+      say(error.message, true);
+      place.dataset.state = "failed";
+    }
   }
   clearTimeout(slow);
   stop.hidden = true;
@@ -219,7 +220,7 @@ const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
 
 function put(canvas, { pixels, size }) {
   [canvas.width, canvas.height] = size;
-  canvas.getContext("2d").putImageData(new ImageData(pixels, ...size), 0, 0);
+  canvas.getContext("2d", { willReadFrequently: true }).putImageData(new ImageData(pixels, ...size), 0, 0);
 }
 
 /** How much two pictures differ: the root of the mean square, in codes, and the share of pixels. */
@@ -501,7 +502,7 @@ stage.addEventListener("keydown", (event) => {
 });
 
 handle.oninput = placeSplit;
-stop.onclick = startWorker;
+stop.onclick = () => startWorker("Stopped.");
 modelChoice.onchange = () => {
   model = modelChoice.value;
   changed();

@@ -1,0 +1,273 @@
+"""Runs the lessons in their pages, in headless Chromium: live_test.py SITE_FOLDER BUILD_FOLDER.
+
+Every lesson's page is opened from the folder and from a server and has to draw the bytes that the
+program draws; every control has to change the picture, or to say why not; what goes wrong has to
+end in a sentence. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED
+is set.
+"""
+
+import functools
+import hashlib
+import http.server
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+from pathlib import Path
+
+from site_test import ROOT, WIDTHS, check_log, skip, start_browser
+
+LESSONS = sorted(folder.name for folder in (ROOT / "lessons").iterdir() if folder.is_dir())
+
+STATE = 'return document.querySelector(".live")?.dataset.state'
+STATUS = 'return document.querySelector(".live .status").textContent'
+PIXELS = """const canvas = document.querySelector(".live canvas");
+const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+const rgb = new Uint8Array(pixels.length / 4 * 3);
+for (let i = 0, j = 0; i < pixels.length; i += 4)
+  for (let c = 0; c < 3; ++c) rgb[j++] = pixels[i + c];
+return crypto.subtle.digest("SHA-256", rgb).then((hash) =>
+  [...new Uint8Array(hash)].map((byte) => byte.toString(16).padStart(2, "0")).join(""));"""
+# Another value than the control has now, as a reader would choose it.
+CHANGE = """const control = arguments[0];
+if (control.tagName === "SELECT") control.selectedIndex = (control.selectedIndex + 1) % control.length;
+else if (control.type === "checkbox") control.checked = !control.checked;
+else if (control.type === "number") {
+  const value = +control.value;
+  const other = control.step === "1" ? Math.floor(value / 2) : value * 0.8 + 3;
+  control.value = Math.min(Math.max(other, +control.min), +control.max);
+} else control.value = arguments[1];
+control.dispatchEvent(new Event("change"));"""
+CONTROLS = '.live .option :is(select, input):not([disabled])'
+# What a browser may lack, as scripts that run before those of the page.
+LACKS = {
+    "WebAssembly": ("delete window.WebAssembly;", "no WebAssembly"),
+    "SIMD": (
+        """const Own = Blob;
+window.Blob = class extends Own { constructor(parts, options) {
+  const prefix = "WebAssembly.compile = () => Promise.reject(new WebAssembly.CompileError('no such opcode'));";
+  super(options?.type === "text/javascript" ? [prefix, ...parts] : parts, options); } };""",
+        "SIMD",
+    ),
+    "a worker": (
+        """window.Worker = class { constructor() { setTimeout(() => this.onerror?.(new Event("error")), 100); }
+  postMessage() {} terminate() {} };""",
+        "has ended",
+    ),
+}
+# What an address may ask for in vain, and a part of what is said of it.
+BAD_ADDRESSES = {
+    "lesson_05.html#filter=cubic": "'cubic' is not one of nearest, bilinear, trilinear",
+    "lesson_05.html#fov=171": "'171' is not a number from 1 to 170",
+    "lesson_05.html#pitch=steep": "'steep' is not a number from -90 to 90",
+    "lesson_05.html#colour=red": "colour=red, which this page does not have",
+    "lesson_05.html#model=../secret.obj": "which this page does not have",
+    "lesson_11.html#camera=nobody": "there is no camera 'nobody'",
+    "lesson_11.html#samples=64&shadow-size=8192&size=1920x1080": "not enough memory",
+}
+
+
+def native_bytes(build: Path, lesson: str) -> str:
+    """The hash of the pixels that the program draws, row by row from the top."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "picture.bmp"
+        subprocess.run([build / lesson, "--out", file], check=True, stdout=subprocess.DEVNULL)
+        pixels = file.read_bytes()[54:]
+    row = 3 * 1280
+    rows = [bytearray(pixels[at : at + row]) for at in range(0, len(pixels), row)]
+    for each in rows:
+        each[0::3], each[2::3] = each[2::3], each[0::3]  # blue, green, red
+    return hashlib.sha256(b"".join(reversed(rows))).hexdigest()
+
+
+class QuietServer(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_: object) -> None:
+        pass
+
+
+class LivePage:
+    """A lesson's page in a browser."""
+
+    def __init__(self, browser) -> None:
+        self.browser = browser
+
+    def open(self, address: str) -> None:
+        self.browser.get("about:blank")  # else a change after # would not load the page anew
+        self.browser.get(address)
+        self.wait()
+
+    def go(self, options: str) -> None:
+        """To other options, in the same page."""
+        script = 'document.querySelector(".live").dataset.state = "asked"; location.hash = arguments[0]'
+        self.browser.execute_script(script, options)
+        self.wait()
+
+    def wait(self) -> None:
+        """Until a picture is drawn in full, or something is wrong."""
+        from selenium.webdriver.support.ui import WebDriverWait
+
+        WebDriverWait(self.browser, 120, 0.02).until(
+            lambda _: self.browser.execute_script(STATE) in ("ready", "failed")
+        )
+
+    @property
+    def status(self) -> str:
+        return self.browser.execute_script(STATUS)
+
+    @property
+    def pixels(self) -> str:
+        return self.browser.execute_script(PIXELS)
+
+    def all(self, selector: str) -> list:
+        return self.browser.find_elements("css selector", selector)
+
+
+def check_bytes(page: LivePage, address: str, lesson: str, expected: str) -> list[str]:
+    page.open(f"{address}/lesson_{lesson[:2]}.html")
+    if page.pixels != expected:
+        return [f"does not draw the program's bytes: {page.status}"]
+    return []
+
+
+def check_controls(page: LivePage, address: str, lesson: str) -> list[str]:
+    """Each control by itself, from the lesson's presets."""
+    problems = []
+    page.open(f"{address}/lesson_{lesson[:2]}.html#size=480x270")
+    usual = page.pixels
+    names = [name.text for name in page.all(".live .option .name")]
+    if len(names) < 2:
+        problems.append(f"has {len(names)} controls")
+    count = len(page.all(CONTROLS))
+    for i in range(count):
+        control = page.all(CONTROLS)[i]
+        label = control.get_attribute("aria-label")
+        page.browser.execute_script(CHANGE, control, "fit")
+        page.wait()
+        if page.pixels == usual and "changes no pixel." not in page.status:
+            problems.append(f"{label}: changes nothing, and does not say why: {page.status}")
+        if "#" not in page.browser.current_url.replace("#size=480x270", ""):
+            option = re.match(r"[\w-]+", label)[0]
+            if f"{option}=" not in page.browser.current_url:
+                problems.append(f"{label}: is not in the address")
+        page.go("size=480x270")
+        if page.pixels != usual:
+            problems.append(f"{label}: the address does not take it back")
+    for control in page.all(".live .option [disabled]"):
+        if not control.find_element("xpath", "..").find_elements("tag name", "small"):
+            problems.append(f"{control.get_attribute('aria-label')}: cannot be used, without a reason")
+    return problems
+
+
+def check_keys(page: LivePage, address: str) -> list[str]:
+    from selenium.webdriver.common.keys import Keys
+
+    problems = []
+    page.open(f"{address}/lesson_05.html#size=480x270")
+    for keys, option in ((Keys.ARROW_RIGHT, "yaw"), (Keys.ARROW_UP, "pitch"), ("+", "distance")):
+        before = page.pixels
+        page.all(".live canvas")[0].send_keys(keys)
+        page.wait()
+        if f"{option}=" not in page.browser.current_url or page.pixels == before:
+            problems.append(f"the keys do not change {option}")
+    command = page.all(".live .commands code")[0].text
+    if command != "./lessons/run 05 --size 480x270 --yaw -35 --pitch 32 --distance 1.267":
+        problems.append(f"shows the command line '{command}'")
+    return problems
+
+
+def check_comparison(page: LivePage, address: str) -> list[str]:
+    problems = []
+    for asked, expected in {
+        "filter=nearest&against=trilinear": r"\d+ % of the pixels differ, by [\d.]+ of 255",
+        "filter=trilinear&compare=yes": r"No pixel differs",
+        "filter=nearest&against=trilinear&difference=8": r"% of the pixels differ",
+    }.items():
+        page.open(f"{address}/lesson_05.html#size=480x270&{asked}")
+        if not re.search(expected, page.status):
+            problems.append(f"{asked}: says {page.status}")
+    both = [element.is_displayed() for element in page.all(".live canvas")]
+    if both != [True, False]:
+        problems.append("does not show the difference alone")
+    page.open(f"{address}/lesson_05.html#size=480x270&filter=nearest&against=trilinear")
+    tags = [tag.text for tag in page.all(".live .tag")]
+    if tags != ["filter nearest", "filter trilinear"]:
+        problems.append(f"names what is compared {tags}")
+    return problems
+
+
+def check_links(page: LivePage, site: Path, address: str) -> list[str]:
+    """What the texts compare can be compared, and differs, or is about time alone."""
+    problems = []
+    for text in sorted(site.glob("accuracy_*.html")):
+        found = re.findall(
+            r'href="(lesson_\d\d\.html)#([^"]+)">Compare</a> (.*?)</p>', text.read_text("utf-8")
+        )
+        if not found and text.stem != "accuracy_costs":
+            problems.append(f"{text.name} has no comparison")
+        for lesson, options, words in found:
+            page.open(f"{address}/{lesson}#size=480x270&{options.replace('&amp;', '&')}")
+            if ("RMS" in page.status) == ("the same picture" in words):
+                problems.append(f"{text.name}: {words}: {page.status}")
+    return problems
+
+
+def check_failures(page: LivePage, address: str) -> list[str]:
+    problems = []
+    for asked, sentence in BAD_ADDRESSES.items():
+        page.open(f"{address}/{asked}")
+        if sentence not in page.status:
+            problems.append(f"{asked}: says '{page.status}'")
+        page.go("size=480x270")
+        if "480 × 270 pixels in" not in page.status:
+            problems.append(f"{asked}: draws nothing afterwards: {page.status}")
+    for what, (script, sentence) in LACKS.items():
+        added = page.browser.execute_cdp_cmd(
+            "Page.addScriptToEvaluateOnNewDocument", {"source": script}
+        )
+        page.open(f"{address}/lesson_13.html")
+        page.browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+        if sentence not in page.status:
+            problems.append(f"without {what}: says '{page.status}'")
+        if not page.all(".contents img")[0].is_displayed():
+            problems.append(f"without {what}: the still picture is gone")
+    return problems
+
+
+def main() -> None:
+    site, build = (Path(argument).resolve() for argument in sys.argv[1:])
+    browser = start_browser(site)
+    if not (site / "live").exists():
+        skip("the site's pages do not draw: clang 19 for WebAssembly was missing")
+    handler = functools.partial(QuietServer, directory=site)
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    places = {"from the folder": site.as_uri(), "from a server": f"http://127.0.0.1:{server.server_port}"}
+    folder = places["from the folder"]
+    columns, rows = WIDTHS["desk"]
+    browser.set_window_size(columns, rows)
+    page = LivePage(browser)
+    problems = []
+    try:
+        for lesson in LESSONS:
+            expected = native_bytes(build, lesson)
+            for place, address in places.items():
+                found = check_bytes(page, address, lesson, expected)
+                problems += [f"{lesson}, {place}: {problem}" for problem in found]
+            problems += [f"{lesson}: {problem}" for problem in check_controls(page, folder, lesson)]
+            problems += check_log(browser, lesson, (folder, places["from a server"]))
+        problems += check_keys(page, folder) + check_comparison(page, folder)
+        problems += check_links(page, site, folder)
+        problems += check_log(browser, "comparisons", (folder,))
+        problems += check_failures(page, folder)
+    finally:
+        browser.quit()
+        server.shutdown()
+    for problem in problems:
+        print(problem)
+    print(f"{len(LESSONS)} lessons in their pages; {len(problems)} problems")
+    sys.exit(1 if problems else 0)
+
+
+if __name__ == "__main__":
+    main()
