@@ -68,6 +68,15 @@ BAD_ADDRESSES = {
 }
 
 
+ACCESSIBLE = (
+    "index.html",
+    "lesson_05.html",
+    "lesson_09.html#pcf=1&against=7",
+    "derivation_02.html",
+    "accuracy_05.html",
+)
+
+
 def native_bytes(build: Path, lesson: str) -> str:
     """The hash of the pixels that the program draws, row by row from the top."""
     with tempfile.TemporaryDirectory() as folder:
@@ -234,11 +243,33 @@ def check_failures(page: LivePage, address: str) -> list[str]:
     return problems
 
 
+def check_accessibility(page: LivePage, address: str, axe: str) -> list[str]:
+    """What axe-core calls serious or critical, with all options shown, light and dark."""
+    problems = []
+    for name in ACCESSIBLE:
+        for scheme in ("light", "dark"):
+            media = {"features": [{"name": "prefers-color-scheme", "value": scheme}]}
+            page.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
+            page.browser.get("about:blank")
+            page.browser.get(f"{address}/{name}")
+            if name.startswith("lesson"):
+                page.wait()
+            page.browser.execute_script(axe)
+            page.browser.execute_script("document.querySelectorAll('details').forEach((it) => (it.open = true))")
+            for fault in page.browser.execute_script("return axe.run().then((found) => found.violations)"):
+                if fault["impact"] in ("serious", "critical"):
+                    problems.append(f"{name}, {scheme}: {fault['help']}: {fault['nodes'][0]['html'][:150]}")
+    return problems
+
+
 def main() -> None:
     site, build = (Path(argument).resolve() for argument in sys.argv[1:])
     browser = start_browser(site)
     if not (site / "live").exists():
         skip("the site's pages do not draw: clang 19 for WebAssembly was missing")
+    axe = build / "axe/node_modules/axe-core/axe.min.js"
+    if not axe.exists():
+        skip(f"{axe} is missing: npm install --prefix {build / 'axe'} axe-core")
     handler = functools.partial(QuietServer, directory=site)
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()
@@ -260,6 +291,7 @@ def main() -> None:
         problems += check_links(page, site, folder)
         problems += check_log(browser, "comparisons", (folder,))
         problems += check_failures(page, folder)
+        problems += check_accessibility(page, folder, axe.read_text(encoding="utf-8"))
     finally:
         browser.quit()
         server.shutdown()

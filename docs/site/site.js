@@ -29,3 +29,12 @@ for (const formula of document.querySelectorAll(".contents :not(.katex-display) 
 // A short piece of code stays on one line: "--stats" is not to end a line after its hyphens.
 for (const code of document.querySelectorAll(".textblock code"))
   if (code.textContent.length < 30) code.style.whiteSpace = "nowrap";
+
+// For screen readers and keyboards: what Doxygen leaves without a name or out of reach.
+const nameSearch = () => setTimeout(() => {  // when Doxygen has made the field, which it does at each resize
+  for (const field of document.querySelectorAll("#MSearchField")) field.setAttribute("aria-label", "Search");
+});
+for (const event of ["load", "resize"]) addEventListener(event, nameSearch);
+document.getElementById("doc-content")?.setAttribute("role", "main");
+for (const box of document.querySelectorAll(".fragment, pre.diff, table, .formulaDsp, .katex-display"))
+  if (box.scrollWidth > box.clientWidth) box.tabIndex = 0;
