@@ -16,11 +16,6 @@
 
 #include "common/math/functions.hpp"
 
-// How so many bytes are passed to a function depends on the processor: of no concern within one
-// program.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace rasterbook {
 
 /// N numbers of a type T, as g++ and clang have them for any processor: `+` and the like work on
@@ -352,5 +347,3 @@ inline MaskOf<F> first_lanes(int count) {
 /// GLM's functions take only types that say that they are floating-point numbers.
 template <int N>
 struct std::numeric_limits<rasterbook::Floats<N>> : std::numeric_limits<float> {};
-
-#pragma GCC diagnostic pop
