@@ -314,8 +314,7 @@ TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
                 points.at(dice.below(N)) = {dice.one_in(2) ? -1.0f : 0x1.fffffep-1f,
                                             dice.one_in(2) ? 1.0f : -0x1.fffffep-1f, 0};
             const auto asked = dice.one_in(2) ? (1u << N) - 1 : dice.below(1u << N);
-            Mask<N> mask;
-            for (int i = 0; i < N; ++i) mask.lanes[i] = asked >> i & 1 ? -1 : 0;
+            const auto mask = mask_of_bits<N>(asked);
             const WidePcfKernel<N> actual = pcf_kernel(map, of_lanes, in_lanes<N>(points), mask);
             for (int radius = 0; radius <= max_pcf_radius; ++radius) {
                 const Floats<N> visibility = pcf_visibility(map, radius, actual);
