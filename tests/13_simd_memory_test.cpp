@@ -291,8 +291,36 @@ TEST(Simd, Eq13_7_ABilinearSampleTakesFourTexelsAndNoOthers) {
     });
 }
 
+TEST(Simd, ShadowTestsFollowTheReceiversPlane) {
+    look_up("Shadow tests");
+    // 4 x 4 texels; the plane's depth grows by 1/8 to the right and by 1/4 down. At (1.25, 2.75) it
+    // is 1/2. So at that texel's centre, (1.5, 2.5), it is 1/2 + 1/32 - 1/16 = 15/32.
+    ShadowMap map(mat4(1), false, 4, {vec3(-1), vec3(1)});
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x)
+            map.depths.test_and_write(ivec2(x, y) + max_pcf_radius,
+                                      15.0f / 32 + 0.125f * static_cast<float>(x - 1) +
+                                          0.25f * static_cast<float>(y - 2));
+    for_each_width([&]<int N>() {
+        const Mask<N> all = first_lanes<Floats<N>>(N);
+        WideReceiver<N> receiver{};
+        receiver.set(all, Receiver{.slope = {0.125f, 0.25f}});
+        for (const float below : {0.0f, 1.0f / 64}) {
+            const Vec3<Floats<N>> point(vec3(-0.375f, -0.375f, 2 * below));
+            const WidePcfKernel<N> kernel = pcf_kernel(map, receiver, point, all);
+            ASSERT_TRUE(has_in_lanes(kernel.column, [](int) { return 1; })) << "the texel's column";
+            ASSERT_TRUE(has_in_lanes(kernel.row, [](int) { return 2; })) << "the texel's row";
+            ASSERT_TRUE(has_in_lanes(kernel.depth, [&](int) { return 15.0f / 32 + below; }))
+                << "the depth at the texel's centre, " << below << " below the plane";
+            ASSERT_TRUE(has_in_lanes(pcf_visibility(map, 1, kernel),
+                                     [&](int) { return below > 0 ? 0.0f : 1.0f; }))
+                << "visibility " << below << " below a map that is the plane, 3 x 3 taps";
+        }
+    });
+}
+
 TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
-    look_up("Eq. 9.6");
+    look_up("Shadow tests");
     for_each_width([]<int N>() {
         Dice dice(N);
         int outside = 0, inside = 0, partly_lit = 0;
