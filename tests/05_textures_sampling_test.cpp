@@ -19,6 +19,7 @@
 #include "support/printers.hpp"
 #include "support/reference.hpp"
 #include "support/special_numbers.hpp"
+#include "support/texture_names.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -27,16 +28,6 @@ namespace {
 
 constexpr float tiny = std::numeric_limits<float>::denorm_min();
 constexpr float feps = FLT_EPSILON;
-constexpr std::array all_wraps = {Wrap::repeat, Wrap::mirror, Wrap::clamp};
-constexpr std::array all_filters = {Filter::nearest, Filter::bilinear, Filter::trilinear};
-constexpr const char* name_of(Wrap wrap) {
-    return wrap == Wrap::repeat ? "repeat" : wrap == Wrap::mirror ? "mirror" : "clamp";
-}
-constexpr const char* name_of(Filter filter) {
-    return filter == Filter::nearest    ? "nearest"
-           : filter == Filter::bilinear ? "bilinear"
-                                        : "trilinear";
-}
 
 std::string described(const FragmentUv& uv) {
     return "uv " + shown(uv.here) + ", which changes by " + shown(uv.ddx) +

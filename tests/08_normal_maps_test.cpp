@@ -17,6 +17,7 @@
 #include "support/look_up.hpp"
 #include "support/near.hpp"
 #include "support/printers.hpp"
+#include "support/texture_names.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -32,9 +33,6 @@ constexpr float one_rounding = FLT_EPSILON, roundings = 4 * FLT_EPSILON;
 TangentFrame some_frame(float handedness = 1) {
     return {vec3(2, 2, 1) / 3.0f, handedness / 3.0f * vec3(-2, 1, 2), vec3(1, -2, 2) / 3.0f};
 }
-
-constexpr std::array all_filters = {Filter::nearest, Filter::bilinear, Filter::trilinear};
-constexpr std::array all_wraps = {Wrap::repeat, Wrap::mirror, Wrap::clamp};
 
 /// A height map, from a function of the texels' centres; x right and y up, 0 to 1.
 template <typename Height>

@@ -91,16 +91,6 @@ int times_of(vec3 color) {
     return -1;
 }
 
-/// The file that a lesson's program writes.
-std::string bytes_of_picture(const std::string& lesson, std::vector<std::string> arguments) {
-    const auto folder = fresh_folder("visibility_buffer");
-    const std::string file = (folder / "a.png").string();
-    arguments.insert(arguments.end(), {"--out", file});
-    const ProcessResult run = run_program(lesson, arguments);
-    EXPECT_EQ(run.exit_status, 0) << lesson << ": " << run.err;
-    return read_text(file);
-}
-
 }  // namespace
 
 TEST(VisibilityBuffer, Eq12_4_AllOrdersOfAFewSurfacesHaveTheMeanExactly) {

@@ -30,9 +30,10 @@
 #include "support/look_up.hpp"
 #include "support/name_of_split.hpp"
 #include "support/names.hpp"
-#include "support/one_triangle.hpp"
+#include "support/pictures.hpp"
 #include "support/printers.hpp"
 #include "support/projected.hpp"
+#include "support/random_casters.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -149,33 +150,6 @@ std::vector<ProjectedTriangle> coarse_triangles(Dice& dice, ivec2 size) {
     return triangles;
 }
 
-/// A map of NDC, in memory full of -1: what is not drawn keeps it.
-ShadowMap map_of_minus_one(int size) {
-    Bounds bounds;
-    bounds.add(vec3(-1)), bounds.add(vec3(1));
-    ShadowMap map(mat4(1), false, size, bounds);
-    const ivec2 all = map.depths.depths().size();
-    for (int y = 0; y < all.y; ++y)
-        for (int x = 0; x < all.x; ++x) map.depths.test_and_write({x, y}, -1);
-    return map;
-}
-
-/// Triangles in NDC, all of which cast shadows.
-Scene random_casters(int triangles, std::uint32_t seed) {
-    Dice dice(seed);
-    Scene scene;
-    scene.materials.resize(1);
-    std::vector<vec3> positions;
-    std::vector<std::array<std::uint32_t, 3>> indices;
-    for (int k = 0; k < triangles; ++k) {
-        const auto first = static_cast<std::uint32_t>(positions.size());
-        for (int v = 0; v < 3; ++v) positions.push_back(dice.in_cube(1.2f));
-        indices.push_back({first, first + 1, first + 2});
-    }
-    scene.meshes.push_back(mesh_of(positions, indices));
-    return scene;
-}
-
 BinnedTriangles binned(const ShadowMap& map, const Scene& scene, const Tiling& tiling) {
     ThreadPool pool(1);
     return casters_of(pool, map, scene, tiling);
@@ -213,10 +187,6 @@ std::set<std::size_t> parts_drawn(const ShadowMapParts& parts) {
     for (std::size_t i = 0; i < parts.tiling().count(); ++i)
         if (parts.is_drawn(i)) all.insert(i);
     return all;
-}
-
-std::uint64_t count_of(const Counters& counters, Counter counter) {
-    return counters.values[static_cast<std::size_t>(counter)];
 }
 
 /// Counts parts; whoever draws one waits until all threads have begun, and then a while.
@@ -474,11 +444,11 @@ TEST(VisibilityBuffer, Eq12_6_PartsOfTheWorkedExample) {
     parts.draw_around({127, 40}, 1, counters);
     EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{1, 2}))
         << "parts drawn for a kernel of radius 1 around (127, 40): parts of 64 texels, 4 a row";
-    EXPECT_EQ(count_of(counters, Counter::shadow_parts), 2u);
+    EXPECT_EQ(count(counters, Counter::shadow_parts), 2u);
     parts.draw_around({128, 41}, 1, counters);
-    EXPECT_EQ(count_of(counters, Counter::shadow_parts), 2u) << "what is drawn is not drawn again";
+    EXPECT_EQ(count(counters, Counter::shadow_parts), 2u) << "what is drawn is not drawn again";
     parts.draw_around({128, 63}, 0, counters);
-    EXPECT_EQ(count_of(counters, Counter::shadow_parts), 2u) << "radius 0: one texel, of part 2";
+    EXPECT_EQ(count(counters, Counter::shadow_parts), 2u) << "radius 0: one texel, of part 2";
     parts.draw_around({128, 63}, 1, counters);
     EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{1, 2, 5, 6}))
         << "parts drawn when a kernel of radius 1 around (128, 63) has been asked for, too";
@@ -517,7 +487,7 @@ TEST(VisibilityBuffer, Eq12_6_JustTheAskedPartsAreDrawnAndHaveLesson09sBits) {
                                       std::to_string(side) + " (seed " + std::to_string(seed) + ")";
             ASSERT_EQ(parts_drawn(parts), asked)
                 << "parts that are drawn, and that were asked for, " << where;
-            ASSERT_EQ(count_of(counters, Counter::shadow_parts), asked.size())
+            ASSERT_EQ(count(counters, Counter::shadow_parts), asked.size())
                 << "parts counted, and asked for, " << where;
         }
         Image<float> expected(whole.size(), -1);
@@ -540,10 +510,8 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
         const LightKind kind = light_kinds[seed % light_kinds.size()];
         const std::array<Light, 2> lights = raking_lights(kind, scene.bounds());
         const ShadowBounds bounds = shadow_bounds(scene);
-        constexpr std::array biases = {Bias::none, Bias::constant, Bias::slope, Bias::plane,
-                                       Bias::normal};
         const ShadowVariant variant{.size = 16 + static_cast<int>(dice.below(60)),
-                                    .bias = biases[seed % biases.size()],
+                                    .bias = all_biases[seed % all_biases.size()],
                                     .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
         const int side = 4 + static_cast<int>(dice.below(30));
         WorkerCounters<Counters> counters(pool.size());
@@ -587,7 +555,7 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
         maps += asked.size();
         for (std::size_t map = 0; map < asked.size(); ++map)
             parts_never_asked += on_demand.parts()[map].tiling().count() - asked[map].size();
-        EXPECT_EQ(count_of(asking, Counter::shadow_tests), count_of(serial, Counter::shadow_tests));
+        EXPECT_EQ(count(asking, Counter::shadow_tests), count(serial, Counter::shadow_tests));
     }
     EXPECT_GT(maps, 80u) << "maps; a point light has up to six";
     EXPECT_GT(half_lit, 100u) << "points at a shadow's edge";

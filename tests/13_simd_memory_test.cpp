@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,25 +25,15 @@
 #include "support/lanes.hpp"
 #include "support/look_up.hpp"
 #include "support/names.hpp"
-#include "support/one_triangle.hpp"
+#include "support/pictures.hpp"
 #include "support/printers.hpp"
+#include "support/random_casters.hpp"
+#include "support/texture_names.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
 
 namespace {
-
-constexpr std::array wraps = {Wrap::repeat, Wrap::mirror, Wrap::clamp};
-constexpr std::array filters = {Filter::nearest, Filter::bilinear, Filter::trilinear};
-
-const char* name_of(Wrap wrap) {
-    return wrap == Wrap::repeat ? "repeated" : wrap == Wrap::mirror ? "mirrored" : "clamped";
-}
-const char* name_of(Filter filter) {
-    return filter == Filter::nearest    ? "nearest"
-           : filter == Filter::bilinear ? "bilinear"
-                                        : "trilinear";
-}
 
 Texture any_texture(Dice& dice, Wrap wrap) {
     constexpr std::array sizes = {1, 2, 3, 5, 8, 16, 37, 64};
@@ -74,37 +63,6 @@ vec2 any_change(Dice& dice, bool is_special) {
     const float u = is_special ? any_float(dice) : dice.between(-size, size);
     const float v = is_special && dice.one_in(2) ? any_float(dice) : dice.between(-size, size);
     return {u, v};
-}
-
-/// A map of NDC, in memory full of -1: what is not drawn keeps it.
-ShadowMap map_of_minus_one(int size) {
-    Bounds bounds;
-    bounds.add(vec3(-1)), bounds.add(vec3(1));
-    ShadowMap map(mat4(1), false, size, bounds);
-    const ivec2 all = map.depths.depths().size();
-    for (int y = 0; y < all.y; ++y)
-        for (int x = 0; x < all.x; ++x) map.depths.test_and_write({x, y}, -1);
-    return map;
-}
-
-/// Triangles in NDC, all of which cast shadows.
-Scene random_casters(int triangles, std::uint32_t seed) {
-    Dice dice(seed);
-    Scene scene;
-    scene.materials.resize(1);
-    std::vector<vec3> positions;
-    std::vector<std::array<std::uint32_t, 3>> indices;
-    for (int k = 0; k < triangles; ++k) {
-        const auto first = static_cast<std::uint32_t>(positions.size());
-        for (int v = 0; v < 3; ++v) positions.push_back(dice.in_cube(1.2f));
-        indices.push_back({first, first + 1, first + 2});
-    }
-    scene.meshes.push_back(mesh_of(positions, indices));
-    return scene;
-}
-
-std::uint64_t count_of(const Counters& counters, Counter counter) {
-    return counters.values[static_cast<std::size_t>(counter)];
 }
 
 Receiver any_receiver(Dice& dice) {
@@ -150,7 +108,7 @@ TEST(Simd, HardCase_CoordinatesAreWrappedInEachLane) {
             const bool is_special = dice.one_in(2);
             for (float& of_lane : x)
                 of_lane = is_special && dice.one_in(4) ? any_float(dice) : dice.between(-4, 4);
-            for (const Wrap wrap : wraps)
+            for (const Wrap wrap : all_wraps)
                 ASSERT_TRUE(
                     has_in_lanes(wrapped(in_lanes<N>(x), wrap),
                                  [&](int i) { return wrapped(x.at(std::size_t(i)), wrap); }))
@@ -185,7 +143,7 @@ TEST(Simd, HardCase_SamplesHaveLesson05sBits) {
         Dice dice(N);
         int divergent = 0;
         for (int k = 0; k < 9000 / N; ++k) {
-            const Wrap wrap = wraps[dice.below(3)];
+            const Wrap wrap = all_wraps[dice.below(3)];
             const Texture texture = any_texture(dice, wrap);
             for (int batch = 0; batch < 4; ++batch) {
                 std::array<vec2, std::size_t(N)> here, ddx, ddy;
@@ -200,7 +158,7 @@ TEST(Simd, HardCase_SamplesHaveLesson05sBits) {
                                         : change * (1 + 0.1f * static_cast<float>(i));
                     ddy.at(i) = are_any ? any_change(dice, is_special) : vec2(-change.y, change.x);
                 }
-                for (const Filter filter : filters) {
+                for (const Filter filter : all_filters) {
                     const glm::vec<4, Floats<N>> actual = sample(
                         texture, filter,
                         TextureCoordinates<Floats<N>>{two<N>(here), two<N>(ddx), two<N>(ddy)});
@@ -333,8 +291,36 @@ TEST(Simd, Eq13_7_ABilinearSampleTakesFourTexelsAndNoOthers) {
     });
 }
 
+TEST(Simd, ShadowTestsFollowTheReceiversPlane) {
+    look_up("Shadow tests");
+    // 4 x 4 texels; the plane's depth grows by 1/8 to the right and by 1/4 down. At (1.25, 2.75) it
+    // is 1/2. So at that texel's centre, (1.5, 2.5), it is 1/2 + 1/32 - 1/16 = 15/32.
+    ShadowMap map(mat4(1), false, 4, {vec3(-1), vec3(1)});
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x)
+            map.depths.test_and_write(ivec2(x, y) + max_pcf_radius,
+                                      15.0f / 32 + 0.125f * static_cast<float>(x - 1) +
+                                          0.25f * static_cast<float>(y - 2));
+    for_each_width([&]<int N>() {
+        const Mask<N> all = first_lanes<Floats<N>>(N);
+        WideReceiver<N> receiver{};
+        receiver.set(all, Receiver{.slope = {0.125f, 0.25f}});
+        for (const float below : {0.0f, 1.0f / 64}) {
+            const Vec3<Floats<N>> point(vec3(-0.375f, -0.375f, 2 * below));
+            const WidePcfKernel<N> kernel = pcf_kernel(map, receiver, point, all);
+            ASSERT_TRUE(has_in_lanes(kernel.column, [](int) { return 1; })) << "the texel's column";
+            ASSERT_TRUE(has_in_lanes(kernel.row, [](int) { return 2; })) << "the texel's row";
+            ASSERT_TRUE(has_in_lanes(kernel.depth, [&](int) { return 15.0f / 32 + below; }))
+                << "the depth at the texel's centre, " << below << " below the plane";
+            ASSERT_TRUE(has_in_lanes(pcf_visibility(map, 1, kernel),
+                                     [&](int) { return below > 0 ? 0.0f : 1.0f; }))
+                << "visibility " << below << " below a map that is the plane, 3 x 3 taps";
+        }
+    });
+}
+
 TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
-    look_up("Eq. 9.6");
+    look_up("Shadow tests");
     for_each_width([]<int N>() {
         Dice dice(N);
         int outside = 0, inside = 0, partly_lit = 0;
@@ -356,8 +342,7 @@ TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
                 points.at(dice.below(N)) = {dice.one_in(2) ? -1.0f : 0x1.fffffep-1f,
                                             dice.one_in(2) ? 1.0f : -0x1.fffffep-1f, 0};
             const auto asked = dice.one_in(2) ? (1u << N) - 1 : dice.below(1u << N);
-            Mask<N> mask;
-            for (int i = 0; i < N; ++i) mask.lanes[i] = asked >> i & 1 ? -1 : 0;
+            const auto mask = mask_of_bits<N>(asked);
             const WidePcfKernel<N> actual = pcf_kernel(map, of_lanes, in_lanes<N>(points), mask);
             for (int radius = 0; radius <= max_pcf_radius; ++radius) {
                 const Floats<N> visibility = pcf_visibility(map, radius, actual);
@@ -413,8 +398,8 @@ TEST(Simd, Eq13_2_PartsOfAMapHaveLesson10sBits) {
                 Counters before, now;
                 draw_tile(expected, casters, tiling, i, before);
                 draw_tile<F>(actual, casters, tiling, i, now);
-                ASSERT_EQ(count_of(now, Counter::shadow_fragments),
-                          count_of(before, Counter::shadow_fragments))
+                ASSERT_EQ(count(now, Counter::shadow_fragments),
+                          count(before, Counter::shadow_fragments))
                     << "shadow fragments of part " << i;
                 ASSERT_TRUE(have_the_same_bits(actual.depths.depths(), expected.depths.depths()))
                     << "depths of a map of " << size << " texels after part " << i << " of "
@@ -440,10 +425,8 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
             if (seed % 4 == 1)  // amid the casters
                 lights[0].position_world = dice.in_cube(0.3f);
             const ShadowBounds bounds = shadow_bounds(scene);
-            constexpr std::array biases = {Bias::none, Bias::constant, Bias::slope, Bias::plane,
-                                           Bias::normal};
             const ShadowVariant variant{.size = 16 + static_cast<int>(dice.below(60)),
-                                        .bias = biases.at(seed % biases.size()),
+                                        .bias = all_biases[seed % all_biases.size()],
                                         .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
             const int side = 4 + static_cast<int>(dice.below(30));
             const bool all_effects = seed % 5 == 0;
@@ -509,9 +492,8 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                         ASSERT_TRUE(agree(actual[i], expected))
                             << "visibility of light " << l << " in lane " << i << " of " << N
                             << ": " << actual[i] << ", expected " << expected << "; point "
-                            << shown(point) << ", normal " << shown(normal) << "; "
-                            << rasterbook::test::name_of(kind) << ", "
-                            << rasterbook::test::name_of(variant.bias) << ", PCF of " << variant.pcf
+                            << shown(point) << ", normal " << shown(normal) << "; " << name_of(kind)
+                            << ", " << name_of(variant.bias) << ", PCF of " << variant.pcf
                             << ", a map of " << variant.size << " texels (seed " << seed
                             << ", batch " << batch << ")";
                         half_lit += expected > 0 && expected < 1;
@@ -528,15 +510,14 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                         const bool is_drawn = before.parts()[map].is_drawn(i);
                         ASSERT_EQ(now.parts()[map].is_drawn(i), is_drawn)
                             << "whether part " << i << " of map " << map << " is drawn, in " << N
-                            << " lanes; " << rasterbook::test::name_of(kind) << ", PCF of "
-                            << variant.pcf << ", a map of " << variant.size
-                            << " texels in parts of " << side << " (seed " << seed << ", batch "
-                            << batch << ")";
+                            << " lanes; " << name_of(kind) << ", PCF of " << variant.pcf
+                            << ", a map of " << variant.size << " texels in parts of " << side
+                            << " (seed " << seed << ", batch " << batch << ")";
                         ++(is_drawn ? asked : not_asked);
                     }
                 for (const Counter counter :
                      {Counter::shadow_tests, Counter::shadow_parts, Counter::shadow_fragments})
-                    ASSERT_EQ(count_of(counts, counter), count_of(expected_counts, counter))
+                    ASSERT_EQ(count(counts, counter), count(expected_counts, counter))
                         << counter_names[static_cast<std::size_t>(counter)] << " after batch "
                         << batch << " of " << pixels << " pixels in " << N << " lanes, seed "
                         << seed;

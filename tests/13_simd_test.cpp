@@ -202,8 +202,7 @@ TEST(Simd, Eq13_1_SelectTakesTheBitsOfEachLane) {
         for (int k = 0; k < 20'000 / N; ++k) {
             const auto a = any_numbers<N>(dice), b = any_numbers<N>(dice);
             const auto bits = dice.below(1u << N);
-            Mask<N> mask;
-            for (int i = 0; i < N; ++i) mask.lanes[i] = bits >> i & 1 ? -1 : 0;
+            const auto mask = mask_of_bits<N>(bits);
             const Floats<N> actual = select(mask, in_lanes<N>(a), in_lanes<N>(b));
             for (int i = 0; i < N; ++i)
                 ASSERT_EQ(std::bit_cast<std::uint32_t>(actual[i]),
@@ -227,8 +226,7 @@ TEST(Simd, Eq13_1_SelectOfVectorsWiderThanARegister) {
     for (int k = 0; k < 500; ++k) {
         const auto a = any_numbers<N>(dice), b = any_numbers<N>(dice);
         const std::uint32_t bits = dice.below(0xffffffffu);
-        Mask<N> mask;
-        for (int i = 0; i < N; ++i) mask.lanes[i] = bits >> i & 1 ? -1 : 0;
+        const auto mask = mask_of_bits<N>(bits);
         const Floats<N> actual = select(mask, in_lanes<N>(a), in_lanes<N>(b));
         for (int i = 0; i < N; ++i)
             ASSERT_EQ(std::bit_cast<std::uint32_t>(actual[i]),
@@ -452,8 +450,7 @@ TEST(Simd, HardCase_WholeNumbersAndMasks) {
             if (dice.one_in(3)) holds = dice.one_in(2) ? 1u << dice.below(N) : (1u << N) - 1;
             if (dice.one_in(8)) holds = 0;
             if (dice.one_in(8)) holds = ((1u << N) - 1) ^ (1u << dice.below(N));
-            Mask<N> mask;
-            for (int i = 0; i < N; ++i) mask.lanes[i] = holds >> i & 1 ? -1 : 0;
+            const auto mask = mask_of_bits<N>(holds);
             const std::string bits = "a mask with the bits " + std::to_string(holds);
             ASSERT_EQ(bits_of(mask), holds) << bits;
             ASSERT_EQ(any_of(mask), holds != 0) << "any_of() of " << bits;
@@ -517,8 +514,7 @@ TEST(Simd, HardCase_WhatIsWrittenWhereAMaskHoldsIsThatAlone) {
             floats.fill(0.5f);
             const auto at = dice.below(40 - N + 1);  // any address of a float
             const auto holds = dice.below(1u << N);
-            Mask<N> mask;
-            for (int i = 0; i < N; ++i) mask.lanes[i] = holds >> i & 1 ? -1 : 0;
+            const auto mask = mask_of_bits<N>(holds);
             write_where(mask, &ids.at(at), 0xfffffffeu);
             const auto numbers = any_numbers<N>(dice);
             store(&floats.at(at), in_lanes<N>(numbers));

@@ -28,8 +28,7 @@ namespace rasterbook {
 template <int N>
 class WideBarycentricPlanes {
   public:
-    /// @param triangle  As fill_triangle<F>() has it: then the doubles are whole numbers, and
-    /// exact.
+    /// @param triangle  As fill_triangle<F>() takes it: then the doubles are exact.
     explicit WideBarycentricPlanes(const ScreenTriangle& triangle)
         : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
         const int winding = triangle.twice_area > 0 ? 1 : -1;
@@ -109,7 +108,7 @@ struct LaneInputs {
     }
 };
 
-/// A triangle that pixels of a batch are of.
+/// A triangle of which a batch has pixels.
 template <Permutation with, int N>
 struct BatchTriangle {
     TriangleInputs inputs;
@@ -175,13 +174,13 @@ class PixelBatch {
         return lanes;
     }
 
-    /// Gives the triangle's pixels their coordinates in it and its inputs. So do the lanes behind
-    /// them get these; what comes next overwrites them.
+    /// Gives the triangle's lanes their coordinates in it, and its inputs. The empty lanes behind
+    /// them get these, too; what comes next overwrites them.
     void end_triangle() {
         if (first_ == count_) return;
         const PerspectiveBarycentrics<F> at =
             perspective_correct(current().inputs.setup, current().planes.at(read(x_), read(y_)));
-        const Mask<N> own = !(lane_numbers<N>() < Ints<N>(first_));
+        const Mask<N> own = !first_lanes<F>(first_);
         at_ = {select(own, at.here, at_.here), select(own, at.ddx, at_.ddx),
                select(own, at.ddy, at_.ddy)};
         if (!is_in_all_lanes_)

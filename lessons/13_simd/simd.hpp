@@ -16,11 +16,6 @@
 
 #include "common/math/functions.hpp"
 
-// How so many bytes are passed to a function depends on the processor: of no concern within one
-// program.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace rasterbook {
 
 /// N numbers of a type T, as g++ and clang have them for any processor: `+` and the like work on
@@ -32,8 +27,8 @@ struct VectorOf {
 template <typename T, int N>
 using Vector = typename VectorOf<T, N>::Type;
 
-/// Of two vectors, one behind the other, the elements at n places: a shuffle. What it takes is one
-/// instruction, or two, up to the width of a register.
+/// The elements at n places of two vectors, one behind the other: a shuffle. Up to the width of a
+/// register, it takes one instruction or two.
 ///
 /// @tparam Place  A function without captures: from an element's index, 0 to n - 1, to its place.
 template <int n, typename V, typename Place>
@@ -43,8 +38,8 @@ inline auto shuffled(V a, V b, Place) {
     }(std::make_integer_sequence<int, n>());
 }
 
-/// One register of this processor holds so many floats: the most arithmetic a step can do
-/// (Eq. 13.6).
+/// How many floats a register of this processor holds. With this many lanes, the peak of Eq. 13.6
+/// is highest.
 #if defined(__AVX512F__)
 constexpr int native_width = 16;
 #elif defined(__AVX__)
@@ -352,5 +347,3 @@ inline MaskOf<F> first_lanes(int count) {
 /// GLM's functions take only types that say that they are floating-point numbers.
 template <int N>
 struct std::numeric_limits<rasterbook::Floats<N>> : std::numeric_limits<float> {};
-
-#pragma GCC diagnostic pop

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -35,8 +33,7 @@ namespace rasterbook {
 /// As for_each_nearer_fragment() of lesson 12.
 ///
 /// @param visit  Called as visit(first_pixel, nearer, on_screen, depth, opacity): for as many
-/// pixels
-///               of a row as F has numbers, of which those count in which the mask `nearer` holds.
+///               pixels of a row as F has numbers. Those count for which the mask `nearer` holds.
 template <typename F, typename Maps, typename CounterPolicy, typename Visit>
 void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                               const Tile& tile, TileDepths& depths, CounterPolicy& counters,
@@ -170,7 +167,7 @@ void shade_fragments(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTria
     }
 }
 
-/// The two of a permutation.
+/// A permutation's shade_pixels() and shade_fragments().
 template <typename CounterPolicy>
 struct WideShader {
     void (*shade_pixels)(const Frame<ShadowMapsOnDemand>&, std::span<const VisibleTriangle>,

@@ -6,7 +6,7 @@
 
 #include <array>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 #include <optional>
 
 #include "09_shadow_maps/shadow_map.hpp"
@@ -159,7 +159,7 @@ void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, in
     }
 }
 
-/// What a triangle's pixels count, so many at a time.
+/// Counts once for each of several pixels.
 template <typename CounterPolicy>
 struct LaneCounters {
     CounterPolicy& total;

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <utility>
+#include <type_traits>
 
 #include "05_textures/texture.hpp"
 #include "13_simd/simd.hpp"

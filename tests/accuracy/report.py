@@ -321,6 +321,18 @@ def plot_curves(curves, x_name, y_name, file, may_reverse=True):
     draw(script, file)
 
 
+def fill_blocks(page, block_of):
+    """Writes block_of(NAME) between the lines `<!-- measured: NAME -->` and `<!-- end -->` of a page."""
+    def section(match):
+        return f"{match[0].splitlines()[0]}\n\n{block_of(match[1])}\n\n<!-- end -->"
+
+    text, count = re.subn(r"<!-- measured: (\w+) -->\n.*?<!-- end -->", section, page.read_text(), flags=re.DOTALL)
+    if count == 0:
+        sys.exit(f"error: {page} has no line '<!-- measured: ... -->'")
+    page.write_text(text)
+    print(f"wrote {page}")
+
+
 def machine(measured):
     for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
         if line.startswith("model name"):

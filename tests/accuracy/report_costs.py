@@ -9,11 +9,10 @@ are those of the functions below that begin with `block_`.
 import json
 import math
 import pathlib
-import re
 import sys
 
 from report import BOTTOM, HEIGHT, LEFT, RIGHT, TIME_TOLERANCE, TOP, WIDTH, Axis, axes, draw, label, machine, number
-from report import place_labels
+from report import fill_blocks, place_labels
 
 DIALS = ("samples per pixel", "texture filter", "shadow map", "PCF taps")
 
@@ -134,15 +133,7 @@ def plot(frames, front, file):
 def main():
     measured = json.loads(pathlib.Path(sys.argv[1]).read_text())
     page = pathlib.Path(sys.argv[2])
-
-    def section(match):
-        return f"{match[0].splitlines()[0]}\n\n{globals()['block_' + match[1]](measured, page)}\n\n<!-- end -->"
-
-    text, count = re.subn(r"<!-- measured: (\w+) -->\n.*?<!-- end -->", section, page.read_text(), flags=re.DOTALL)
-    if count == 0:
-        sys.exit(f"error: {page} has no line '<!-- measured: ... -->'")
-    page.write_text(text)
-    print(f"wrote {page}")
+    fill_blocks(page, lambda name: globals()[f"block_{name}"](measured, page))
 
 
 if __name__ == "__main__":

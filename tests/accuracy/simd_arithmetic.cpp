@@ -16,8 +16,6 @@
 #define COUNTED 3
 #define EXPORTED __attribute__((visibility("default")))
 
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace rasterbook {
 
 #if ARITHMETIC == ESTIMATES

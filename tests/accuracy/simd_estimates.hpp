@@ -13,9 +13,6 @@
 
 #include "13_simd/simd.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace rasterbook::test {
 
 /// A float's bits are roughly its logarithm: a difference of bits is a quotient, and half of the
@@ -119,5 +116,3 @@ inline Floats<N> reciprocal_sqrt_by(Floats<N> x) {
 }
 
 }  // namespace rasterbook::test
-
-#pragma GCC diagnostic pop

@@ -17,9 +17,6 @@
 #include "13_simd/simd.hpp"
 #include "accuracy/accuracy.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace rasterbook::test {
 
 /// How far results are from exact values. An ulp is the distance of two floats that are as large
@@ -89,5 +86,3 @@ void add_function(const std::string& comparison, const std::string& variant, flo
 }
 
 }  // namespace rasterbook::test
-
-#pragma GCC diagnostic pop

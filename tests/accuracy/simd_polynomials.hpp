@@ -18,9 +18,6 @@
 #include "accuracy/simd_numbers.hpp"
 #include "common/math/functions.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace rasterbook::test {
 
 /// The polynomial that meets a function at Chebyshev's points: nearly the best of its degree.
@@ -179,5 +176,3 @@ inline void add_polynomials() {
 }
 
 }  // namespace rasterbook::test
-
-#pragma GCC diagnostic pop

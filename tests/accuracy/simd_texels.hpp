@@ -23,9 +23,6 @@
 #include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace rasterbook::test {
 
 /// Where the four texels around N positions are, as sample_bilinear() of lesson 13 finds them.
@@ -304,5 +301,3 @@ inline void add_levels() {
 }
 
 }  // namespace rasterbook::test
-
-#pragma GCC diagnostic pop

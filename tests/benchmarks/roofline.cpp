@@ -169,13 +169,7 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
     parts.triangles = cpu_ms() - start_of_triangles;
 
     const WideDrawing<Counters> wide = drawing_of_width(options.wide.width);
-    const Frame frame{assets,
-                      options.normal_map,
-                      options.texture.filter,
-                      camera.position_world,
-                      shadow_maps,
-                      color,
-                      depth};
+    const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
     const auto draw = [&](std::size_t i, Counters& counters, std::vector<double>& ids,
                           std::vector<double>& shading, std::vector<double>& rest) {
         const auto start_of_ids = Clock::now();
@@ -189,11 +183,7 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
         const auto start_of_shading = Clock::now();
         wide.shade_visible(frame, visible, options.visibility.show, heat, counters);
         const auto start_of_rest = Clock::now();
-        depths.for_each_empty_run(tile, [&](const PixelRun& run) {
-            const PixelBox box{run.first, run.first + ivec2(run.length - 1, 0)};
-            draw_backdrop(color, box.first, box.last);
-            if (is_on_paper) draw_paper(color, Tile{box});
-        });
+        draw_background(color, tile, depths, is_on_paper);
         TransparentFragments transparent;
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)

@@ -23,7 +23,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/accuracy"))
 sys.dont_write_bytecode = True
-from report import BOTTOM, HEIGHT, LEFT, TOP, WIDTH, Axis, axes, draw, label, markdown, number, plot_curves
+from report import BOTTOM, HEIGHT, LEFT, TOP, WIDTH, Axis, axes, draw, fill_blocks, label, markdown, number, plot_curves
 
 PAGE = ROOT / "docs/roofline.md"
 MEASURED = ROOT / "build/release/roofline.json"
@@ -361,15 +361,7 @@ def main():
     if "--as-measured" not in options:
         measure(options)
     measured = [json.loads(line) for line in MEASURED.read_text().splitlines()]
-
-    def section(match):
-        return f"{match[0].splitlines()[0]}\n\n{globals()['block_' + match[1]](measured)}\n\n<!-- end -->"
-
-    text, count = re.subn(r"<!-- measured: (\w+) -->\n.*?<!-- end -->", section, PAGE.read_text(), flags=re.DOTALL)
-    if count == 0:
-        sys.exit(f"error: {PAGE} has no line '<!-- measured: ... -->'")
-    PAGE.write_text(text)
-    print(f"wrote {PAGE}")
+    fill_blocks(PAGE, lambda name: globals()[f"block_{name}"](measured))
 
 
 if __name__ == "__main__":

@@ -11,10 +11,6 @@
 
 #include "common/math/functions.hpp"
 
-// How 32 bytes are passed to a function depends on the processor: of no concern within one program.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace rasterbook::test {
 
 /// Whether something holds, for each of eight lanes.
@@ -93,8 +89,6 @@ inline Float8 two_to_the(Float8 n) {
 }
 
 }  // namespace rasterbook::test
-
-#pragma GCC diagnostic pop
 
 /// GLM's functions take only types that say that they are floating-point numbers.
 template <>

@@ -115,6 +115,14 @@ Vec3<Floats<N>> in_lanes(const std::array<vec3, static_cast<std::size_t>(N)>& po
     return v;
 }
 
+/// Holds in the lanes whose bits are set.
+template <int N>
+Mask<N> mask_of_bits(std::uint32_t bits) {
+    Mask<N> mask;
+    for (int i = 0; i < N; ++i) mask.lanes[i] = bits >> i & 1 ? -1 : 0;
+    return mask;
+}
+
 /// For EXPECT_TRUE: a wide result has in each lane what the plain computation gives for this lane.
 ///
 /// @param expected  Called as expected(lane).

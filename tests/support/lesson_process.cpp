@@ -87,6 +87,14 @@ ProcessResult run_program(const std::string& name, const std::vector<std::string
     return StartedProgram(name, arguments).wait();
 }
 
+std::string bytes_of_picture(const std::string& lesson, std::vector<std::string> arguments) {
+    const std::filesystem::path file = fresh_folder("picture") / "a.png";
+    arguments.insert(arguments.end(), {"--out", file.string()});
+    const ProcessResult run = run_program(lesson, arguments);
+    EXPECT_EQ(run.exit_status, 0) << lesson << ": " << run.err;
+    return read_text(file);
+}
+
 void expect_error(const ProcessResult& result, int exit_status, const std::string& text) {
     EXPECT_EQ(result.exit_status, exit_status);
     EXPECT_EQ(result.err.rfind("error: ", 0), 0u) << result.err;

@@ -39,6 +39,9 @@ class StartedProgram {
 /// RASTERBOOK_EMULATOR what runs its programs (./tests/other_machines).
 ProcessResult run_program(const std::string& name, const std::vector<std::string>& arguments);
 
+/// The bytes of the PNG file that a lesson's program writes.
+std::string bytes_of_picture(const std::string& lesson, std::vector<std::string> arguments);
+
 /// Exit status, one line on stderr that starts with "error: " and holds `text`, nothing on stdout.
 void expect_error(const ProcessResult& result, int exit_status, const std::string& text);
 

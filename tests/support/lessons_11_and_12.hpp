@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -19,10 +18,9 @@
 #include "support/lesson_11.hpp"
 #include "support/lesson_12.hpp"
 #include "support/pictures.hpp"
+#include "support/visible_pictures.hpp"
 
 namespace rasterbook::test {
-
-constexpr int unlimited_ids = std::numeric_limits<int>::max();
 
 inline Drawn drawn_by_11(const lesson_12::Options& options, const SceneAssets& assets,
                          ThreadPool& pool) {

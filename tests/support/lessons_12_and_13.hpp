@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The same scene as lessons 12 and 13 draw it, and that their counters agree.
+/// The same scene as lessons 12 and 13 draw it.
 #pragma once
-
-#include <cstddef>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "10_threading/thread_pool.hpp"
 #include "11_scenes/scene_assets.hpp"
-#include "common/app/counters.hpp"
 #include "support/lesson_12.hpp"
 #include "support/lesson_13.hpp"
 #include "support/pictures.hpp"
@@ -34,16 +28,6 @@ inline Drawn drawn_by_13(const lesson_13::Options& options, const SceneAssets& a
     StepClock clock;
     result.picture = lesson_13::render(options, assets, pool, result.counters, clock);
     return result;
-}
-
-/// For ASSERT_TRUE: the same work was counted.
-inline testing::AssertionResult counts_are_equal(const Drawn& actual, const Drawn& expected) {
-    for (std::size_t i = 0; i < counter_names.size(); ++i)
-        if (actual.counters.values[i] != expected.counters.values[i])
-            return testing::AssertionFailure()
-                   << "the counter " << counter_names[i] << " says " << actual.counters.values[i]
-                   << ", expected " << expected.counters.values[i];
-    return testing::AssertionSuccess();
 }
 
 }  // namespace rasterbook::test

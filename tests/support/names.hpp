@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What failing tests call biases, beside lights (support/light_in_words.hpp).
+/// The biases that tests go through, and what failing tests call them, beside lights
+/// (support/light_in_words.hpp).
 #pragma once
+
+#include <array>
 
 #include "09_shadow_maps/shadow_map.hpp"
 #include "support/light_in_words.hpp"
 
 namespace rasterbook::test {
+
+inline constexpr std::array all_biases = {Bias::none, Bias::constant, Bias::slope, Bias::plane,
+                                          Bias::normal};
 
 inline const char* name_of(Bias bias) {
     switch (bias) {

@@ -27,14 +27,16 @@ inline bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
            std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
 }
 
+inline std::uint64_t count(const Counters& counters, Counter counter) {
+    return counters.values[static_cast<std::size_t>(counter)];
+}
+
 /// A picture, and what was done to make it.
 struct Drawn {
     Image<vec3> picture;
     Counters counters;
 
-    std::uint64_t count(Counter counter) const {
-        return counters.values[static_cast<std::size_t>(counter)];
-    }
+    std::uint64_t count(Counter counter) const { return test::count(counters, counter); }
 };
 
 /// @param render  Called as render(options, assets, counters): that of a lesson

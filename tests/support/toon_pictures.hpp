@@ -29,10 +29,6 @@ inline Image<vec3> toon_picture(const Scene& scene, const lesson_07::Options& op
     return lesson_07::render(options, lesson_07::make_assets(scene, options), ignored);
 }
 
-inline std::uint64_t count(const Counters& counters, Counter counter) {
-    return counters.values[static_cast<std::size_t>(counter)];
-}
-
 inline Scene scene_of_one(Mesh mesh) {
     Scene scene;
     scene.meshes.push_back(std::move(mesh));

@@ -28,8 +28,7 @@ namespace rasterbook {
 template <int N>
 class WideBarycentricPlanes {
   public:
-    /// @param triangle  As fill_triangle<F>() has it: then the doubles are whole numbers, and
-    /// exact.
+    /// @param triangle  As fill_triangle<F>() takes it: then the doubles are exact.
     explicit WideBarycentricPlanes(const ScreenTriangle& triangle)
         : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
         const int winding = triangle.twice_area > 0 ? 1 : -1;
@@ -109,7 +108,7 @@ struct LaneInputs {
     }
 };
 
-/// A triangle that pixels of a batch are of.
+/// A triangle of which a batch has pixels.
 template <Permutation with, int N>
 struct BatchTriangle {
     TriangleInputs inputs;
@@ -166,8 +165,8 @@ class PixelBatch {
         return lanes;
     }
 
-    /// Gives the triangle's pixels their coordinates in it and its inputs. So do the lanes behind
-    /// them get these; what comes next overwrites them.
+    /// Gives the triangle's lanes their coordinates in it, and its inputs. The empty lanes behind
+    /// them get these, too; what comes next overwrites them.
     void end_triangle() {
         // TODO: step 1: unless the triangle has no pixel in the batch: current() has its planes and
         // its inputs.setup, of which perspective_correct() makes coordinates for all lanes.

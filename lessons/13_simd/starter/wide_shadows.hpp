@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 #include <optional>
 
 #include "09_shadow_maps/shadow_map.hpp"
@@ -143,7 +143,7 @@ void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, in
     }
 }
 
-/// What a triangle's pixels count, so many at a time.
+/// Counts once for each of several pixels.
 template <typename CounterPolicy>
 struct LaneCounters {
     CounterPolicy& total;
