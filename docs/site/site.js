@@ -31,10 +31,12 @@ for (const code of document.querySelectorAll(".textblock code"))
   if (code.textContent.length < 30) code.style.whiteSpace = "nowrap";
 
 // For screen readers and keyboards: what Doxygen leaves without a name or out of reach.
-const nameSearch = () => setTimeout(() => {  // when Doxygen has made the field, which it does at each resize
+const nameSearch = () => {
   for (const field of document.querySelectorAll("#MSearchField")) field.setAttribute("aria-label", "Search");
-});
-for (const event of ["load", "resize"]) addEventListener(event, nameSearch);
+};
+// Doxygen makes the field late, and anew when the window's width changes.
+new MutationObserver(nameSearch).observe(document.getElementById("top"), { childList: true, subtree: true });
+nameSearch();
 document.getElementById("doc-content")?.setAttribute("role", "main");
 for (const box of document.querySelectorAll(".fragment, pre.diff, table, .formulaDsp, .katex-display"))
   if (box.scrollWidth > box.clientWidth) box.tabIndex = 0;
