@@ -77,13 +77,14 @@ ACCESSIBLE = (
 )
 
 
-def native_bytes(build: Path, lesson: str) -> str:
+def native_bytes(build: Path, lesson: str, options: list[str] | None = None) -> str:
     """The hash of the pixels that the program draws, row by row from the top."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "picture.bmp"
-        subprocess.run([build / lesson, "--out", file], check=True, stdout=subprocess.DEVNULL)
-        pixels = file.read_bytes()[54:]
-    row = 3 * 1280
+        command = [build / lesson, *(options or []), "--out", file]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        header, pixels = file.read_bytes()[:54], file.read_bytes()[54:]
+    row = 3 * int.from_bytes(header[18:22], "little")
     rows = [bytearray(pixels[at : at + row]) for at in range(0, len(pixels), row)]
     for each in rows:
         each[0::3], each[2::3] = each[2::3], each[0::3]  # blue, green, red
@@ -108,7 +109,9 @@ class LivePage:
 
     def go(self, options: str) -> None:
         """To other options, in the same page."""
-        script = 'document.querySelector(".live").dataset.state = "asked"; location.hash = arguments[0]'
+        script = """document.querySelector(".live").dataset.state = "asked";
+if (location.hash === `#${arguments[0]}`) dispatchEvent(new HashChangeEvent("hashchange"));
+else location.hash = arguments[0];"""
         self.browser.execute_script(script, options)
         self.wait()
 
@@ -139,8 +142,8 @@ def check_bytes(page: LivePage, address: str, lesson: str, expected: str) -> lis
     return []
 
 
-def check_controls(page: LivePage, address: str, lesson: str) -> list[str]:
-    """Each control by itself, from the lesson's presets."""
+def check_controls(page: LivePage, address: str, lesson: str, build: Path) -> list[str]:
+    """Each control by itself, from the lesson's presets: as the program with the command shown."""
     problems = []
     page.open(f"{address}/lesson_{lesson[:2]}.html#size=480x270")
     usual = page.pixels
@@ -153,12 +156,19 @@ def check_controls(page: LivePage, address: str, lesson: str) -> list[str]:
         label = control.get_attribute("aria-label")
         page.browser.execute_script(CHANGE, control, "fit")
         page.wait()
-        if page.pixels == usual and "changes no pixel." not in page.status:
+        pixels = page.pixels
+        if pixels == usual and "changes no pixel." not in page.status:
             problems.append(f"{label}: changes nothing, and does not say why: {page.status}")
-        if "#" not in page.browser.current_url.replace("#size=480x270", ""):
-            option = re.match(r"[\w-]+", label)[0]
-            if f"{option}=" not in page.browser.current_url:
-                problems.append(f"{label}: is not in the address")
+        option = re.match(r"[\w-]+", label)[0]
+        if f"{option}=" not in page.browser.current_url:
+            problems.append(f"{label}: is not in the address")
+        command = page.all(".live .commands code")[0].text.split()
+        if command[:2] != ["./lessons/run", lesson[:2]] or f"--{option}" not in command:
+            problems.append(f"{label}: is not in the command line {' '.join(command)}")
+        if option == "show-threads":
+            command += ["--threads", "1"]
+        if pixels != native_bytes(build, lesson, command[2:]):
+            problems.append(f"{label}: draws other bytes than {' '.join(command)}")
         page.go("size=480x270")
         if page.pixels != usual:
             problems.append(f"{label}: the address does not take it back")
@@ -285,7 +295,7 @@ def main() -> None:
             for place, address in places.items():
                 found = check_bytes(page, address, lesson, expected)
                 problems += [f"{lesson}, {place}: {problem}" for problem in found]
-            problems += [f"{lesson}: {problem}" for problem in check_controls(page, folder, lesson)]
+            problems += [f"{lesson}: {problem}" for problem in check_controls(page, folder, lesson, build)]
             problems += check_log(browser, lesson, (folder, places["from a server"]))
         problems += check_keys(page, folder) + check_comparison(page, folder)
         problems += check_links(page, site, folder)
