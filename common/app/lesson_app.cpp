@@ -52,6 +52,32 @@ ivec2 parse_size(const std::string& text) {
     return size;
 }
 
+/// Reads "640,360"; anything else is a usage error.
+ivec2 parse_pixel(const std::string& text) {
+    ivec2 pixel;
+    const char* const end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, pixel.x);
+    const bool has_comma = x.ec == std::errc() && x.ptr != end && *x.ptr == ',';
+    const auto y = has_comma ? std::from_chars(x.ptr + 1, end, pixel.y) : x;
+    if (!has_comma || y.ec != std::errc() || y.ptr != end)
+        throw CLI::ValidationError("--probe", "'" + text + "' is not X,Y, a pixel of the picture");
+    return pixel;
+}
+
+/// @throws CLI::ParseError  When --probe asks for what there is not.
+void check_probed(const LessonOptions& options) {
+    if (!options.probed) return;
+    const auto [x, y] = std::pair(options.probed->x, options.probed->y);
+    if (x < 0 || y < 0 || x >= options.size.x || y >= options.size.y)
+        throw CLI::ValidationError("--probe",
+                                   "'" + std::to_string(x) + ',' + std::to_string(y) +
+                                       "' is outside of the picture, which has X from 0 to " +
+                                       std::to_string(options.size.x - 1) + " and Y from 0 to " +
+                                       std::to_string(options.size.y - 1));
+    if (options.frames.of_turn > 1)
+        throw CLI::ValidationError("--probe", "a pixel of one picture, not of several --frames");
+}
+
 /// Reads "pixels=1000000"; anything else is a usage error.
 void set_limit(LoadBudget& budget, const std::string& text) {
     const std::size_t equals = std::min(text.find('='), text.size());
@@ -147,6 +173,18 @@ Tally make_picture(const LessonProgram& program, const FrameOptions& frame,
     return tally;
 }
 
+/// Prints why a pixel has its colour.
+void print_probe(const LessonProgram& program) {
+    const LessonOptions& options = program.options;
+    Counters counters;
+    const FrameOptions frame{program.orbit ? program.orbit->yaw_degrees : 0,
+                             program.threads ? *program.threads : 1};
+    const Image<u8vec3> drawn =
+        srgb8_from_linear(averaged(program.render(frame, counters), options.samples_per_side));
+    std::cout << explained(program.make_probe(), *options.probed, options.samples_per_side,
+                           drawn[*options.probed]);
+}
+
 /// The file of one of the pictures.
 std::filesystem::path file_of(const LessonOptions& options, int frame) {
     return options.frames.of_turn > 1 ? name_of_frame(options.out, frame) : options.out;
@@ -196,6 +234,7 @@ void make_pictures(const LessonProgram& program) {
 
     const ivec2 size = options.size;
     options.size *= options.samples_per_side;
+    if (options.probed) return print_probe(program);
     const Tally tally = make_film(program);
 
     if (tally.is_empty)
@@ -308,6 +347,12 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
     line.add_flag("--sandbox", options.is_sandboxed,
                   "Read no file that lies outside of the model's folder");
     line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
+    if (program.make_probe)
+        line.add_option_function<std::string>(
+                "--probe", [&](const std::string& text) { options.probed = parse_pixel(text); },
+                "Write no picture, but say why this pixel has its colour; 0,0 is the upper left "
+                "one")
+            ->type_name("X,Y");
     Knobs knobs(line);
     if (program.orbit) {
         line.add_option_function<std::string>(
@@ -327,6 +372,7 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
 
     try {
         line.parse(argc, argv);
+        check_probed(options);
         const bool is_film = options.frames.of_turn > 1;
         if (is_film && line.count("--out") == 0) options.out = program.name + "_%04d.png";
         if (is_film && name_of_frame(options.out, 0) == options.out)

@@ -16,6 +16,7 @@
 #include "common/app/image_sequence.hpp"
 #include "common/image/image.hpp"
 #include "common/model/mesh.hpp"
+#include "common/probe/pixel_report.hpp"
 
 namespace rasterbook {
 
@@ -28,6 +29,7 @@ struct LessonOptions {
     LoadBudget budget;          ///< What the model's files may ask for.
     bool is_sandboxed = false;  ///< Only files in the model's folder are read.
     bool stats = false;
+    std::optional<ivec2> probed;  ///< A pixel to explain; then no picture is written.
     Frames frames;
     int jobs = 0;  ///< Frames that are drawn and written at once; 0: as many as there are threads.
 };
@@ -115,6 +117,8 @@ struct LessonProgram {
 
     /// Called by several threads at once, each with counters of its own.
     std::function<Image<vec3>(const FrameOptions&, Counters&)> render;
+
+    std::function<PixelProbe()> make_probe{};  ///< For --probe; empty: the lesson has none.
 };
 
 /// The scene in what a lesson draws.
@@ -139,6 +143,9 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
 ///          between files (protect_files()).
 int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 
+/// For run_lesson(): a lesson without --probe.
+struct NoProbe {};
+
 /// Runs a lesson: reads the command line and the model, renders, writes the picture.
 ///
 /// @tparam Options     Derived from LessonOptions; may have `void declare(Knobs&)`, an `Orbit
@@ -150,9 +157,12 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 ///                     gives the picture in linear colour. Where there are several pictures,
 ///                     several threads call it at once: what it keeps from one to the next must be
 ///                     thread_local.
-template <typename Options, typename MakeAssets, typename Render>
+/// @param make_probe   Called for --probe as make_probe(const Options&, const Assets&); gives the
+///                     PixelProbe of the picture.
+template <typename Options, typename MakeAssets, typename Render, typename MakeProbe = NoProbe>
+requires std::is_invocable_v<MakeAssets, Scene, const Options&>
 int run_lesson(int argc, char** argv, std::string name, std::string title, MakeAssets make_assets,
-               Render render) {
+               Render render, MakeProbe make_probe = {}) {
     Options options;
     std::optional<std::invoke_result_t<MakeAssets, Scene, const Options&>> assets;
     Orbit* orbit = nullptr;
@@ -161,6 +171,9 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, MakeA
     if constexpr (requires { options.show_depth; }) show_depth = &options.show_depth;
     if constexpr (requires { options.orbit; }) orbit = &options.orbit;
     if constexpr (requires { options.threads.threads; }) threads = &options.threads.threads;
+    std::function<PixelProbe()> probe;
+    if constexpr (!std::is_same_v<MakeProbe, NoProbe>)
+        probe = [&] { return make_probe(std::as_const(options), std::as_const(*assets)); };
     return run_lesson_program(
         {std::move(name), std::move(title), options, orbit, show_depth, threads,
          [&](Knobs& knobs) {
@@ -175,16 +188,20 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, MakeA
              if constexpr (requires { own.orbit; }) own.orbit.yaw_degrees = frame.yaw_degrees;
              if constexpr (requires { own.threads.threads; }) own.threads.threads = frame.threads;
              return render(own, *assets, counters);
-         }},
+         },
+         probe},
         argc, argv);
 }
 
 /// The same of a lesson that draws the scene as it was read.
-template <typename Options, typename Render>
-int run_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
+template <typename Options, typename Render, typename MakeProbe = NoProbe>
+requires(!std::is_invocable_v<Render, Scene, const Options&>)
+int run_lesson(int argc, char** argv, std::string name, std::string title, Render render,
+               MakeProbe make_probe = {}) {
     return run_lesson<Options>(
         argc, argv, std::move(name), std::move(title),
-        [](Scene scene, const Options&) { return scene; }, std::move(render));
+        [](Scene scene, const Options&) { return scene; }, std::move(render),
+        std::move(make_probe));
 }
 
 }  // namespace rasterbook

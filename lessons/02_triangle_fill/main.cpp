@@ -2,6 +2,7 @@
 /// @file
 /// Lesson 02: the model as filled triangles, each painted over those before it.
 #include "02_triangle_fill/flat_color.hpp"
+#include "02_triangle_fill/probe.hpp"
 #include "02_triangle_fill/triangle_variants.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
@@ -56,5 +57,6 @@ int main(int argc, char** argv) {
                                "Draws a model as filled triangles, in the file's order.",
                                [](const auto& options, const auto& scene, auto& counters) {
                                    return render(options, scene, counters);
-                               });
+                               },
+                               [](const auto&... of) { return fill_probe(of...); });
 }

@@ -130,6 +130,11 @@ void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>
     }
 }
 
+/// Whether other numbers than fill_triangle's are asked for.
+inline bool is_fill_variant(const FillVariant& variant) {
+    return variant.edges != EdgeNumber::int64 || variant.subpixel_bits != subpixel_bits;
+}
+
 /// fill_triangle, or fill_bounding_box_as if the variant asks for other numbers.
 ///
 /// @param on_screen  The triangle as snap_triangle gives it, for fill_triangle.
@@ -137,10 +142,10 @@ void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>
 template <std::invocable<ivec2, vec3> Emit>
 void fill(const FillVariant& variant, const ScreenTriangle& on_screen,
           const std::array<dvec2, 3>& vertices, ivec2 size, Emit&& emit) {
-    if (variant.edges == EdgeNumber::int64 && variant.subpixel_bits == subpixel_bits)
-        fill_triangle(on_screen, size, emit);
-    else
+    if (is_fill_variant(variant))
         fill_bounding_box_as(variant, vertices, size, emit);
+    else
+        fill_triangle(on_screen, size, emit);
 }
 
 }  // namespace rasterbook

@@ -5,6 +5,7 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "03_z_buffer/depth_variants.hpp"
+#include "03_z_buffer/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
@@ -64,5 +65,6 @@ int main(int argc, char** argv) {
                                "Draws a model as filled triangles with a depth buffer.",
                                [](const auto& options, const auto& scene, auto& counters) {
                                    return render(options, scene, counters);
-                               });
+                               },
+                               [](const auto&... of) { return depth_probe(of...); });
 }

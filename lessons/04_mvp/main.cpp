@@ -7,6 +7,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/instance.hpp"
 #include "04_mvp/mvp_variants.hpp"
+#include "04_mvp/probe.hpp"
 #include "04_mvp/projection.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -27,13 +28,17 @@ struct Options : LessonOptions {
     }
 };
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static std::vector<Instance> make_instances(const Options& options, const Scene& scene) {
     // The teapot again, as a coffee pot on the crate: scaled, then rotated, then moved.
     const mat4 world_from_pot = translation(vec3(-3.7f, 2.4f, -2.6f)) *
                                 rotation_y(glm::radians(options.turn_degrees)) *
                                 scaling(vec3(0.4f, 0.75f, 0.3f));
-    const std::vector<Instance> instances = instances_of(scene, world_from_pot);
+    return instances_of(scene, world_from_pot);
+}
+
+template <typename CounterPolicy>
+static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+    const std::vector<Instance> instances = make_instances(options, scene);
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     if (options.mvp.asks_pixels())
         return render_by_pixels(options, scene, instances, camera, counters);
@@ -64,5 +69,9 @@ int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "04_mvp", "Draws a scene through a camera.",
                                [](const auto& options, const auto& scene, auto& counters) {
                                    return render(options, scene, counters);
+                               },
+                               [](const auto& options, const auto& scene) {
+                                   return mvp_probe(options, scene,
+                                                    make_instances(options, scene));
                                });
 }

@@ -6,6 +6,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
+#include "05_textures/probe.hpp"
 #include "05_textures/textures.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -68,5 +69,6 @@ static Image<vec3> render(const Options& options, const Assets& assets, CounterP
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "05_textures", "Draws a scene with textures.",
                                make_assets,
-                               [](auto&... arguments) { return render(arguments...); });
+                               [](auto&... arguments) { return render(arguments...); },
+                               [](auto&... of) { return texture_probe(of...); });
 }

@@ -6,6 +6,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
 #include "06_phong/assets.hpp"
+#include "06_phong/probe.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
@@ -72,5 +73,6 @@ static Image<vec3> render(const Options& options, const PhongAssets& assets,
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "06_phong", "Draws a scene with Phong lighting.",
                                make_phong_assets<Options>,
-                               [](auto&... arguments) { return render(arguments...); });
+                               [](auto&... arguments) { return render(arguments...); },
+                               [](auto&... of) { return phong_probe(of...); });
 }

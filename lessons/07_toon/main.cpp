@@ -8,6 +8,7 @@
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "07_toon/assets.hpp"
+#include "07_toon/probe.hpp"
 #include "07_toon/toon_variants.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -80,5 +81,6 @@ static Image<vec3> render(const Options& options, const ToonAssets& assets,
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "07_toon", "Draws a scene as a comic does.",
                                make_toon_assets<Options>,
-                               [](auto&... arguments) { return render(arguments...); });
+                               [](auto&... arguments) { return render(arguments...); },
+                               [](auto&... of) { return toon_probe(of...); });
 }

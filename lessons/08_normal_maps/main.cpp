@@ -10,6 +10,7 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/assets.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
+#include "08_normal_maps/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 
@@ -72,5 +73,6 @@ static Image<vec3> render(const Options& options, const NormalMapAssets& assets,
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "08_normal_maps", "Draws a scene with normal maps.",
                                make_normal_map_assets<Options>,
-                               [](auto&... arguments) { return render(arguments...); });
+                               [](auto&... arguments) { return render(arguments...); },
+                               [](auto&... of) { return normal_map_probe(of...); });
 }

@@ -10,6 +10,7 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "09_shadow_maps/assets.hpp"
+#include "09_shadow_maps/probe.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -82,5 +83,6 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets,
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "09_shadow_maps", "Draws a scene with shadow maps.",
                                make_shadow_assets<Options>,
-                               [](auto&... arguments) { return render(arguments...); });
+                               [](auto&... arguments) { return render(arguments...); },
+                               [](auto&... of) { return shadow_probe(of...); });
 }

@@ -7,6 +7,7 @@
 #include "06_phong/shading_variants.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "09_shadow_maps/assets.hpp"
+#include "09_shadow_maps/probe.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
@@ -102,5 +103,6 @@ int main(int argc, char** argv) {
             thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
             return render(options, assets, *pool, counters);
-        });
+        },
+        [](auto&... of) { return shadow_probe(of...); });
 }

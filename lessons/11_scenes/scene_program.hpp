@@ -10,6 +10,7 @@
 
 #include "10_threading/thread_pool.hpp"
 #include "11_scenes/explain.hpp"
+#include "11_scenes/probe.hpp"
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "common/app/lesson_app.hpp"
@@ -34,7 +35,8 @@ int run_scene_lesson(int argc, char** argv, std::string name, std::string title,
                 explain(assets, camera_of_picture(options, options.scene.camera, assets.scene).name,
                         counters, clock);
             return picture;
-        });
+        },
+        scene_probe);
 }
 
 }  // namespace rasterbook

@@ -12,6 +12,7 @@
 #include "06_phong/shading_variants.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "09_shadow_maps/assets.hpp"
+#include "09_shadow_maps/probe.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
