@@ -61,8 +61,7 @@ class Lesson {
       if (error !== left) throw error;
     }
     const described = JSON.parse(this.text(this.exports.controls()));
-    this.model = described.model;
-    this.controls = described.controls;
+    Object.assign(this, described);  // model, hasProbe, controls
   }
 
   /** An error of the program takes along what the C++ library has said last. */
@@ -115,6 +114,11 @@ class Lesson {
     this.printed = "";
     const at = this.call("draw", width, height) >>> 0;
     return new Uint8ClampedArray(this.exports.memory.buffer.slice(at, at + 4 * width * height));
+  }
+
+  /** Why a pixel of the picture drawn last has its colour. */
+  probe(x, y) {
+    return this.text(this.call("probe", x, y));
   }
 }
 

@@ -40,6 +40,8 @@ let size = usualSize;  // of a picture that stands still
 let sides = [{}, {}];  // what differs from the lesson's presets, left and right
 let mode = "picture";  // or "compare", "difference"
 let gain = 8;
+let probed = null;  // a pixel: [x, y]
+let probedSide = 0;
 let pictures = [];  // the last answers, for each side
 
 // --- The page's parts
@@ -55,12 +57,17 @@ const labelled = (made, label) => {
 };
 const canvases = [0, 1].map(() => element("canvas"));
 const handle = labelled(element("input", { type: "range", className: "split", min: 0, max: 100, step: 0.5, value: 50 }), "The border between left and right");
+const cross = element("div", { className: "cross", hidden: true });
 const tags = ["left", "right"].map((className) => element("span", { className: `tag ${className}` }));
-const stage = element("div", { className: "stage", hidden: true }, ...canvases, ...tags, handle);
+const stage = element("div", { className: "stage", hidden: true }, ...canvases, cross, ...tags, handle);
 const status = element("p", { className: "status" });
 status.setAttribute("role", "status");
 const stop = element("button", { type: "button", textContent: "Stop", hidden: true });
 const printed = element("pre", { className: "printed", hidden: true });
+const reasons = element("pre", { className: "reasons", tabIndex: 0 });
+const close = element("button", { type: "button", textContent: "Close" });
+const probeBox = element("section", { className: "probe", hidden: true }, element("div", { className: "said" }, element("h3", { textContent: "Why this pixel?" }), close), reasons);
+labelled(probeBox, "Why this pixel?");
 const modelChoice = element("select", {}, ...models.map((name) => element("option", { textContent: name })));
 const sizeChoice = element("select", {}, ...sizes.map((value) => element("option", { value, textContent: value.replace("x", " × ") })));
 const modeChoice = element("select", {}, ...[["picture", "Picture"], ["compare", "Compare"], ["difference", "Difference"]].map(([value, text]) => element("option", { value, textContent: text })));
@@ -187,6 +194,8 @@ async function drawWanted() {
     show();
     if (!isMoving) report(changed);
     if (!wanted) place.dataset.state = isMoving ? "moving" : "ready";
+    if (isMoving) cross.hidden = true;
+    else await explain();
     if (isMoving) whole = setTimeout(draw, 200);
     else await timeAgain(changed);
   } catch (error) {
@@ -199,6 +208,21 @@ async function drawWanted() {
   stop.hidden = true;
   isBusy = false;
   if (wanted) drawWanted();
+}
+
+/** Why the probed pixel has its colour, with a link for each equation. */
+async function explain() {
+  probeBox.hidden = cross.hidden = !probed;
+  if (!probed) return;
+  const [width, height] = wholeSize();
+  const [x, y] = probed;
+  cross.style.left = `${(100 * (x + 0.5)) / width}%`;
+  cross.style.top = `${(100 * (y + 0.5)) / height}%`;
+  const { text } = await ask("probe", { side: probedSide, pixel: probed });
+  reasons.replaceChildren(...text.trimEnd().split(/(Eq\. \d+\.\d+)/).map((part) => {
+    const [, lesson, number] = part.match(/^Eq\. (\d+)\.(\d+)$/) ?? [];
+    return lesson ? element("a", { textContent: part, href: `derivation_${lesson.padStart(2, "0")}.html#eq_${lesson}_${number}` }) : part;
+  }));
 }
 
 /** A program's first pictures are slow, until the browser has optimised it: times are of several, by turns. */
@@ -283,7 +307,7 @@ function report(changed) {
     const { rms, share } = differenceOf(pictures);
     words[0] = `Left ${inMs(left.ms)}, right ${inMs(right.ms)}.`;
     words.push(share === 0 ? "No pixel differs." : `${percent(share)} of the pixels differ, by ${rms.toPrecision(2)} of 255 (RMS of all).`);
-  } else words[0] += " in this browser, by one thread.";
+  } else words[0] += ` in this browser, by one thread.${lesson.hasProbe && !probed ? " Click a pixel to see why it has its colour." : ""}`;
   if (changed && (isCompared() ? left.isSame && right.isSame : left.isSame))
     words.push(`${changed} changes no pixel. ${whyNoChange[changed] ?? "Nothing in this picture asks for it."}`);
   say(words.join(" "));
@@ -351,6 +375,7 @@ function buildCommands() {
     const side = sides[i];
     const words = [`./lessons/run ${lessonName.slice(0, 2)}`];
     if (size !== usualSize) words.push(`--size ${size}`);
+    if (probed && i === probedSide) words.push(`--probe ${probed.join()}`);
     if (model !== lesson.model) words.push(`--model ${model}`);
     for (const { name, kind } of lesson.controls)
       if (name in side) words.push(kind === "flag" ? name : `${name} ${/^[\w.,-]+$/.test(side[name]) ? side[name] : `'${side[name]}'`}`);
@@ -396,6 +421,7 @@ function addressOf() {
   }
   if (isCompared() && !pairs.some(([name]) => name === "against")) pairs.push(["compare", "yes"]);
   if (mode === "difference") pairs.push(["difference", gain]);
+  if (probed) pairs.push(["probe", probed.join()]);
   return pairs.length > 0 ? `#${pairs.map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&")}` : location.pathname + location.search;
 }
 
@@ -405,6 +431,7 @@ function readAddress() {
   size = usualSize;
   sides = [{}, {}];
   mode = "picture";
+  probed = null;
   if (!location.hash.includes("=")) return;
   let last = null;
   for (const pair of location.hash.slice(1).split("&")) {
@@ -413,6 +440,7 @@ function readAddress() {
     const control = lesson.controls.find((each) => each.name === `--${name}`);
     if (name === "model" && models.includes(value)) model = value;
     else if (name === "size" && sizes.includes(value)) size = value;
+    else if (name === "probe" && lesson.hasProbe && isPixel(value)) probed = value.split(",").map(Number);
     else if (name === "compare") mode = "compare";
     else if (name === "difference" && [1, 2, 4, 8, 16, 32, 64].includes(+value)) [mode, gain] = ["difference", +value];
     else if (name === "against" && last) {
@@ -424,6 +452,13 @@ function readAddress() {
       last = control;
     } else throw new Error(`The address asks for ${pair}, which this page does not have.`);
   }
+}
+
+/** @param {string} text  X,Y in a picture of the size that was read before. */
+function isPixel(text) {
+  const [, x, y] = text.match(/^(\d+),(\d+)$/) ?? [];
+  const [width, height] = wholeSize();
+  return x !== undefined && +x < width && +y < height;
 }
 
 function takeAddress() {
@@ -457,7 +492,16 @@ function turn(right, up, nearer = 0) {
   changed("", true);
 }
 
+/** @param {number[]} pixel  Of the whole picture; one outside of it is taken to its border. */
+function probe(pixel, side) {
+  if (!lesson?.hasProbe) return;
+  probed = pixel.map((at, i) => Math.min(Math.max(at, 0), wholeSize()[i] - 1));
+  probedSide = side;
+  changed();
+}
+
 const pointers = new Map();
+let pressed = null;  // where a pointer went down, as long as it may be a click
 let pinch = 0;
 canvases.forEach((canvas) => {
   canvas.tabIndex = 0;
@@ -467,11 +511,14 @@ stage.addEventListener("pointerdown", (event) => {
   if (event.target === handle) return;
   pointers.set(event.pointerId, event);
   stage.setPointerCapture(event.pointerId);
+  pressed = pointers.size === 1 ? event : null;
   pinch = 0;
 });
 stage.addEventListener("pointermove", (event) => {
   const before = pointers.get(event.pointerId);
   if (!before) return;
+  if (pressed && Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < 4) return;
+  pressed = null;
   pointers.set(event.pointerId, event);
   if (pointers.size === 2) {
     const [a, b] = [...pointers.values()];
@@ -486,6 +533,13 @@ stage.addEventListener("pointermove", (event) => {
 for (const end of ["pointerup", "pointercancel"])
   stage.addEventListener(end, (event) => {
     pointers.delete(event.pointerId);
+    if (pressed && end === "pointerup") {
+      const box = stage.getBoundingClientRect();
+      const at = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+      const side = mode === "compare" && 100 * at[0] > +handle.value ? 1 : 0;
+      probe(at.map((share, i) => Math.floor(share * wholeSize()[i])), side);
+    }
+    pressed = null;
     if (lesson && pointers.size === 0) buildOptions();
   });
 stage.addEventListener("wheel", (event) => {
@@ -496,12 +550,22 @@ stage.addEventListener("wheel", (event) => {
 stage.addEventListener("keydown", (event) => {
   const steps = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5], "+": [0, 0, 0.1], "-": [0, 0, -0.1] };
   const step = event.target !== handle && steps[event.key];
-  if (!step) return;
+  const middle = wholeSize().map((length) => length >> 1);
+  if (event.key === "Enter") probe(probed ?? middle, probedSide);
+  else if (event.key === "Escape") unprobe();
+  else if (step && event.shiftKey && step.length === 2) probe((probed ?? middle).map((at, i) => at + Math.sign([step[0], -step[1]][i])), probedSide);
+  else if (step) turn(...step);
+  else return;
   event.preventDefault();
-  turn(...step);
 });
 
+function unprobe() {
+  probed = null;
+  changed();
+}
+
 handle.oninput = placeSplit;
+close.onclick = unprobe;
 stop.onclick = () => startWorker("Stopped.");
 modelChoice.onchange = () => {
   model = modelChoice.value;
@@ -509,6 +573,7 @@ modelChoice.onchange = () => {
 };
 sizeChoice.onchange = () => {
   size = sizeChoice.value;
+  probed = null;
   changed();
 };
 modeChoice.onchange = () => {
@@ -546,7 +611,7 @@ async function begin() {
     place.append(bar, ...groups, commands);
     const canTurn = lesson.controls.some(({ name }) => name === "--yaw");
     stage.classList.toggle("turns", canTurn);
-    const label = `The lesson's picture, drawn here${canTurn ? "; the arrow keys turn it, + and - go nearer and farther" : ""}`;
+    const label = `The lesson's picture, drawn here${canTurn ? "; the arrow keys turn it, + and - go nearer and farther" : ""}${lesson.hasProbe ? "; Enter says why a pixel has its colour, Shift with arrow keys goes to its neighbours" : ""}`;
     canvases.forEach((canvas) => labelled(canvas, label));
     takeAddress();
   } catch (error) {
@@ -555,5 +620,5 @@ async function begin() {
   }
 }
 
-place.append(stage, element("div", { className: "said" }, status, stop), printed);
+place.append(stage, element("div", { className: "said" }, status, stop), probeBox, printed);
 begin();

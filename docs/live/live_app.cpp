@@ -22,6 +22,7 @@
 #include "common/math/color.hpp"
 #include "common/model/load_budget.hpp"
 #include "common/model/texture_file.hpp"
+#include "common/probe/pixel_report.hpp"
 #include "docs/live/packed_scene.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
@@ -142,6 +143,7 @@ struct Page {
     Scene model{};
     std::string given{};  ///< What the page has written.
     std::string answer{};
+    Image<u8vec3> picture{};  ///< As it was drawn last.
     std::vector<std::uint8_t> rgba{};
 };
 Page* page = nullptr;
@@ -177,7 +179,9 @@ EXPORTED(room) char* room(std::size_t bytes) {
 /// The lesson's model and controls, as JSON.
 EXPORTED(controls) const char* controls() {
     std::ostringstream json;
-    json << "{\"model\": " << quoted(page->program.options.model.string()) << ", \"controls\": [";
+    json << "{\"model\": " << quoted(page->program.options.model.string())
+         << ", \"hasProbe\": " << (page->program.make_probe ? "true" : "false")
+         << ", \"controls\": [";
     const char* comma = "";
     for (const Control& control : page->line.controls) {
         json << comma << "{\"name\": " << quoted(control.name) << ", \"kind\": \"" << control.kind
@@ -223,12 +227,21 @@ EXPORTED(draw) const std::uint8_t* draw(int width, int height) {
     const float yaw_degrees = page->program.orbit ? page->program.orbit->yaw_degrees : 0;
     Counters counters;
     Image<vec3> rendered = page->program.render({yaw_degrees, 1}, counters);
-    const Image<u8vec3> picture =
-        srgb8_from_linear(averaged(std::move(rendered), options.samples_per_side));
+    page->picture = srgb8_from_linear(averaged(std::move(rendered), options.samples_per_side));
     page->rgba.clear();
-    for (const u8vec3 color : picture.pixels())
+    for (const u8vec3 color : page->picture.pixels())
         page->rgba.insert(page->rgba.end(), {color.r, color.g, color.b, 255});
     return page->rgba.data();
+}
+
+/// Says why a pixel of the picture that was drawn last has its colour; nothing in a lesson that
+/// cannot tell.
+EXPORTED(probe) const char* probe(int x, int y) {
+    page->answer.clear();
+    if (page->program.make_probe)
+        page->answer = explained(page->program.make_probe(), {x, y},
+                                 page->program.options.samples_per_side, page->picture[{x, y}]);
+    return page->answer.c_str();
 }
 
 // In place of what reads files.

@@ -29,8 +29,9 @@ struct SceneWriter {
     std::map<std::filesystem::path, EmbeddedImage> images;  ///< So far: each is written once.
 
     void transfer_bytes(void* from, std::size_t count) {
-        const auto* const bytes = static_cast<const std::uint8_t*>(from);
-        written.insert(written.end(), bytes, bytes + count);
+        const std::size_t before = written.size();
+        written.resize(before + count);
+        if (count > 0) std::memcpy(written.data() + before, from, count);
     }
 };
 

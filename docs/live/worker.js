@@ -16,8 +16,8 @@ async function unpacked(text) {
 const tasks = {
   lesson: async ({ name, text }) => {
     modules[name] = await WebAssembly.compile(await unpacked(text));
-    const { model, controls } = new Lesson(modules[name]);
-    return { model, controls };
+    const { model, hasProbe, controls } = new Lesson(modules[name]);
+    return { model, hasProbe, controls };
   },
 
   scene: async ({ name, text }) => {
@@ -48,6 +48,8 @@ const tasks = {
       throw error;
     }
   },
+
+  probe: ({ side, pixel }) => ({ text: drawn[side].lesson.probe(...pixel) }),
 };
 
 function inWords(error) {
