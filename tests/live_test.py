@@ -1,8 +1,8 @@
 """Runs the lessons in their pages, in headless Chromium: live_test.py SITE_FOLDER BUILD_FOLDER.
 
 Every lesson's page is opened from the folder and from a server and has to draw the bytes that the
-program draws; every control has to change the picture, or to say why not; what goes wrong has to
-end in a sentence. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED
+program draws; every control has to change the picture as the option does, or to say why not; a
+probed pixel has to have the program's reasons; what goes wrong has to end in a sentence. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED
 is set.
 """
 
@@ -29,6 +29,8 @@ for (let i = 0, j = 0; i < pixels.length; i += 4)
   for (let c = 0; c < 3; ++c) rgb[j++] = pixels[i + c];
 return crypto.subtle.digest("SHA-256", rgb).then((hash) =>
   [...new Uint8Array(hash)].map((byte) => byte.toString(16).padStart(2, "0")).join(""));"""
+PIXEL = """const canvas = document.querySelector(".live canvas");
+return [...canvas.getContext("2d").getImageData(...arguments, 1, 1).data].slice(0, 3);"""
 # Another value than the control has now, as a reader would choose it.
 CHANGE = """const control = arguments[0];
 if (control.tagName === "SELECT") control.selectedIndex = (control.selectedIndex + 1) % control.length;
@@ -178,6 +180,59 @@ def check_controls(page: LivePage, address: str, lesson: str, build: Path) -> li
     return problems
 
 
+def check_probe(page: LivePage, address: str, lesson: str, build: Path, site: Path) -> list[str]:
+    """The reasons are those of the program, the last line is the pixel, and each equation is found."""
+    problems = []
+    # Where there are the background, the floor, and things on it in most scenes.
+    for x, y in ((10, 5), (200, 135), (250, 120), (240, 180), (300, 250)):
+        page.open(f"{address}/lesson_{lesson[:2]}.html#size=480x270&probe={x},{y}")
+        command = [build / lesson, "--size", "480x270", "--probe", f"{x},{y}"]
+        expected = subprocess.run(command, check=True, capture_output=True, encoding="utf-8").stdout
+        reasons = page.all(".live .reasons")[0]
+        text = page.browser.execute_script("return arguments[0].textContent", reasons)
+        if text != expected.rstrip("\n"):
+            problems.append(f"pixel {x}, {y}: says other things than the program")
+        red, green, blue = page.browser.execute_script(PIXEL, x, y)
+        if not text.endswith(f"#{red:02x}{green:02x}{blue:02x}"):
+            problems.append(f"pixel {x}, {y}: does not end with its colour")
+        for link in reasons.find_elements("tag name", "a"):
+            file, anchor = link.get_attribute("href").rsplit("/", 1)[1].split("#")
+            if f'id="{anchor}"' not in (site / file).read_text(encoding="utf-8"):
+                problems.append(f"pixel {x}, {y}: {link.text} leads nowhere")
+    return problems
+
+
+def check_click(page: LivePage, address: str) -> list[str]:
+    from selenium.webdriver import ActionChains
+    from selenium.webdriver.common.keys import Keys
+
+    problems = []
+    page.open(f"{address}/lesson_05.html#size=480x270")
+    canvas = page.all(".live canvas")[0]
+    page.browser.execute_script("scrollTo(0, 0)")
+    ActionChains(page.browser).move_to_element(canvas).click().perform()
+    page.wait()
+    asked = re.search(r"probe=(\d+)(?:,|%2C)(\d+)", page.browser.current_url)
+    if not asked or abs(int(asked[1]) - 240) > 1 or abs(int(asked[2]) - 135) > 1:
+        problems.append(f"a click in the middle probes {asked and asked[0]}")
+    canvas.send_keys(Keys.ESCAPE)
+    page.wait()
+    if page.all(".live .probe")[0].is_displayed():
+        problems.append("Escape does not close the probe")
+    canvas.send_keys(Keys.ENTER)
+    page.wait()
+    canvas.send_keys(Keys.SHIFT + Keys.ARROW_DOWN)
+    page.wait()
+    if "pixel 240, 136" not in page.all(".live .reasons")[0].text:
+        problems.append("Enter and Shift with an arrow do not probe")
+    before = page.pixels
+    ActionChains(page.browser, 0).click_and_hold(canvas).move_by_offset(40, 0).release().perform()
+    page.wait()
+    if "yaw=" not in page.browser.current_url or page.pixels == before:
+        problems.append("the pointer does not turn the scene")
+    return problems
+
+
 def check_keys(page: LivePage, address: str) -> list[str]:
     from selenium.webdriver.common.keys import Keys
 
@@ -296,8 +351,11 @@ def main() -> None:
                 found = check_bytes(page, address, lesson, expected)
                 problems += [f"{lesson}, {place}: {problem}" for problem in found]
             problems += [f"{lesson}: {problem}" for problem in check_controls(page, folder, lesson, build)]
+            if lesson != "01_bresenham_lines":
+                found = check_probe(page, folder, lesson, build, site)
+                problems += [f"{lesson}: {problem}" for problem in found]
             problems += check_log(browser, lesson, (folder, places["from a server"]))
-        problems += check_keys(page, folder) + check_comparison(page, folder)
+        problems += check_click(page, folder) + check_keys(page, folder) + check_comparison(page, folder)
         problems += check_links(page, site, folder)
         problems += check_log(browser, "comparisons", (folder,))
         problems += check_failures(page, folder)
