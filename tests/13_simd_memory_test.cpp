@@ -208,9 +208,9 @@ TEST(Simd, HardCase_AttributesAreInterpolatedInEachLane) {
 
             std::array<ClippedVertex, 3> clipped;
             for (std::size_t v = 0; v < 3; ++v) {
-                vec3 corner(0);
-                corner[static_cast<int>(v)] = 1;
-                clipped.at(v) = {vec4(dice.in_cube(1), dice.between(0.1f, 3)), corner};
+                Barycentrics at_vertex(0);
+                at_vertex[static_cast<int>(v)] = 1;
+                clipped.at(v) = {vec4(dice.in_cube(1), dice.between(0.1f, 3)), at_vertex};
             }
             if (dice.one_in(2)) clipped[1].barycentrics = {0.25f, 0.75f, 0};
             const PerspectiveSetup setup =

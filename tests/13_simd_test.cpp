@@ -173,13 +173,13 @@ struct ColoredTriangles {
 
     ProjectedTriangle projected(ivec2 size, std::size_t number) const {
         const Mesh& mesh = assets.scene.meshes[0];
-        const auto corner = [&](std::size_t i) {
+        const auto vertex = [&](std::size_t i) {
             const vec3 p = mesh.positions[3 * number + i];
             vec3 at(0);
             at[static_cast<int>(i)] = 1;
             return ClippedVertex{vec4(p, 1) * (1.0f + static_cast<float>((i + number) % 3)), at};
         };
-        return project(mesh, mesh.triangles[number], {corner(0), corner(1), corner(2)}, size);
+        return project(mesh, mesh.triangles[number], {vertex(0), vertex(1), vertex(2)}, size);
     }
 };
 

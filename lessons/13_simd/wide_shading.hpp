@@ -214,20 +214,20 @@ void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTri
 template <typename F, typename CounterPolicy>
 void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible, Show show,
                    HeatMap& heat, CounterPolicy& counters) {
-    std::vector<VisibleTriangle> seen;
+    std::vector<VisibleTriangle> triangles;
     visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelRun> runs) {
-        seen.push_back({&triangle, runs});
+        triangles.push_back({&triangle, runs});
     });
     const auto is_alike = [](const VisibleTriangle& a, const VisibleTriangle& b) {
         return &a.triangle->mesh == &b.triangle->mesh &&
                a.triangle->triangle.material == b.triangle->triangle.material;
     };
-    for (auto begin = seen.begin(), end = begin; begin != seen.end(); begin = end) {
-        while (end != seen.end() && is_alike(*begin, *end)) ++end;
+    for (auto begin = triangles.begin(), end = begin; begin != triangles.end(); begin = end) {
+        while (end != triangles.end() && is_alike(*begin, *end)) ++end;
         shader_of<F, CounterPolicy>(frame, *begin->triangle)
             .shade_pixels(frame, {begin, end}, counters);
     }
-    for (const auto& [triangle, runs] : seen)
+    for (const auto& [triangle, runs] : triangles)
         for (const PixelRun& run : runs) {
             heat.add(run);
             if (show == Show::ids)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Frames by how many pixels are drawn at a time, and what lesson 13 does without: estimates, fused
-/// multiply-adds, other polynomials, and textures of 8-bit codes.
+/// multiply-adds, other polynomials, and textures of 8-bit values.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -117,9 +117,9 @@ void add_arithmetic(const std::string& comparison,
         const Image<vec3> exact = counted(of_width(16), *assets).picture;
         Errors errors;
         for (const auto& [variant, arithmetic] : variants) {
-            const CodeDifference codes(counted(of_width(arithmetic), *assets).picture, exact);
-            errors[variant + ", codes"] = codes.percent;
-            errors[variant + ", greatest"] = codes.greatest;
+            const ValueDifference values(counted(of_width(arithmetic), *assets).picture, exact);
+            errors[variant + ", values"] = values.percent;
+            errors[variant + ", greatest"] = values.greatest;
         }
         for (const auto& [variant, arithmetic] : variants) {
             const lesson_13::Options options = of_width(arithmetic);

@@ -92,13 +92,10 @@ struct Rcp14 {
     }
 };
 using BestEstimate = Rcp14;
-constexpr const char* best_estimate_name = "rcp14";
 #elif defined(__SSE__)
 using BestEstimate = Rcpps;
-constexpr const char* best_estimate_name = "rcpps";
 #else
 using BestEstimate = ByBits;
-constexpr const char* best_estimate_name = "bits";
 #endif
 
 /// Each step doubles the correct bits, until rounding sets in.

@@ -64,11 +64,11 @@ inline lesson_13::Options of_width(int width, lesson_13::Options options = {}) {
     return options;
 }
 
-/// Differences of 8-bit codes, three to a pixel.
-struct CodeDifference {
+/// Differences of 8-bit values, three to a pixel.
+struct ValueDifference {
     double percent = 0, greatest = 0;
 
-    CodeDifference(const Image<vec3>& a, const Image<vec3>& b) {
+    ValueDifference(const Image<vec3>& a, const Image<vec3>& b) {
         const Image<u8vec3> file_a = srgb8_from_linear(a), file_b = srgb8_from_linear(b);
         for (std::size_t i = 0; i < file_a.pixels().size(); ++i)
             for (int c = 0; c < 3; ++c) {

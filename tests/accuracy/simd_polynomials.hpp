@@ -125,11 +125,11 @@ void add_log2(std::integer_sequence<int, degree...>) {
     add("course, degree 10", [](Floats<N> x) { return log2(x); });
 }
 
-/// A highlight as bright as white, by its cosine: sRGB codes beside those of double.
+/// A highlight as bright as white, by its cosine: 8-bit values beside those of double.
 ///
 /// @param power  Called as power(Floats<16> x, Floats<16> exponent).
 template <typename Power>
-double wrong_codes_percent(float exponent, const Power& power) {
+double wrong_values_percent(float exponent, const Power& power) {
     constexpr int steps = 1 << 20, N = 16;
     std::array<float, N> x, y;
     int wrong = 0;
@@ -151,14 +151,14 @@ double wrong_codes_percent(float exponent, const Power& power) {
 inline void add_power(const std::string& name, PowerInLanes power) {
     Errors errors;
     for (const int exponent : {32, 90, 1000})
-        errors["wrong codes, % at " + std::to_string(exponent)] =
-            wrong_codes_percent(static_cast<float>(exponent), power);
+        errors["wrong values, % at " + std::to_string(exponent)] =
+            wrong_values_percent(static_cast<float>(exponent), power);
     set_power(power);
     for (const auto& [scene_name, assets] : scenes()) {
         const Image<vec3> exact = counted(of_width(16), *assets).picture;
-        const CodeDifference codes(counted(of_width(powers), *assets).picture, exact);
-        errors[scene_name + ", %"] = codes.percent;
-        errors[scene_name + ", greatest"] = codes.greatest;
+        const ValueDifference values(counted(of_width(powers), *assets).picture, exact);
+        errors[scene_name + ", %"] = values.percent;
+        errors[scene_name + ", greatest"] = values.greatest;
     }
     const Floats<16> exponent(90.0f);
     add_function<16>("powers", name, 0, 1, std::move(errors),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Textures of 8-bit codes, decoded when they are read, beside textures of floats.
+/// Textures of 8-bit values, decoded when they are read, beside textures of floats.
 #pragma once
 
 #include <algorithm>
@@ -42,14 +42,14 @@ struct BilinearPlaces {
     }
 };
 
-/// The 256 numbers that a code may stand for: a colour's, and alpha's.
-struct CodeTables {
+/// What each byte stands for: a colour's, and alpha's.
+struct ByteTables {
     std::array<float, 256> color, alpha;
 
-    CodeTables() {
-        for (std::size_t code = 0; code < color.size(); ++code) {
-            alpha[code] = static_cast<float>(code) / 255.0f;
-            color[code] = linear_from_srgb(alpha[code]);
+    ByteTables() {
+        for (std::size_t byte = 0; byte < color.size(); ++byte) {
+            alpha[byte] = static_cast<float>(byte) / 255.0f;
+            color[byte] = linear_from_srgb(alpha[byte]);
         }
     }
 };
@@ -57,7 +57,7 @@ struct CodeTables {
 /// As sample_bilinear() of lesson 13: a texel's channels at once, each read from the table.
 template <int N>
 glm::vec<4, Floats<N>> sample_by_table(const EncodedLevel& level, Floats<N> x, Floats<N> y,
-                                       const CodeTables& tables) {
+                                       const ByteTables& tables) {
     using Texel = Vector<float, 4>;
     const BilinearPlaces<N> at(level, x, y);
     const u8vec4* const texels = level.texels.pixels().data();
@@ -88,7 +88,7 @@ template <int N, typename Decode>
 glm::vec<4, Floats<N>> sample_in_lanes(const EncodedLevel& level, Floats<N> x, Floats<N> y,
                                        Decode&& decode) {
     using F = Floats<N>;
-    using Codes = glm::vec<4, F>;
+    using Color = glm::vec<4, F>;
     const BilinearPlaces<N> at(level, x, y);
     const u8vec4* const texels = level.texels.pixels().data();
     const auto read = [&](int offset) {
@@ -98,7 +98,7 @@ glm::vec<4, Floats<N>> sample_in_lanes(const EncodedLevel& level, Floats<N> x, F
             std::memcpy(&bytes, texels + at.upper[i] + offset, sizeof bytes);
             packed.set(i, bytes);
         }
-        Codes color;
+        Color color;
         for (int c = 0; c < 4; ++c) {
             color[c] = to_floats(Ints<N>((packed.lanes >> (8 * c)) & 255)) * F(1 / 255.0f);
             if (c < 3) color[c] = decode(color[c]);
@@ -106,30 +106,30 @@ glm::vec<4, Floats<N>> sample_in_lanes(const EncodedLevel& level, Floats<N> x, F
         return color;
     };
     const int pitch = level.texels.size().x;
-    const Codes left = read(0), left_below = read(pitch);
-    const Codes in_upper = left + at.share_x * (read(1) - left);
-    const Codes in_lower = left_below + at.share_x * (read(pitch + 1) - left_below);
+    const Color left = read(0), left_below = read(pitch);
+    const Color in_upper = left + at.share_x * (read(1) - left);
+    const Color in_lower = left_below + at.share_x * (read(pitch + 1) - left_below);
     return in_upper + at.share_y * (in_lower - in_upper);
 }
 
 template <typename F>
-F decoded_by_power(F code) {
-    return select(code <= F(0.04045f), code * F(1 / 12.92f),
-                  power((code + F(0.055f)) * F(1 / 1.055f), F(2.4f)));
+F decoded_by_power(F srgb) {
+    return select(srgb <= F(0.04045f), srgb * F(1 / 12.92f),
+                  power((srgb + F(0.055f)) * F(1 / 1.055f), F(2.4f)));
 }
 
 /// A cubic that is near.
 ///
 /// @see Ian Taylor, "sRGB Approximations for HLSL", 2012.
 template <typename F>
-F decoded_by_cubic(F code) {
-    return code * (code * (code * F(0.305306011f) + F(0.682171111f)) + F(0.012522878f));
+F decoded_by_cubic(F srgb) {
+    return srgb * (srgb * (srgb * F(0.305306011f) + F(0.682171111f)) + F(0.012522878f));
 }
 
 /// A texture both ways, without smaller levels.
 struct TwoLevels {
     TextureLevel floats;
-    EncodedLevel codes;
+    EncodedLevel bytes;
 };
 
 inline const Image<u8vec4>& wood() {
@@ -179,18 +179,18 @@ using ColorLanes = glm::vec<4, TexelLanes>;
 /// Calls take(name, bytes of a texel, sample), where sample is called as sample(level, x, y).
 template <typename Take>
 void for_each_storage(Take&& take) {
-    static const CodeTables tables;
+    static const ByteTables tables;
     take("floats", sizeof(vec4), [](const TwoLevels& level, TexelLanes x, TexelLanes y) {
         return sample_bilinear(level.floats, x, y);
     });
     take("table", sizeof(u8vec4), [](const TwoLevels& level, TexelLanes x, TexelLanes y) {
-        return sample_by_table(level.codes, x, y, tables);
+        return sample_by_table(level.bytes, x, y, tables);
     });
     take("power", sizeof(u8vec4), [](const TwoLevels& level, TexelLanes x, TexelLanes y) {
-        return sample_in_lanes(level.codes, x, y, decoded_by_power<TexelLanes>);
+        return sample_in_lanes(level.bytes, x, y, decoded_by_power<TexelLanes>);
     });
     take("cubic", sizeof(u8vec4), [](const TwoLevels& level, TexelLanes x, TexelLanes y) {
-        return sample_in_lanes(level.codes, x, y, decoded_by_cubic<TexelLanes>);
+        return sample_in_lanes(level.bytes, x, y, decoded_by_cubic<TexelLanes>);
     });
 }
 
@@ -205,42 +205,42 @@ void sample_all(const TwoLevels& level, const Positions& positions, const Sample
     }
 }
 
-/// What a code stands for.
-inline double light_of_code(std::uint8_t code) {
-    const double srgb = code / 255.0;
+/// What a byte stands for.
+inline double light_of(std::uint8_t byte) {
+    const double srgb = byte / 255.0;
     return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
 /// The mean of the four texels around a position; the picture is repeated.
-inline dvec3 mean_of_codes(const Image<u8vec4>& texels, dvec2 position) {
+inline dvec3 mean_of_light(const Image<u8vec4>& texels, dvec2 position) {
     const dvec2 at = position * dvec2(texels.size()) - 0.5;
     dvec3 mean(0);
     for (int i = 0; i < 4; ++i) {
         const dvec2 texel = glm::floor(at) + dvec2(i % 2, i / 2);
         const dvec2 share = 1.0 - glm::abs(at - texel);
-        const u8vec4 code = texels[(ivec2(texel) + texels.size()) % texels.size()];
-        for (int c = 0; c < 3; ++c) mean[c] += share.x * share.y * light_of_code(code[c]);
+        const u8vec4 bytes = texels[(ivec2(texel) + texels.size()) % texels.size()];
+        for (int c = 0; c < 3; ++c) mean[c] += share.x * share.y * light_of(bytes[c]);
     }
     return mean;
 }
 
 template <typename Sample>
 Errors sampling_errors(const TwoLevels& level, const Positions& positions, const Sample& sample) {
-    double greatest = 0, sum_of_squares = 0, differing = 0, wrong_codes = 0;
+    double greatest = 0, sum_of_squares = 0, differing = 0, wrong_values = 0;
     for (std::size_t i = 0; i < positions.x.size(); i += texel_lanes) {
         const TexelLanes x = load<TexelLanes>(&positions.x[i]);
         const TexelLanes y = load<TexelLanes>(&positions.y[i]);
         const ColorLanes color = sample(level, x, y);
         const ColorLanes of_floats = sample_bilinear(level.floats, x, y);
         for (int lane = 0; lane < texel_lanes; ++lane) {
-            const dvec3 exact = mean_of_codes(wood(), {x[lane], y[lane]});
+            const dvec3 exact = mean_of_light(wood(), {x[lane], y[lane]});
             bool differs = false;
             for (int c = 0; c < 3; ++c) {
                 const float found = color[c][lane];
                 const double error = std::abs(static_cast<double>(found) - exact[c]);
                 greatest = std::max(greatest, error);
                 sum_of_squares += error * error;
-                wrong_codes +=
+                wrong_values +=
                     srgb8_from_linear(found) != srgb8_from_linear(static_cast<float>(exact[c]));
                 differs |= std::bit_cast<std::uint32_t>(found) !=
                            std::bit_cast<std::uint32_t>(of_floats[c][lane]);
@@ -251,7 +251,7 @@ Errors sampling_errors(const TwoLevels& level, const Positions& positions, const
     const auto samples = static_cast<double>(positions.x.size());
     return {{"greatest error, millionths", 1e6 * greatest},
             {"RMS error, millionths", 1e6 * std::sqrt(sum_of_squares / (3 * samples))},
-            {"wrong codes, %", 100 * wrong_codes / (3 * samples)},
+            {"wrong values, %", 100 * wrong_values / (3 * samples)},
             {"samples that differ from floats, %", 100 * differing / samples}};
 }
 
@@ -276,7 +276,7 @@ inline void add_storages() {
     }
 }
 
-/// Smaller levels are means, which are no codes: what rounding them to codes changes.
+/// Smaller levels are means, for which bytes have no value: what rounding them to bytes changes.
 inline void add_levels() {
     static const Texture texture = make_texture(linear_from_srgb8(wood()), Wrap::repeat);
     for (std::size_t i = 0; i < texture.levels.size(); ++i) {
