@@ -242,10 +242,12 @@ TEST(Probe, OnASharedEdgeItSaysWhichTriangleOwnsThePixel) {
     const ScreenTriangle lower = snap_triangle({0, 8}, {8, 8}, {8, 0});
     const ScreenTriangle upper = snap_triangle({0, 8}, {8, 0}, {0, 0});
     const ivec2 on_edge(3, 4);
-    EXPECT_EQ(why_not_covered(upper, on_edge), "on edge ab, neither a left nor a top one");
+    EXPECT_EQ(why_not_covered(upper, on_edge),
+              "on edge ab, neither a left nor a top one (Eq. 2.7)");
     EXPECT_EQ(why_not_covered(lower, on_edge), "") << "it owns the edge";
     EXPECT_TRUE(covered(lower, on_edge) && !covered(upper, on_edge));
-    EXPECT_EQ(why_not_covered(lower, {0, 4}), "outside of edge ca by 2.12 px") << "3 / sqrt(2)";
+    EXPECT_EQ(why_not_covered(lower, {0, 4}), "outside of edge ca by 2.12 px (Eq. 2.5)")
+        << "3 / sqrt(2)";
 }
 
 TEST(Probe, InAShadowItSaysWhichDepthsAreCompared) {

@@ -46,13 +46,14 @@ inline std::string why_not_covered(const ScreenTriangle& triangle, ivec2 pixel) 
         if (edge.value >= edge.least) continue;
         beyond += beyond.empty() ? "" : ", ";
         if (edge.value == 0) {
-            beyond += std::string("on edge ") + names[i] + ", neither a left nor a top one";
+            beyond +=
+                std::string("on edge ") + names[i] + ", neither a left nor a top one (Eq. 2.7)";
             continue;
         }
         const double length = glm::length(dvec2(to) - dvec2(from));
         const double distance_px = -static_cast<double>(edge.value) / (length * subpixels);
         beyond += std::string("outside of edge ") + names[i] + " by " +
-                  words(static_cast<float>(distance_px), 3) + " px";
+                  words(static_cast<float>(distance_px), 3) + " px (Eq. 2.5)";
     }
     return beyond;
 }
@@ -113,7 +114,7 @@ PixelProbe fill_probe(const Options& options, const Scene& scene) {
                 if (!at) {
                     history.missed(name, why_not_covered(on_screen, pixel));
                 } else if (!is_front_facing(on_screen)) {
-                    history.lost(name, *at, {}, "faces away");
+                    history.lost(name, *at, {}, "faces away (Eq. 2.2)");
                 } else {
                     history.written(name, *at, {});
                     seen = Seen{name, on_screen, *at, flat_normal(mesh, triangle),

@@ -27,7 +27,8 @@ inline bool test_depth(DepthBuffer& nearest, const std::string& triangle,
     if (is_nearer)
         history.written(triangle, on_screen, depth);
     else
-        history.lost(triangle, on_screen, depth, "behind: not nearer than " + words(before, 7));
+        history.lost(triangle, on_screen, depth,
+                     "behind: not nearer than " + words(before, 7) + " (Eq. 3.1)");
     return is_nearer;
 }
 
@@ -66,7 +67,7 @@ PixelProbe depth_probe(const Options& options, const Scene& scene) {
                 const vec3 depths(a.z, b.z, c.z);
                 const float z = options.depth.kept(TriangleDepth(depths).at(*at));
                 if (!is_front_facing(on_screen))
-                    history.lost(name, *at, z, "faces away");
+                    history.lost(name, *at, z, "faces away (Eq. 2.2)");
                 else if (test_depth(nearest, name, *at, z, history))
                     seen = Seen{name,
                                 on_screen,

@@ -57,7 +57,7 @@ inline std::optional<SeenFragment> seen_in(std::span<const ProjectedTriangle> tr
         }
         const float depth = projected.depth.at(*at);
         if (projected.is_back_facing && culling == Culling::back_faces)
-            history.lost(name, *at, depth, "faces away");
+            history.lost(name, *at, depth, "faces away (Eq. 2.2)");
         else if (test_depth(nearest, name, *at, depth, history))
             seen = SeenFragment{&projected, *at, depth};
     }

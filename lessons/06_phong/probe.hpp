@@ -36,9 +36,10 @@ inline SeenSurface report_surface(PixelReport& report, const SeenFragment& seen,
     const FragmentBarycentrics at =
         perspective_correct(perspective_setup(*seen.projected), seen.on_screen);
     report_perspective(report, *seen.projected, at);
-    report.line("diffuse of material", surface.own_color.diffuse);
-    if (surface.effects[Effect::texture])
+    if (surface.effects[Effect::texture]) {
+        report.line("diffuse of material", surface.own_color.diffuse);
         report_sample(report, "texture", *surface.texture, filter, fragment_uv(surface.uvs, at));
+    }
     if (surface.effects[Effect::specular_map])
         report_sample(report, "specular texture", *surface.specular_texture, filter,
                       fragment_uv(surface.specular_uvs, at));

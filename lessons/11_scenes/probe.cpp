@@ -169,8 +169,9 @@ class SceneProbe {
             seen = of;
         });
         for_each_here(blended_, pixel, frame, history, [&](const SeenFragment& of, float opacity) {
-            history.lost(name(of), of.on_screen, of.depth,
-                         "blended over what lies behind, opacity " + words(opacity));
+            history.lost(
+                name(of), of.on_screen, of.depth,
+                "blended over what lies behind, opacity " + words(opacity) + " (Eq. 11.7)");
             transparent.push_back({of, {ivec2(0), of.depth, opacity, vec3(0)}});
         });
         history.print(report, assets_.scene.meshes);
@@ -208,15 +209,16 @@ class SceneProbe {
             };
             const float before = frame.depth.depths()[ivec2(0)];
             if (projected.is_back_facing && !plan.two_sided) {
-                lost("faces away");
+                lost("faces away (Eq. 2.2)");
             } else if (!(of.depth < before)) {
-                lost("behind: not nearer than " + words(before, 7));
+                lost("behind: not nearer than " + words(before, 7) + " (Eq. 3.1)");
             } else {
                 const float opacity = opacity_of(frame, of);
                 const float cutoff =
                     assets_.scene.materials[projected.triangle.material].alpha_cutoff;
                 if (plan[Effect::mask] && !passes_alpha_test(opacity, cutoff))
-                    lost("a hole: alpha " + words(opacity) + " is below " + words(cutoff));
+                    lost("a hole: alpha " + words(opacity) + " is below " + words(cutoff) +
+                         " (Eq. 11.7)");
                 else
                     visit(of, plan[Effect::mask] ? 1.0f : opacity);
             }
