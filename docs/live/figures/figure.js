@@ -17,10 +17,11 @@ function segment([x1, y1], [x2, y2], kind) {
 }
 
 function arrow([x1, y1], [x2, y2], kind) {
-  const angle = (Math.atan2(y2 - y1, x2 - x1) * 180) / Math.PI;
-  const tip = shape("path", { d: "M0 0L-10 4.5V-4.5Z", transform: `translate(${x2},${y2}) rotate(${angle})`, class: `mark ${kind}` });
-  const length = Math.hypot(x2 - x1, y2 - y1), share = Math.max(length - 8, 0) / (length || 1);
-  return segment([x1, y1], [x1 + (x2 - x1) * share, y1 + (y2 - y1) * share], `rule ${kind}`) + tip;
+  const x = x2 - x1, y = y2 - y1, length = Math.hypot(x, y) || 1, size = Math.min(10, length / 2);
+  const back = [x2 - (x / length) * size, y2 - (y / length) * size];
+  const aside = [(y / length) * size * 0.45, (-x / length) * size * 0.45];
+  const tip = [[x2, y2], [back[0] + aside[0], back[1] + aside[1]], [back[0] - aside[0], back[1] - aside[1]]];
+  return segment([x1, y1], back, `rule ${kind}`) + polygon(tip, `mark ${kind}`);
 }
 
 function dot([cx, cy], r, kind) {
