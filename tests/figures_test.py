@@ -17,6 +17,7 @@ EXAMPLES = {
     "line_methods": "k = 7 r = 2.5 e = 14 ≤ Δx = 14 so j = 2, e = 14 float y = 2.5000002",
     "edge_functions": "p = (2.5, 2.5) Ebc = 4 Eca = 6 Eab = 6 2A = 16",
     "shadow_bias": "light 38° above the floor bias of the floor: 0.0342 × 0 = 0",
+    "clipping": "4 vertices, 2 triangles a: inside b: outside right",
     "footprint": "ϱ = 9.92 level = 3.31",
 }
 
