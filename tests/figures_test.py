@@ -18,6 +18,7 @@ EXAMPLES = {
     "edge_functions": "p = (2.5, 2.5) Ebc = 4 Eca = 6 Eab = 6 2A = 16",
     "shadow_bias": "light 38° above the floor bias of the floor: 0.0342 × 0 = 0",
     "clipping": "4 vertices, 2 triangles a: inside b: outside right",
+    "tangent_basis": "h = 1 T to B: 116° T′ to B′: 90° texel (0, 0, 1)",
     "footprint": "ϱ = 9.92 level = 3.31",
 }
 

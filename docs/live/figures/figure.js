@@ -41,6 +41,15 @@ function clamp(value, least, most) {
   return Math.min(Math.max(value, least), most);
 }
 
+// Bytes of red, green, blue and alpha as a picture that SVG can show.
+function pixelsAsImage(code, at, width, height) {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [width, height];
+  const bytes = new Uint8ClampedArray(code.memory.buffer, at, width * height * 4).slice();
+  canvas.getContext("2d").putImageData(new ImageData(bytes, width, height), 0, 0);
+  return canvas.toDataURL();
+}
+
 async function instantiate(name) {
   const packed = Uint8Array.from(atob(figureModules[name]), (letter) => letter.charCodeAt(0));
   const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));

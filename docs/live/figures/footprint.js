@@ -3,17 +3,9 @@ figure("footprint", (code) => {
   const columns = 40, rows = 30, texels = 64, pixel = [25, 11];
   let pitch = (28 * Math.PI) / 180, filter = "0", floor = "";
 
-  // Pixels as a picture that SVG can show.
-  function asPicture(at, width, height) {
-    const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [width, height];
-    const bytes = new Uint8ClampedArray(code.memory.buffer, at, width * height * 4).slice();
-    canvas.getContext("2d").putImageData(new ImageData(bytes, width, height), 0, 0);
-    return canvas.toDataURL();
-  }
   const levels = [];
-  for (let level = 0; level < 7; ++level) levels.push(asPicture(code.texels_of(level), texels >> level, texels >> level));
-  const render = () => (floor = asPicture(code.draw(pitch, +filter), columns, rows));
+  for (let level = 0; level < 7; ++level) levels.push(pixelsAsImage(code, code.texels_of(level), texels >> level, texels >> level));
+  const render = () => (floor = pixelsAsImage(code, code.draw(pitch, +filter), columns, rows));
   render();
 
   function seen() {
