@@ -17,6 +17,9 @@ EXAMPLES = {
     "line_methods": "k = 7 r = 2.5 e = 14 ≤ Δx = 14 so j = 2, e = 14 float y = 2.5000002",
     "edge_functions": "p = (2.5, 2.5) Ebc = 4 Eca = 6 Eab = 6 2A = 16",
     "shadow_bias": "light 38° above the floor bias of the floor: 0.0342 × 0 = 0",
+    "clipping": "4 vertices, 2 triangles a: inside b: outside right",
+    "tangent_basis": "h = 1 T to B: 116° T′ to B′: 90° texel (0, 0, 1)",
+    "footprint": "ϱ = 9.92 level = 3.31",
 }
 
 LIVE = """return document.querySelector(".figure.live") !== null &&
@@ -26,9 +29,10 @@ STILL = """const still = document.querySelector(".figure").previousElementSiblin
 return still === null ? "none" : still.getClientRects().length > 0 ? "shown" : "hidden";"""
 DRAWN = """const figure = document.querySelector(".figure figure");
 return figure.querySelector(".drawing").innerHTML + figure.querySelector(".readout").innerHTML;"""
-TOO_WIDE = """return [...document.querySelectorAll(".figure svg *")].filter((it) => {
+# But for what a picture within the picture cuts off.
+TOO_WIDE = """return [...document.querySelectorAll(".figure .drawing > :not(svg)")].filter((it) => {
   const { left, right } = it.getBoundingClientRect();
-  return it.closest(".reach, .handle, defs") === null && (left < 0 || right > innerWidth);
+  return left < 0 || right > innerWidth;
 }).map((it) => it.outerHTML.slice(0, 80));"""
 # Every control in turn; what it changes is compared with what was drawn before it.
 NEXT_VALUE = """const control = arguments[0];

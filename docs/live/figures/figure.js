@@ -17,10 +17,11 @@ function segment([x1, y1], [x2, y2], kind) {
 }
 
 function arrow([x1, y1], [x2, y2], kind) {
-  const angle = (Math.atan2(y2 - y1, x2 - x1) * 180) / Math.PI;
-  const tip = shape("path", { d: "M0 0L-10 4.5V-4.5Z", transform: `translate(${x2},${y2}) rotate(${angle})`, class: `mark ${kind}` });
-  const length = Math.hypot(x2 - x1, y2 - y1), share = Math.max(length - 8, 0) / (length || 1);
-  return segment([x1, y1], [x1 + (x2 - x1) * share, y1 + (y2 - y1) * share], `rule ${kind}`) + tip;
+  const x = x2 - x1, y = y2 - y1, length = Math.hypot(x, y) || 1, size = Math.min(10, length / 2);
+  const back = [x2 - (x / length) * size, y2 - (y / length) * size];
+  const aside = [(y / length) * size * 0.45, (-x / length) * size * 0.45];
+  const tip = [[x2, y2], [back[0] + aside[0], back[1] + aside[1]], [back[0] - aside[0], back[1] - aside[1]]];
+  return segment([x1, y1], back, `rule ${kind}`) + polygon(tip, `mark ${kind}`);
 }
 
 function dot([cx, cy], r, kind) {
@@ -38,6 +39,15 @@ function number(value, digits = 2) {
 
 function clamp(value, least, most) {
   return Math.min(Math.max(value, least), most);
+}
+
+// Bytes of red, green, blue and alpha as a picture that SVG can show.
+function pixelsAsImage(code, at, width, height) {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [width, height];
+  const bytes = new Uint8ClampedArray(code.memory.buffer, at, width * height * 4).slice();
+  canvas.getContext("2d").putImageData(new ImageData(bytes, width, height), 0, 0);
+  return canvas.toDataURL();
 }
 
 async function instantiate(name) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+figure("clipping", (code) => {
+  const vertices = [[-1.2, -5.2], [2.9, -3.4], [0.3, 0.6]], planes = { near: 1, far: 6 };
+  const names = ["a", "b", "c"], planeNames = ["left", "right", "bottom", "top", "near", "far"];
+  let half = (28 * Math.PI) / 180, fan = [], outside = [];
+
+  function update() {
+    const count = code.clip(half, planes.near, planes.far, ...vertices.flat());
+    const numbers = new Float32Array(code.memory.buffer, code.clipped(), count * 12);
+    const vertex = (i) => ({ view: [...numbers.subarray(4 * i, 4 * i + 2)], ndc: [...numbers.subarray(4 * i + 2, 4 * i + 4)] });
+    fan = Array.from({ length: count }, (_, i) => [0, 1, 2].map((k) => vertex(3 * i + k)));
+    const distances = new Float32Array(code.memory.buffer, code.plane_distances(), 18);
+    outside = names.map((_, i) => planeNames.filter((__, plane) => distances[6 * i + plane] < 0));
+  }
+  // The fan's outline: its first triangle, and one vertex of each that follows.
+  const outline = () => (fan.length ? [...fan[0], ...fan.slice(1).map((triangle) => triangle[2])] : []);
+
+  function drawPolygon(kind, to) {
+    const points = outline().map((vertex) => to(vertex[kind])), cuts = fan.slice(1).map(([first, second]) => segment(to(first[kind]), to(second[kind]), "rule one thin"));
+    return polygon(points, "area one") + cuts.join("") + polygon(points, "rule one") + points.map((point) => dot(point, 4, "mark one")).join("");
+  }
+
+  const plane = (name, least, most) => ({
+    name: `Distance of the ${name} plane`,
+    letter: name,
+    step: 0.1,
+    at: () => [0, -planes[name]],
+    text: () => `${number(planes[name])} in front of the eye`,
+    move: (_, z) => (planes[name] = clamp(-z, least(), most())),
+  });
+
+  return {
+    title: "A triangle seen from above, clipped to the frustum",
+    caption: `Drag the vertices, the near plane or the far plane. On one side, view space from above: clipping leaves the filled polygon, and the thin lines cut it into a fan of triangles. On the other side, the same polygon in NDC: if the near plane is close to the eye, most depths are close to 1.`,
+    layout: (width) => {
+      const wide = width > 500, unit = (wide ? width * 0.6 : width) / 8.4, height = 7.7 * unit, eye = [4.2 * unit, 6.5 * unit];
+      const side = wide ? width * 0.34 : Math.min(width * 0.62, 230);
+      return {
+        unit, side,
+        left: wide ? width - side - 4 : (width - side) / 2,
+        top: wide ? 1.2 * unit : height + 30,
+        height: wide ? height : height + side + 50,
+        to: ([x, z]) => [eye[0] + x * unit, eye[1] + z * unit],
+        from: ([x, y]) => [(x - eye[0]) / unit, (y - eye[1]) / unit],
+      };
+    },
+    draw: ({ to, left, top, side }) => {
+      update();
+      const across = Math.tan(half), at = (distance, sign) => to([sign * across * distance, -distance]);
+      const ndc = ([x, z]) => [left + ((x + 1) / 2) * side, top + ((1 - z) / 2) * side];
+      return [
+        segment(to([0, 0]), at(6.5, -1), "rule ink dashed"), segment(to([0, 0]), at(6.5, 1), "rule ink dashed"),
+        polygon([at(planes.near, -1), at(planes.near, 1), at(planes.far, 1), at(planes.far, -1)], "frustum"),
+        dot(to([0, 0]), 5, "mark"),
+        polygon(vertices.map(to), "rule four"),
+        drawPolygon("view", to),
+        shape("rect", { x: left, y: top, width: side, height: side, class: "frustum" }),
+        drawPolygon("ndc", ndc),
+        label([left + side / 2, top + side + 18], "NDC: near below, far above", "middle small"),
+        label([to([0, 0])[0] - 10, to([0, 0])[1] + 5], "eye", "small end"),
+      ].join("");
+    },
+    readout: () => [
+      `<b class="one">${outline().length} vertices, ${fan.length} triangles</b>`,
+      ...outside.map((list, i) => `${names[i]}: ${list.length ? `outside ${list.join(", ")}` : "inside"}`),
+    ],
+    handles: [
+      plane("near", () => 0.1, () => planes.far - 0.2),
+      plane("far", () => planes.near + 0.2, () => 6.4),
+      ...vertices.map((vertex, i) => ({
+        name: `Vertex ${names[i]}`,
+        letter: names[i],
+        step: 0.1,
+        at: () => vertex,
+        move: (x, z) => {
+          vertex[0] = clamp(x, -4.1, 4.1);
+          vertex[1] = clamp(z, -6.4, 1.1);
+        },
+      })),
+    ],
+    controls: [
+      {
+        label: "Field of view", min: 20, max: 64, step: 1, value: 56, text: (n) => `${n}°`,
+        set: (degrees) => (half = (degrees * Math.PI) / 360),
+      },
+    ],
+  };
+});
