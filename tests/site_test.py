@@ -151,7 +151,7 @@ def main() -> None:
     if not chromium or not driver:
         skip("chromium and chromium-driver are not installed")
     if not (site / "index.html").exists():
-        skip("the site is not built; cmake --build --preset release --target docs builds it")
+        skip("the site is not built; ./docs/run builds it")
 
     problems = check_links(site)
     options = webdriver.ChromeOptions()
