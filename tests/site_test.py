@@ -151,7 +151,7 @@ def start_browser(site: Path):
     if not chromium or not driver:
         skip("chromium and chromium-driver are not installed")
     if not (site / "index.html").exists():
-        skip("the site is not built; cmake --build --preset release --target docs builds it")
+        skip("the site is not built; ./docs/run builds it")
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"):

@@ -1,0 +1,23 @@
+"""Serves a folder to browsers on this machine alone: serve.py FOLDER PORT."""
+
+import functools
+import sys
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+
+
+def main() -> None:
+    folder, port = sys.argv[1], int(sys.argv[2])
+    handler = functools.partial(SimpleHTTPRequestHandler, directory=folder)
+    try:
+        server = ThreadingHTTPServer(("127.0.0.1", port), handler)
+    except OSError as error:
+        sys.exit(f"error: port {port}: {error.strerror}; ./docs/run --serve PORT takes another one")
+    try:
+        print(f"The site: http://127.0.0.1:{port}/ (Ctrl+C ends this)", flush=True)
+        server.serve_forever()
+    except KeyboardInterrupt:
+        pass
+
+
+if __name__ == "__main__":
+    main()
