@@ -19,6 +19,7 @@ EXAMPLES = {
     "shadow_bias": "light 38° above the floor bias of the floor: 0.0342 × 0 = 0",
     "clipping": "4 vertices, 2 triangles a: inside b: outside right",
     "tangent_basis": "h = 1 T to B: 116° T′ to B′: 90° texel (0, 0, 1)",
+    "schedule": "T1 = 389 ms T8 = 49.4 ms speedup 7.9 idle 1.5 %",
     "footprint": "ϱ = 9.92 level = 3.31",
 }
 
