@@ -157,11 +157,12 @@ function draw(isMoving = false, changed = "") {
 
 const wholeSize = () => size.split("x").map(Number);
 
-/** The largest that takes 50 ms at most, as far as one can tell; the smallest of all else. */
+/** The largest that takes 50 ms at most, as far as one can tell, but at least 480 pixels wide if the whole is. */
 function movingSize() {
   const [width, height] = wholeSize();
   const ms = pictures.reduce((sum, picture) => sum + (picture?.wholeMs ?? 0), 0);
-  const share = [1, 3 / 4, 1 / 2].find((part) => ms * part * part < 50) ?? 3 / 8;
+  const parts = [1, 3 / 4, 1 / 2, 3 / 8].filter((part) => part === 1 || width * part >= 480);
+  const share = parts.find((part) => ms * part * part < 50) ?? parts.at(-1);
   return [Math.round(width * share), Math.round(height * share)];
 }
 

@@ -136,38 +136,33 @@ void transfer(Archive& archive, Scene& scene) {
                  scene.file);
 }
 
-/// Four channels of a pixel's neighbours: left, above, and left above; 0 outside of the image.
+/// What a pixel is foretold to be by its neighbours to the left, above, and left above, which are 0
+/// outside of the image: what is left of a smooth image is small numbers, which compress well.
 ///
-/// @return  What PNG foretells of the pixel from them: smooth images become small numbers, which
-///          compress well.
-/// @see Portable Network Graphics (PNG) Specification, W3C, 2003, section 9.4
-inline u8vec4 paeth(const Image<u8vec4>& image, ivec2 pixel) {
+/// @see Weinberger et al., "The LOCO-I lossless image compression algorithm", 2000, section III.A
+inline u8vec4 foretold(const Image<u8vec4>& image, ivec2 pixel) {
     const auto at = [&](ivec2 p) {
         return p.x < 0 || p.y < 0 ? glm::ivec4(0) : glm::ivec4(image[p]);
     };
-    const glm::ivec4 a = at(pixel - ivec2(1, 0)), b = at(pixel - ivec2(0, 1)),
-                     c = at(pixel - ivec2(1, 1));
-    const glm::ivec4 from_a = glm::abs(b - c), from_b = glm::abs(a - c),
-                     from_c = glm::abs(a + b - 2 * c);
-    u8vec4 foretold;
-    for (int i = 0; i < 4; ++i)
-        foretold[i] =
-            static_cast<std::uint8_t>(from_a[i] <= from_b[i] && from_a[i] <= from_c[i] ? a[i]
-                                      : from_b[i] <= from_c[i]                         ? b[i]
-                                                                                       : c[i]);
-    return foretold;
+    const glm::ivec4 left = at(pixel - ivec2(1, 0)), above = at(pixel - ivec2(0, 1));
+    return u8vec4(glm::clamp(left + above - at(pixel - ivec2(1)), glm::min(left, above),
+                             glm::max(left, above)));
 }
 
-/// An image's size and how its pixels differ from what was foretold.
+/// Red and blue as they differ from green, modulo 256, of which there is less; and back.
+inline u8vec4 from_green(u8vec4 c) { return c - u8vec4(c.g, 0, c.g, 0); }
+inline u8vec4 with_green(u8vec4 c) { return c + u8vec4(c.g, 0, c.g, 0); }
+
+/// An image's size, and channel by channel how its pixels differ from what is foretold.
 inline std::vector<std::uint8_t> packed(Image<u8vec4> image) {
+    for (u8vec4& color : image.pixels()) color = from_green(color);
     SceneWriter writer;
     ivec2 size = image.size();
     transfer(writer, size);
-    for (ivec2 p(0); p.y < size.y; ++p.y)
-        for (p.x = 0; p.x < size.x; ++p.x) {
-            u8vec4 difference = image[p] - paeth(image, p);
-            transfer(writer, difference);
-        }
+    for (int channel = 0; channel < 4; ++channel)
+        for (ivec2 p(0); p.y < size.y; ++p.y)
+            for (p.x = 0; p.x < size.x; ++p.x)
+                writer.written.push_back((image[p] - foretold(image, p))[channel]);
     return writer.written;
 }
 
@@ -176,12 +171,11 @@ inline Image<u8vec4> unpacked(const std::vector<std::uint8_t>& bytes) {
     ivec2 size;
     transfer(reader, size);
     Image<u8vec4> image(size);
+    for (int channel = 0; channel < 4; ++channel)
+        for (u8vec4& color : image.pixels()) transfer(reader, color[channel]);
     for (ivec2 p(0); p.y < size.y; ++p.y)
-        for (p.x = 0; p.x < size.x; ++p.x) {
-            u8vec4 difference;
-            transfer(reader, difference);
-            image[p] = difference + paeth(image, p);
-        }
+        for (p.x = 0; p.x < size.x; ++p.x) image[p] += foretold(image, p);
+    for (u8vec4& color : image.pixels()) color = with_green(color);
     return image;
 }
 

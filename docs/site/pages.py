@@ -12,10 +12,14 @@ import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
 from links import EQUATION, LESSONS, ROOT, link_equations, source_page
+
+
+CWEBP = shutil.which("cwebp")
 
 
 class Page(NamedTuple):
@@ -88,6 +92,8 @@ class Site:
 
     def __init__(self, build: Path, is_live: bool) -> None:
         self.is_live = is_live
+        self.kept = build / "webp"  # pictures that were converted before
+        self.to_webp: dict[Path, Path] = {}
         self.pages, self.site = build / "site_pages", build / "site"
         self.code: list[Page] = []  # code that texts link to and Doxygen does not read
         for folder in (self.pages, self.site):
@@ -117,8 +123,13 @@ class Site:
     def picture(self, text: Path, target: str, alt: str) -> str:
         """A picture of a text, which is copied to the site."""
         file = text.parent / target
-        shutil.copy(file, self.site)
-        return f'<img src="{file.name}" alt="{html.escape(alt)}"/>'
+        name = file.name
+        if file.suffix == ".png" and CWEBP:
+            name = f"{file.stem}.webp"
+            self.to_webp[file.resolve()] = self.site / name
+        else:
+            shutil.copy(file, self.site)
+        return f'<img src="{name}" alt="{html.escape(alt)}" loading="lazy"/>'
 
     def live(self, page: Page, comment: str) -> str:
         """What a comment asks for where pages draw: a figure, or a link to a comparison.
@@ -139,6 +150,20 @@ class Site:
             address = f"lesson_{page.name[-2:]}.html#{html.escape(asked[1])}"
             return html_only(f'<p class="compare"><a href="{address}">Compare</a> {asked[2]}</p>')
         return ""
+
+    def convert_pictures(self) -> None:
+        """The same pixels in half of the bytes."""
+        self.kept.mkdir(exist_ok=True)
+
+        def convert(png: Path, webp: Path) -> None:
+            kept = self.kept / webp.name
+            if not kept.exists() or kept.stat().st_mtime < png.stat().st_mtime:
+                options = ["-quiet", "-lossless", "-exact", "-z", "3"]
+                subprocess.run([CWEBP, *options, png, "-o", kept], check=True)
+            shutil.copy(kept, webp)
+
+        with ThreadPoolExecutor() as pool:
+            list(pool.map(lambda pair: convert(*pair), self.to_webp.items()))
 
     def write(self, name: str, text: str) -> None:
         (self.pages / f"{name}.md").write_text(text, encoding="utf-8")
@@ -197,7 +222,11 @@ def with_live_picture(lesson: str, text: str) -> str:
     )
     live = f'<div class="live" data-lesson="{lesson}" data-models="{models}"></div>'
     script = '<script src="live/live.js" defer></script>'
-    return re.sub(r"<img [^>]*>", lambda image: image[0] + html_only(live + script), text, count=1)
+
+    def first(image: re.Match[str]) -> str:
+        return image[0].replace(' loading="lazy"', "") + html_only(live + script)
+
+    return re.sub(r"<img [^>]*>", first, text, count=1)
 
 
 def with_anchor(heading: re.Match[str]) -> str:
@@ -341,6 +370,7 @@ def main() -> None:
                 text = with_live_picture(LESSONS[lesson], text)
             text = f"{steps(lesson, page)}\n{text}{neighbours(lesson, page)}"
             site.write(page.name, f"# {name} {{#{page.name}}}\n{text}")
+    site.convert_pictures()
     (site.pages / "layout.xml").write_text(layout(site.code), encoding="utf-8")
 
 
