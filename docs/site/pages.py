@@ -54,6 +54,7 @@ OTHERS = [
     Page("reliability", "Reliability", ROOT / "docs/reliability.md"),
     Page("assets", "Assets", ROOT / "assets/README.md"),
 ]
+GALLERY = Page("gallery", "Gallery", None)
 PAGE_OF = {page.text: page for page in [*sum(COURSE, []), *OTHERS] if page.text}
 EQUATIONS = {
     number
@@ -261,6 +262,19 @@ def marked(diff: str) -> str:
     return f'<pre class="diff">{"".join(lines)}</pre>'
 
 
+def gallery() -> str:
+    """A card a lesson: a picture that site.js turns, and what the lesson's text begins with."""
+    cards = []
+    for lesson, (page, *_) in zip(LESSONS, COURSE):
+        sentence = re.search(r"^> (.*)$", page.text.read_text(encoding="utf-8"), re.MULTILINE)
+        cards.append(
+            f'<li><img src="{lesson}_still.webp" data-turn="{lesson}.webp" alt=""/>\n'
+            f'<h2><a href="{page.name}.html">{html.escape(title(page))}</a></h2>\n'
+            f"<p>{html.escape(sentence[1])}</p></li>"
+        )
+    return html_only(f'<ul class="gallery">\n{"".join(cards)}\n</ul>')
+
+
 def layout(code: list[Page]) -> str:
     """The navigation tree, for Doxygen."""
 
@@ -269,7 +283,7 @@ def layout(code: list[Page]) -> str:
         name = html.escape(name)
         return f'<tab type="{kind}" url="{page.name}.html" title="{name}">{inside}</tab>\n'
 
-    tabs = ['<tab type="mainpage" title="Start"/>\n']
+    tabs = ['<tab type="mainpage" title="Start"/>\n', tab(GALLERY, GALLERY.kind)]
     for lesson, *parts in COURSE:
         tabs.append(tab(lesson, title(lesson), "".join(tab(part, part.kind) for part in parts)))
     tabs += [tab(page, page.kind) for page in OTHERS[1:]]
@@ -301,6 +315,8 @@ def main() -> None:
     for page in OTHERS:
         label = "mainpage" if page.name == "index" else page.name
         site.write(page.name, f"# {title(page)} {{#{label}}}\n{site.convert(page)}")
+    site.write(GALLERY.name, f"# {GALLERY.kind} {{#{GALLERY.name}}}\n{gallery()}")
+    shutil.copytree(build / "cards", site.site, dirs_exist_ok=True)
     for lesson, pages in enumerate(COURSE):
         for page in pages:
             name = title(page) if page.text else f"What lesson {LESSONS[lesson][:2]} changes"
