@@ -1,11 +1,14 @@
 """Draws the pictures that no test draws:
-pictures.py cover BUILD_FOLDER | strip BUILD_FOLDER | card LESSON BUILD_FOLDER FOLDER |
-            mistakes [PICTURE...] | answers [NN [K]] | check-answers.
+pictures.py cover BUILD_FOLDER | strip BUILD_FOLDER | turn BUILD_FOLDER |
+            card LESSON BUILD_FOLDER FOLDER | mistakes [PICTURE...] | answers [NN [K]] |
+            check-answers.
 
 `cover` draws README.md's first picture by the command below it.
 
 `strip` puts README.md's second picture together, a panel a lesson, each drawn by the lesson's own
 program with the options in its README's line "strip: OPTIONS".
+
+`turn` draws README.md's animation by the command below it.
 
 `card` draws a lesson's card of the site's gallery, with the options in its README's line
 "turn: OPTIONS": FOLDER/LESSON.webp, an animation of one turn, and FOLDER/LESSON_still.webp, its
@@ -137,21 +140,31 @@ def draw_strip(build: Path) -> None:
     (ROOT / "docs/strip.png").write_bytes(png(strip, channels=4))
 
 
-# The cards of the site's gallery
+# The turns: README.md's animation, and the cards of the site's gallery
 
 
 CARD_SIZE, CARD_FRAMES, CARD_MS = "400x225", 48, 4000
+TURN_MS = 12000
 
 
-def write_webp(frames: list[Path], file: Path) -> None:
+def write_webp(frames: list[Path], file: Path, ms: int, quality: int) -> None:
     """An animation that starts again when it ends; a still picture, if there is one frame."""
-    duration = str(CARD_MS // CARD_FRAMES)
+    # Each frame is stored whole: a change to the one before would leave traces behind.
     subprocess.run(
-        ["img2webp", "-loop", "0", "-lossy", "-q", "60", "-m", "6", "-d", duration, *frames]
-        + ["-o", file],
+        ["img2webp", "-loop", "0", "-kmin", "0", "-kmax", "1", "-lossy", "-q", str(quality)]
+        + ["-d", str(ms // len(frames)), *frames, "-o", file],
         check=True,
         capture_output=True,
     )
+
+
+def draw_turn(build: Path) -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    command = re.search(r"\./lessons/run 13 (--frames[^`\n]*)", readme)
+    with tempfile.TemporaryDirectory() as folder:
+        options = [*shlex.split(command[1]), "--size", "640x360"]
+        subprocess.run([build / "13_simd", *options], check=True, cwd=folder)
+        write_webp(sorted(Path(folder).iterdir()), ROOT / "docs/turn.webp", TURN_MS, 75)
 
 
 def turned_teapot(angle: float, folder: Path) -> Path:
@@ -198,8 +211,8 @@ def draw_card(lesson: str, build: Path, to: Path) -> None:
             run("--frames", CARD_FRAMES, "--out", folder / "%02d.png")
         frames = sorted(folder.glob("*.png"))
         to.mkdir(exist_ok=True)
-        write_webp(frames, to / f"{lesson}.webp")
-        write_webp(frames[:1], to / f"{lesson}_still.webp")
+        write_webp(frames, to / f"{lesson}.webp", CARD_MS, 60)
+        write_webp(frames[:1], to / f"{lesson}_still.webp", CARD_MS, 60)
 
 
 # The mistakes
@@ -398,6 +411,8 @@ def main() -> None:
             draw_cover(Path(folder).resolve())
         case ["strip", folder]:
             draw_strip(Path(folder).resolve())
+        case ["turn", folder]:
+            draw_turn(Path(folder).resolve())
         case ["card", lesson, folder, to]:
             draw_card(lesson, Path(folder).resolve(), Path(to))
         case ["mistakes", *only]:

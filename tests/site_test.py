@@ -64,7 +64,9 @@ class Links(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         values = {name: value or "" for name, value in attrs}
-        self.targets += [(tag, values[name]) for name in ("href", "src", "data") if name in values]
+        for name in ("href", "src", "srcset", "data"):
+            if name in values:
+                self.targets.append((tag, values[name]))
         self.anchors |= {values[name] for name in ("id", "name") if name in values}
         if values.get("class") == "next":
             self.next = values["href"]

@@ -72,6 +72,7 @@ TOKENS = re.compile(
       | \[!\[(?P<link_alt>[^\]]*)\]\((?P<link_picture>[^)\s]+)\)\]\((?P<link_target>[^)\s]+)\)
       | !\[(?P<alt>[^\]]*)\]\((?P<picture>[^)\s]+)\)
       | \]\((?P<target>[^)\s]+)\)
+      | (?P<sources><picture>.*?</picture>)
       | <[a-z][^<>]*> | (?P<quote>")
       | (?P<equation>%s)
       | \((?P<number>\d+\.\d+)\)"""
@@ -114,11 +115,12 @@ class Site:
             self.write(page.name, f"# {shown} {{#{page.name}}}\n\n\\includelineno {shown}\n")
         return f"{page.name}.html"
 
+    def picture_file(self, text: Path, target: str) -> str:
+        """The name on the site of a picture of a text, which is copied there."""
+        return Path(shutil.copy(text.parent / target, self.site)).name
+
     def picture(self, text: Path, target: str, alt: str) -> str:
-        """A picture of a text, which is copied to the site."""
-        file = text.parent / target
-        shutil.copy(file, self.site)
-        return f'<img src="{file.name}" alt="{html.escape(alt)}"/>'
+        return f'<img src="{self.picture_file(text, target)}" alt="{html.escape(alt)}"/>'
 
     def write(self, name: str, text: str) -> None:
         (self.pages / f"{name}.md").write_text(text, encoding="utf-8")
@@ -147,6 +149,14 @@ class Site:
                 return f'<a href="{self.link(page.text, found["link_target"])}">{picture}</a>'
             if found["picture"]:
                 return self.picture(page.text, found["picture"], found["alt"])
+            if found["sources"]:
+                return html_only(
+                    re.sub(
+                        r'(?<=src=")[^"]+|(?<=srcset=")[^"]+',
+                        lambda target: self.picture_file(page.text, target[0]),
+                        found["sources"],
+                    )
+                )
             if target := found["target"]:
                 return f"]({self.link(page.text, target)})"
             if found["quote"]:
