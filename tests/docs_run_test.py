@@ -5,6 +5,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import urllib.request
 from pathlib import Path
@@ -22,6 +23,7 @@ def leave_in_the_middle(port: int, path: str) -> None:
     with socket.create_connection(("127.0.0.1", port), timeout=60) as reader:
         reader.sendall(f"GET {path} HTTP/1.0\r\n\r\n".encode())
         reader.recv(1)
+    time.sleep(1)  # for the server to notice
 
 
 class DocsRun(unittest.TestCase):
