@@ -1,11 +1,18 @@
 """Draws the pictures that no test draws:
-pictures.py cover BUILD_FOLDER | strip BUILD_FOLDER | mistakes [PICTURE...] | answers [NN [K]] |
+pictures.py cover BUILD_FOLDER | strip BUILD_FOLDER | turn BUILD_FOLDER |
+            card LESSON BUILD_FOLDER FOLDER | mistakes [PICTURE...] | answers [NN [K]] |
             check-answers.
 
 `cover` draws README.md's first picture by the command below it.
 
 `strip` puts README.md's second picture together, a panel a lesson, each drawn by the lesson's own
 program with the options in its README's line "strip: OPTIONS".
+
+`turn` draws README.md's animation by the command below it.
+
+`card` draws a lesson's card of the site's gallery, with the options in its README's line
+"turn: OPTIONS": FOLDER/LESSON.webp, an animation of one turn, and FOLDER/LESSON_still.webp, its
+first frame.
 
 `mistakes` makes the mistakes of docs/troubleshooting.md, one after the other, in a copy of the code:
 in the file that a section links to last before its diff, the right line (+) is replaced by the
@@ -19,6 +26,7 @@ picture is the one that the answer shows. `check-answers` draws all of them, and
 
 import contextlib
 import fcntl
+import math
 import re
 import shlex
 import shutil
@@ -130,6 +138,81 @@ def draw_strip(build: Path) -> None:
             pixels = b"".join(row[i : i + 3] + b"\xff" for i in range(0, len(row), 3))
             strip[y] += (gap if strip[y] else b"") + pixels
     (ROOT / "docs/strip.png").write_bytes(png(strip, channels=4))
+
+
+# The turns: README.md's animation, and the cards of the site's gallery
+
+
+CARD_SIZE, CARD_FRAMES, CARD_MS = "400x225", 48, 4000
+TURN_MS = 12000
+
+
+def write_webp(frames: list[Path], file: Path, ms: int, quality: int) -> None:
+    """An animation that starts again when it ends; a still picture, if there is one frame."""
+    # Each frame is stored whole: a change to the one before would leave traces behind.
+    subprocess.run(
+        ["img2webp", "-loop", "0", "-kmin", "0", "-kmax", "1", "-lossy", "-q", str(quality)]
+        + ["-d", str(ms // len(frames)), *frames, "-o", file],
+        check=True,
+        capture_output=True,
+    )
+
+
+def draw_turn(build: Path) -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    command = re.search(r"\./lessons/run 13 (--frames[^`\n]*)", readme)
+    with tempfile.TemporaryDirectory() as folder:
+        options = [*shlex.split(command[1]), "--size", "640x360"]
+        subprocess.run([build / "13_simd", *options], check=True, cwd=folder)
+        write_webp(sorted(Path(folder).iterdir()), ROOT / "docs/turn.webp", TURN_MS, 75)
+
+
+def turned_teapot(angle: float, folder: Path) -> Path:
+    """The teapot of lessons 01 to 03, which have no camera to move. They fit what they draw into
+    the picture: faces without area hold the place of a whole turn."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    lines = []
+    radius_at: dict[float, float] = {}  # by height, rounded
+    for line in (ROOT / "assets/models/teapot.obj").read_text(encoding="utf-8").splitlines():
+        kind, *values = line.split(" ")
+        if kind in ("v", "vn"):
+            x, y, z = map(float, values)
+            line = f"{kind} {cos * x + sin * z} {y} {cos * z - sin * x}"
+            if kind == "v":
+                radius_at[round(y, 1)] = max(radius_at.get(round(y, 1), 0), math.hypot(x, z))
+        lines.append(line)
+    for y, radius in radius_at.items():
+        for k in range(64):
+            x, z = radius * math.cos(k * math.pi / 32), radius * math.sin(k * math.pi / 32)
+            lines += [f"v {x} {y} {z}", "f -1 -1 -1"]
+    shutil.copy(ROOT / "assets/models/teapot.mtl", folder)
+    model = folder / "teapot.obj"
+    model.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return model
+
+
+def draw_card(lesson: str, build: Path, to: Path) -> None:
+    readme = (ROOT / "lessons" / lesson / "README.md").read_text(encoding="utf-8")
+    asked = re.search(r"^turn:(.*)$", readme, re.MULTILINE)
+    options = ["--size", CARD_SIZE, "--samples", "4", *shlex.split(asked[1] if asked else "")]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+
+        def run(*more: object) -> None:
+            subprocess.run(
+                [build / lesson, *options, *map(str, more)], check=True, stdout=subprocess.DEVNULL
+            )
+
+        if LESSONS.index(lesson) < 3:
+            for k in range(CARD_FRAMES):
+                model = turned_teapot(-2 * math.pi * k / CARD_FRAMES, folder)
+                run("--model", model, "--out", folder / f"{k:02}.png")
+        else:
+            run("--frames", CARD_FRAMES, "--out", folder / "%02d.png")
+        frames = sorted(folder.glob("*.png"))
+        to.mkdir(exist_ok=True)
+        write_webp(frames, to / f"{lesson}.webp", CARD_MS, 60)
+        write_webp(frames[:1], to / f"{lesson}_still.webp", CARD_MS, 60)
 
 
 # The mistakes
@@ -328,6 +411,10 @@ def main() -> None:
             draw_cover(Path(folder).resolve())
         case ["strip", folder]:
             draw_strip(Path(folder).resolve())
+        case ["turn", folder]:
+            draw_turn(Path(folder).resolve())
+        case ["card", lesson, folder, to]:
+            draw_card(lesson, Path(folder).resolve(), Path(to))
         case ["mistakes", *only]:
             with copied_tree() as tree:
                 draw_mistakes(tree, only)

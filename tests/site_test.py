@@ -15,8 +15,9 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 ROOT = Path(__file__).resolve().parents[1]
+LESSONS = sorted(folder.name for folder in (ROOT / "lessons").glob("[0-9][0-9]_*"))
 TEXTS = (
-    r"index|costs|roofline|side_by_side|troubleshooting|glossary|conventions|gltf|animation|assets"
+    r"index|gallery|costs|roofline|side_by_side|troubleshooting|glossary|conventions|gltf|animation|assets"
     r"|(lesson|derivation|accuracy|changes)_\d\d|code_.+"
 )
 CODE = r"files|annotated|(triangle|image|lesson__app)_8hpp(_source)?|classrasterbook_1_1Image"
@@ -64,7 +65,9 @@ class Links(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         values = {name: value or "" for name, value in attrs}
-        self.targets += [(tag, values[name]) for name in ("href", "src", "data") if name in values]
+        for name in ("href", "src", "srcset", "data"):
+            if name in values:
+                self.targets.append((tag, values[name]))
         self.anchors |= {values[name] for name in ("id", "name") if name in values}
         if values.get("class") == "next":
             self.next = values["href"]
@@ -127,6 +130,44 @@ def formulas_of(page: Path) -> str:
     return re.sub(r'<div class="line">.*?</div>|<(code|pre)\b.*?</\1>', "", text, flags=re.DOTALL)
 
 
+def check_gallery(browser, page: Path) -> list[str]:
+    """A card turns under the pointer and with the focus, and rests afterwards."""
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+
+    problems = []
+
+    def expect(is_turning: bool, when: str) -> None:
+        shown = [Path(picture.get_attribute("src")).name for picture in pictures]
+        expected = [f"{lesson}{'' if is_turning else '_still'}.webp" for lesson in LESSONS[:1]]
+        expected += [f"{lesson}_still.webp" for lesson in LESSONS[1:]]
+        if shown != expected:
+            problems.append(f"{page.name}, {when}: shows {' '.join(shown)}")
+
+    for motion in ("no-preference", "reduce"):
+        media = {"features": [{"name": "prefers-reduced-motion", "value": motion}]}
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
+        browser.get(page.as_uri())
+        pictures = browser.find_elements(By.CSS_SELECTOR, ".gallery img")
+        link = browser.find_element(By.CSS_SELECTOR, ".gallery a")
+        title = browser.find_element(By.CSS_SELECTOR, ".title")
+        turns = motion != "reduce"
+        expect(False, f"{motion}, at first")
+        ActionChains(browser).move_to_element(pictures[0]).perform()
+        expect(turns, f"{motion}, under the pointer")
+        ActionChains(browser).move_to_element(title).perform()
+        expect(False, f"{motion}, with the pointer elsewhere")
+        browser.execute_script("arguments[0].focus()", link)
+        expect(turns, f"{motion}, with the focus")
+        browser.execute_script("arguments[0].blur()", link)
+        expect(False, f"{motion}, without the focus")
+    for lesson in LESSONS:
+        frames = (page.parent / f"{lesson}.webp").read_bytes().count(b"ANMF")
+        if frames < 24:
+            problems.append(f"{page.name}: the turn of {lesson} has {frames} frames")
+    return problems
+
+
 def check_log(browser, after: str, hosts: tuple[str, ...] = ("file:",)) -> list[str]:
     """What the browser noted since last asked: errors, requests that failed or left the site."""
     problems = [f"{after}: {entry['message']}" for entry in browser.get_log("browser")]
@@ -173,6 +214,7 @@ def main() -> None:
                 for scheme in ("light", "dark"):
                     problems += check_view(browser, page, width, scheme)
                     problems += check_log(browser, page.name)
+        problems += check_gallery(browser, site / "gallery.html")
     finally:
         browser.quit()
     for problem in dict.fromkeys(problems):

@@ -19,9 +19,6 @@ from typing import NamedTuple
 from links import EQUATION, LESSONS, ROOT, link_equations, source_page
 
 
-CWEBP = shutil.which("cwebp")
-
-
 class Page(NamedTuple):
     """A page of the site; `kind` is what a lesson's navigation calls it."""
 
@@ -58,6 +55,7 @@ OTHERS = [
     Page("reliability", "Reliability", ROOT / "docs/reliability.md"),
     Page("assets", "Assets", ROOT / "assets/README.md"),
 ]
+GALLERY = Page("gallery", "Gallery", None)
 PAGE_OF = {page.text: page for page in [*sum(COURSE, []), *OTHERS] if page.text}
 EQUATIONS = {
     number
@@ -75,6 +73,7 @@ TOKENS = re.compile(
       | \[!\[(?P<link_alt>[^\]]*)\]\((?P<link_picture>[^)\s]+)\)\]\((?P<link_target>[^)\s]+)\)
       | !\[(?P<alt>[^\]]*)\]\((?P<picture>[^)\s]+)\)
       | \]\((?P<target>[^)\s]+)\)
+      | (?P<sources><picture>.*?</picture>)
       | <[a-z][^<>]*> | (?P<quote>")
       | (?P<equation>%s)
       | \((?P<number>\d+\.\d+)\)"""
@@ -120,15 +119,18 @@ class Site:
             self.write(page.name, f"# {shown} {{#{page.name}}}\n\n\\includelineno {shown}\n")
         return f"{page.name}.html"
 
+    def picture_file(self, text: Path, target: str) -> str:
+        """The name on the site of a picture of a text, which is copied there."""
+        return Path(shutil.copy(text.parent / target, self.site)).name
+
     def picture(self, text: Path, target: str, alt: str) -> str:
-        """A picture of a text, which is copied to the site."""
+        """A picture of a text."""
         file = text.parent / target
-        name = file.name
-        if file.suffix == ".png" and CWEBP:
-            name = f"{file.stem}.webp"
+        if file.suffix == ".png":
+            name = f"{file.name}.webp"
             self.to_webp[file.resolve()] = self.site / name
         else:
-            shutil.copy(file, self.site)
+            name = self.picture_file(text, target)
         return f'<img src="{name}" alt="{html.escape(alt)}" loading="lazy"/>'
 
     def live(self, page: Page, comment: str) -> str:
@@ -159,7 +161,7 @@ class Site:
             kept = self.kept / webp.name
             if not kept.exists() or kept.stat().st_mtime < png.stat().st_mtime:
                 options = ["-quiet", "-lossless", "-exact", "-z", "3"]
-                subprocess.run([CWEBP, *options, png, "-o", kept], check=True)
+                subprocess.run(["cwebp", *options, png, "-o", kept], check=True)
             shutil.copy(kept, webp)
 
         with ThreadPoolExecutor() as pool:
@@ -192,6 +194,14 @@ class Site:
                 return f'<a href="{self.link(page.text, found["link_target"])}">{picture}</a>'
             if found["picture"]:
                 return self.picture(page.text, found["picture"], found["alt"])
+            if found["sources"]:
+                return html_only(
+                    re.sub(
+                        r'(?<=src=")[^"]+|(?<=srcset=")[^"]+',
+                        lambda target: self.picture_file(page.text, target[0]),
+                        found["sources"],
+                    )
+                )
             if target := found["target"]:
                 return f"]({self.link(page.text, target)})"
             if found["quote"]:
@@ -322,6 +332,19 @@ def marked(diff: str) -> str:
     return f'<pre class="diff">{"".join(lines)}</pre>'
 
 
+def gallery() -> str:
+    """A card a lesson: a picture that site.js turns, and what the lesson's text begins with."""
+    cards = []
+    for lesson, (page, *_) in zip(LESSONS, COURSE):
+        sentence = re.search(r"^> (.*)$", page.text.read_text(encoding="utf-8"), re.MULTILINE)
+        cards.append(
+            f'<li><img src="{lesson}_still.webp" data-turn="{lesson}.webp" alt=""/>\n'
+            f'<h2><a href="{page.name}.html">{html.escape(title(page))}</a></h2>\n'
+            f"<p>{html.escape(sentence[1])}</p></li>"
+        )
+    return html_only(f'<ul class="gallery">\n{"".join(cards)}\n</ul>')
+
+
 def layout(code: list[Page]) -> str:
     """The navigation tree, for Doxygen."""
 
@@ -330,7 +353,7 @@ def layout(code: list[Page]) -> str:
         name = html.escape(name)
         return f'<tab type="{kind}" url="{page.name}.html" title="{name}">{inside}</tab>\n'
 
-    tabs = ['<tab type="mainpage" title="Start"/>\n']
+    tabs = ['<tab type="mainpage" title="Start"/>\n', tab(GALLERY, GALLERY.kind)]
     for lesson, *parts in COURSE:
         tabs.append(tab(lesson, title(lesson), "".join(tab(part, part.kind) for part in parts)))
     tabs += [tab(page, page.kind) for page in OTHERS[1:]]
@@ -362,6 +385,8 @@ def main() -> None:
     for page in OTHERS:
         label = "mainpage" if page.name == "index" else page.name
         site.write(page.name, f"# {title(page)} {{#{label}}}\n{site.convert(page)}")
+    site.write(GALLERY.name, f"# {GALLERY.kind} {{#{GALLERY.name}}}\n{gallery()}")
+    shutil.copytree(build / "cards", site.site, dirs_exist_ok=True)
     for lesson, pages in enumerate(COURSE):
         for page in pages:
             name = title(page) if page.text else f"What lesson {LESSONS[lesson][:2]} changes"

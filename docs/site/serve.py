@@ -1,13 +1,24 @@
 """Serves a folder to browsers on this machine alone: serve.py FOLDER PORT."""
 
+import contextlib
 import functools
 import sys
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from typing import IO
+
+
+class QuietHandler(SimpleHTTPRequestHandler):
+    def log_message(self, *_: object) -> None:
+        """Nothing: the browser shows what is missing."""
+
+    def copyfile(self, *files: IO[bytes]) -> None:
+        with contextlib.suppress(ConnectionError):  # the reader has left the page
+            super().copyfile(*files)
 
 
 def main() -> None:
     folder, port = sys.argv[1], int(sys.argv[2])
-    handler = functools.partial(SimpleHTTPRequestHandler, directory=folder)
+    handler = functools.partial(QuietHandler, directory=folder)
     try:
         server = ThreadingHTTPServer(("127.0.0.1", port), handler)
     except OSError as error:

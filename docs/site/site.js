@@ -26,6 +26,18 @@ for (const formula of document.querySelectorAll(".contents :not(.katex-display) 
   take(formula.parentElement.previousSibling, /\($/, (mark) => pieces[0].prepend(mark));
 }
 
+// A card of the gallery turns under the pointer, with the keyboard's focus, and after a tap.
+if (!matchMedia("(prefers-reduced-motion: reduce)").matches)
+  for (const card of document.querySelectorAll(".gallery li")) {
+    const picture = card.querySelector("img");
+    const still = picture.src;
+    const show = (events, source) => {
+      for (const event of events) card.addEventListener(event, () => (picture.src = source));
+    };
+    show(["mouseenter", "focusin", "click"], picture.dataset.turn);
+    show(["mouseleave", "focusout"], still);
+  }
+
 // A short piece of code stays on one line: "--stats" is not to end a line after its hyphens.
 for (const code of document.querySelectorAll(".textblock code"))
   if (code.textContent.length < 30) code.style.whiteSpace = "nowrap";
