@@ -150,8 +150,9 @@ TEST(Drift, WrongPicturesAreOfLinesInTheCode) {  // docs/pictures.py draws them 
     const std::string page = read_text(docs / "troubleshooting.md");
     const std::string gallery = page.substr(0, page.find("\n## "));
     for (const std::string& section : parts_after(page, "\n## ")) {
-        ++mistakes;
         const std::string title = section.substr(0, section.find('\n'));
+        if (title == "Why this pixel?") continue;
+        ++mistakes;
         EXPECT_NE(gallery.find("](#" + anchor_of(title) + ')'), gallery.npos) << title;
         const auto fence = section.find("```diff\n");
         ASSERT_NE(fence, section.npos) << title;

@@ -165,8 +165,8 @@ std::string explained(const PixelProbe& probe, ivec2 pixel, int samples_per_side
     const u8vec3 color = probed_color(probe, pixel, samples_per_side, report);
     if (color != drawn)
         report.text(
-            "The picture has another colour: an option shows something else, or main.cpp "
-            "puts the stages together in another way.");
+            "The picture has another colour: by an option such as --depth, or by main.cpp, which "
+            "puts these stages together.");
     return report.all() + hex(drawn) + '\n';
 }
 

@@ -39,23 +39,21 @@ inline std::optional<Barycentrics> covered(const ScreenTriangle& triangle, ivec2
 inline std::string why_not_covered(const ScreenTriangle& triangle, ivec2 pixel) {
     if (triangle.twice_area == 0) return "has no area";
     constexpr std::array names = {"bc", "ca", "ab"};
-    std::string beyond;
+    std::string outside, on;
     for (std::size_t i = 0; i < 3; ++i) {
         const ivec2 from = triangle.vertices[(i + 1) % 3], to = triangle.vertices[(i + 2) % 3];
         const EdgeWalk edge(from, to, is_front_facing(triangle) ? 1 : -1, pixel);
         if (edge.value >= edge.least) continue;
-        beyond += beyond.empty() ? "" : ", ";
         if (edge.value == 0) {
-            beyond +=
-                std::string("on edge ") + names[i] + ", neither a left nor a top one (Eq. 2.7)";
+            on = std::string("on edge ") + names[i] + ", neither a left nor a top one (Eq. 2.7)";
             continue;
         }
         const double length = glm::length(dvec2(to) - dvec2(from));
         const double distance_px = -static_cast<double>(edge.value) / (length * subpixels);
-        beyond += std::string("outside of edge ") + names[i] + " by " +
-                  words(static_cast<float>(distance_px), 3) + " px (Eq. 2.5)";
+        outside += std::string(outside.empty() ? "outside of edge " : ", ") + names[i] + " by " +
+                   words(static_cast<float>(distance_px), 3) + " px";
     }
-    return beyond;
+    return outside.empty() ? on : outside + " (Eq. 2.5)";
 }
 
 /// Says where a triangle lies on the screen, and the pixel in it.
