@@ -1,8 +1,8 @@
 """Drags the live figures of the built site in headless Chromium: figures_test.py SITE_FOLDER.
 
 Each figure is opened at desk and phone width. Every handle has to answer the pointer and the
-keyboard, every control has to change the picture, and the values shown first are those of the
-texts' examples. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED
+keyboard, a finger on it must not scroll the page, every control has to change the picture, and the
+values shown first are those of the texts' examples. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED
 is set.
 """
 
@@ -30,17 +30,21 @@ STILL = """const still = document.querySelector(".figure").previousElementSiblin
 return still === null ? "none" : still.getClientRects().length > 0 ? "shown" : "hidden";"""
 DRAWN = """const figure = document.querySelector(".figure figure");
 return figure.querySelector(".drawing").innerHTML + figure.querySelector(".readout").innerHTML;"""
+MIDDLE = """const { x, y, width, height } = arguments[0].querySelector(".knob").getBoundingClientRect();
+return [x + width / 2, y + height / 2];"""
+SCROLLED = "return scrollY + document.getElementById('doc-content').scrollTop"
 # But for what a picture within the picture cuts off.
 TOO_WIDE = """return [...document.querySelectorAll(".figure .drawing > :not(svg)")].filter((it) => {
   const { left, right } = it.getBoundingClientRect();
   return left < 0 || right > innerWidth;
 }).map((it) => it.outerHTML.slice(0, 80));"""
-# Every control in turn; what it changes is compared with what was drawn before it.
-NEXT_VALUE = """const control = arguments[0];
-if (control.type === "range") control.value = +control.value + (control.max - control.min) / 3;
-if (control.type === "range" && arguments[1]) control.value = control.min;
-else if (control.type !== "range") control.click();
-control.dispatchEvent(new Event("input"));"""
+# A slider goes to one end; another control is clicked.
+CHANGE = """const [control, end] = arguments;
+if (control.type !== "range") control.click();
+else {
+  control.value = control[end];
+  control.dispatchEvent(new Event("input"));
+}"""
 
 
 def figures() -> dict[str, str]:
@@ -73,11 +77,13 @@ class Figure:
         action()
         return self.browser.execute_script(DRAWN) != before
 
+    def bring_into_view(self, handle) -> None:
+        self.browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", handle)
+
     def drag(self, handle, x: int, y: int) -> None:
         """Towards the middle of the picture, by so much to the side and up or down."""
         from selenium.webdriver import ActionChains
 
-        self.browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", handle)
         knob, middle = handle.find_element("css selector", ".knob").rect, self.all("svg")[0].rect
         x = x if knob["x"] < middle["x"] + middle["width"] / 2 else -x
         y = y if knob["y"] < middle["y"] + middle["height"] / 2 else -y
@@ -85,11 +91,29 @@ class Figure:
         chain.click_and_hold(handle.find_element("css selector", ".knob"))
         chain.move_by_offset(x, y).release().perform()
 
+    def touch(self, handle) -> None:
+        """A finger drags it downwards, which would scroll a page."""
+        x, y = self.browser.execute_script(MIDDLE, handle)
+        steps = [("touchStart", 0), *[("touchMove", 8 * i) for i in range(1, 6)], ("touchEnd", None)]
+        for event, down in steps:
+            points = [] if down is None else [{"x": x + down / 2, "y": y + down}]
+            touch = {"type": event, "touchPoints": points}
+            self.browser.execute_cdp_cmd("Input.dispatchTouchEvent", touch)
+
+    def scrolled_by(self, action) -> float:
+        before = self.browser.execute_script(SCROLLED)
+        action()
+        return self.browser.execute_script(SCROLLED) - before
+
 
 def check_figure(browser, name: str, page: Path, width: str) -> list[str]:
+    from selenium.common.exceptions import TimeoutException
     from selenium.webdriver.common.keys import Keys
 
-    figure = Figure(browser, page, width)
+    try:
+        figure = Figure(browser, page, width)
+    except TimeoutException:
+        return [f"{name}, {width}: does not start"]
     problems = []
     if browser.execute_script(STILL) == "shown":
         problems.append("the still picture stays beside it")
@@ -101,14 +125,18 @@ def check_figure(browser, name: str, page: Path, width: str) -> list[str]:
     keys = [Keys.ARROW_LEFT, Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.ARROW_DOWN]
     for handle in figure.all(".handle"):
         label = handle.get_attribute("aria-label")
+        figure.bring_into_view(handle)
         if not any([figure.changed_by(lambda: figure.drag(handle, *way)) for way in ways]):
             problems.append(f"the pointer does not move {label!r}")
         if not any([figure.changed_by(lambda: handle.send_keys(key)) for key in keys]):
             problems.append(f"the keyboard does not move {label!r}")
+        figure.bring_into_view(handle)
+        if figure.scrolled_by(lambda: figure.touch(handle)) != 0:
+            problems.append(f"a finger on {label!r} scrolls the page")
     for control in figure.all("input:not(:checked)"):
         changes = [
-            figure.changed_by(lambda: browser.execute_script(NEXT_VALUE, control, to_the_least))
-            for to_the_least in (False, True)
+            figure.changed_by(lambda: browser.execute_script(CHANGE, control, end))
+            for end in ("min", "max")
         ]
         if not any(changes):
             text = control.find_element("xpath", "./..").text
@@ -131,9 +159,9 @@ def check_without_webassembly(browser, pages: list[Path]) -> list[str]:
 
 def main() -> None:
     site = Path(sys.argv[1]).resolve()
-    browser = start_browser(site)
-    if not (site / "live/figure.js").exists():
+    if (site / "index.html").exists() and not (site / "live/figure.js").exists():
         skip("the figures are not compiled; that takes clang++-19 when the site is built")
+    browser = start_browser(site)
     pages = {name: site / page for name, page in figures().items()}
     problems = []
     try:

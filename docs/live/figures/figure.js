@@ -134,6 +134,8 @@ function addHandle(svg, handle, layoutNow, draw) {
     const [x, y] = pointer(event);
     moveTo(layoutNow().from([x + offset[0], y + offset[1]]));
   });
+  // Or a finger would scroll the page.
+  knob.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
   for (const end of ["pointerup", "pointercancel"]) knob.addEventListener(end, () => (offset = null));
   knob.addEventListener("keydown", (event) => {
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];

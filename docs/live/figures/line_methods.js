@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 figure("line_methods", (code) => {
   const columns = 16, rows = 7, a = [0, 0], b = [14, 5];
-  const methods = ["Bresenham", "DDA in float", "DDA in fixed point", "Wu"];
+  const methods = ["Bresenham", "DDA, float", "DDA, fixed point", "Wu"];
   const kinds = ["one", "two", "three", "ink"];
   let cell = 1, shown = "all", chosen = 7;
 

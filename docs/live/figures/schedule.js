@@ -114,7 +114,7 @@ figure("schedule", (code) => {
       {
         label: "Split",
         value: split,
-        options: [["rows", "rows"], ["interleaved", "interleaved"], ...["256", "128", "64", "32"].map((n) => [n, `tiles of ${n}`])],
+        options: [["rows", "rows"], ["interleaved", "interleaved"], ["256", "tiles of 256"], ["128", "128"], ["64", "64"], ["32", "32"]],
         set: (value) => {
           split = value;
           shareOut();
