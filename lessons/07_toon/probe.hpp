@@ -37,24 +37,31 @@ inline void report_tone(PixelReport& report, const SurfaceColor& color, const Re
                 "Eq. 7.4");
 }
 
+/// What edge detection reads in a pixel.
+struct EdgeInputs {
+    float depth = DepthBuffer::cleared;
+    vec3 normal{0};
+};
+
 /// Draws the edges of a picture in one pixel, and says why it is inked.
 ///
 /// @param width_px  As draw_edges() takes it.
-/// @param depth_at,normal_at  Called with a pixel of the picture: what is seen there.
-template <typename DepthAt, typename NormalAt>
+/// @param inputs    Called as inputs(pixel) for pixels of the picture; gives EdgeInputs.
+template <typename Inputs>
 void report_edges(PixelReport& report, const Camera& camera, float width_px, ivec2 pixel,
-                  ivec2 size, const DepthAt& depth_at, const NormalAt& normal_at, vec3& color) {
+                  ivec2 size, const Inputs& inputs, vec3& color) {
     const int reach = static_cast<int>(std::ceil(width_px / 2));
     if (std::min(size.x, size.y) <= 2 * reach) return;
-    // Only these nine pixels count: so a picture of no more is enough, with the first in a corner.
+    // draw_edges() reads nine pixels: a window of the picture with these at its border is enough.
     const ivec2 center = glm::clamp(pixel, ivec2(reach), size - 1 - reach);
     DepthBuffer depth(ivec2(2 * reach + 1));
     Image<vec3> normals(ivec2(2 * reach + 1), vec3(0)), window(ivec2(2 * reach + 1), color);
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             const ivec2 offset = reach * ivec2(x, y);
-            depth.depths()[offset + reach] = depth_at(center + offset);
-            normals[offset + reach] = normal_at(center + offset);
+            const EdgeInputs there = inputs(center + offset);
+            depth.depths()[offset + reach] = there.depth;
+            normals[offset + reach] = there.normal;
         }
     const auto inverse_w_at = [&](ivec2 offset) {
         return inverse_w(depth.depths()[reach * (offset + 1)], camera);
@@ -110,6 +117,53 @@ inline void report_hulls(PixelReport& report, const Scene& scene, const HullNorm
     history.print(report, "then the hull, in ink: faces that show their back (Eq. 7.9 and 7.10)");
 }
 
+/// Says how the light of a fragment becomes paint.
+///
+/// @param options  As of toon_probe().
+template <typename Options>
+vec3 report_paint(PixelReport& report, const Options& options, const Scene& scene, vec3 eye_world,
+                  const SeenSurface& seen) {
+    NoCounters uncounted;
+    const auto& [surface, on_surface, base_color] = seen;
+    const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
+    const auto point_at = [&, &of = surface](Barycentrics at) {
+        return surface_point(of, at, interpolate(of.normals_world, at), eye_world, uncounted);
+    };
+    const auto light_at = [&, &of = surface](Barycentrics at) {
+        return reflected_light(lights, point_at(at), highlight_of(of));
+    };
+    const SurfacePoint<float> point = point_at(on_surface.here);
+    const ReflectedLight light = light_at(on_surface.here);
+    const int tones = options.shading.tones;
+    report_point(report, point);
+    report_lights(report, lights, point, highlight_of(surface), [](std::size_t) { return 1.0f; });
+    report_tone(report, base_color, light, tones);
+    const vec3 color = options.shading.smooth
+                           ? smooth_toon(base_color, toon_ambient_light, light,
+                                         light_at(on_surface.here + on_surface.ddx),
+                                         light_at(on_surface.here + on_surface.ddy), tones)
+                           : toon(base_color, toon_ambient_light, light, tones);
+    report.line("paint", color, options.shading.smooth ? "Eq. 7.5" : "Eq. 7.4");
+    return color;
+}
+
+/// Says whether the facing ratio makes an outline.
+inline void report_facing(PixelReport& report, const ToonVariant& variant, vec3 eye_world,
+                          const SeenSurface& seen, vec3& color) {
+    NoCounters uncounted;
+    const auto& [surface, on_surface, base_color] = seen;
+    const vec3 normal = unit_or(interpolate(surface.normals_world, on_surface.here), vec3(0));
+    const vec3 position = interpolate(surface.positions_world, on_surface.here);
+    report.line("facing ratio",
+                words(facing_ratio(normal, unit_or(eye_world - position, normal))) +
+                    "; ink below " + words(variant.min_facing),
+                "Eq. 7.6");
+    Image<vec3> one(ivec2(1), color), no_normals;
+    add_to_outline(variant, surface, on_surface.here, eye_world, ivec2(0), no_normals, one,
+                   uncounted);
+    color = one[ivec2(0)];
+}
+
 /// Explains pixels of this lesson's picture.
 ///
 /// @param options  With TextureOptions `texture` and ToonVariant `shading`. Both have to outlive
@@ -122,83 +176,43 @@ PixelProbe toon_probe(const Options& options, const ToonAssets& assets) {
                                             options.size)](ivec2 pixel, PixelReport& report) {
         const Scene& scene = assets.scene;
         const ToonVariant& shading = options.shading;
-        NoCounters uncounted;
+        const vec3 eye_world = camera.position_world;
         const auto surface_of = [&](const SeenFragment& of) {
-            return triangle_surface(scene, assets.textures,
-                                    assets.effects[of.projected->triangle.material], *of.projected);
+            const EffectMask effects = assets.effects[of.projected->triangle.material];
+            return triangle_surface(scene, assets.textures, effects, *of.projected);
+        };
+        const auto edge_inputs = [&](ivec2 at) {
+            PixelHistory unused;
+            NoCounters uncounted;
+            const auto there = seen_in(triangles, shading.culling(), scene, at, unused);
+            if (!there) return EdgeInputs();
+            Image<vec3> normal(ivec2(1)), no_color;
+            const FragmentBarycentrics on_surface =
+                perspective_correct(perspective_setup(*there->projected), there->on_screen);
+            add_to_outline(shading, surface_of(*there), on_surface.here, eye_world, ivec2(0),
+                           normal, no_color, uncounted);
+            return EdgeInputs{there->depth, normal[ivec2(0)]};
         };
         const auto seen = report_triangles(report, triangles, shading.culling(), scene, pixel);
         vec3 color = paper_color;
-        if (!seen) report.section("seen: the paper, since no triangle is written here");
-        if (seen) {
-            const auto [surface, on_surface, base_color] =
+        if (!seen) {
+            report.section("seen: the paper, since no triangle is written here");
+        } else {
+            const SeenSurface surface =
                 report_surface(report, *seen, surface_of(*seen), options.texture.filter);
-            const std::array lights = studio_lights(shading.key_light, scene.bounds());
-            const auto point_at = [&, &of = surface](Barycentrics at) {
-                return surface_point(of, at, interpolate(of.normals_world, at),
-                                     camera.position_world, uncounted);
-            };
-            const auto light_at = [&, &of = surface](Barycentrics at) {
-                return reflected_light(lights, point_at(at), highlight_of(of));
-            };
-            color = unlit(base_color);
-            if (surface.effects[Effect::light]) {
-                const SurfacePoint<float> point = point_at(on_surface.here);
-                const ReflectedLight light = light_at(on_surface.here);
-                report_point(report, point);
-                report_lights(report, lights, point, highlight_of(surface),
-                              [](std::size_t) { return 1.0f; });
-                report_tone(report, base_color, light, shading.tones);
-                color = shading.smooth
-                            ? smooth_toon(base_color, toon_ambient_light, light,
-                                          light_at(on_surface.here + on_surface.ddx),
-                                          light_at(on_surface.here + on_surface.ddy), shading.tones)
-                            : toon(base_color, toon_ambient_light, light, shading.tones);
-                report.line("paint", color, shading.smooth ? "Eq. 7.5" : "Eq. 7.4");
-            }
-            if (shading.outline == Outline::facing) {
-                const SurfacePoint<float> point = point_at(on_surface.here);
-                const vec3 toward_eye =
-                    unit_or(camera.position_world - point.position_world, point.normal_world);
-                report.line("facing ratio",
-                            words(facing_ratio(point.normal_world, toward_eye)) + "; ink below " +
-                                words(shading.min_facing),
-                            "Eq. 7.6");
-                Image<vec3> one(ivec2(1), color), no_normals;
-                add_to_outline(shading, surface, on_surface.here, camera.position_world, ivec2(0),
-                               no_normals, one, uncounted);
-                color = one[ivec2(0)];
-            }
+            color = surface.surface.effects[Effect::light]
+                        ? report_paint(report, options, scene, eye_world, surface)
+                        : report_unlit(report, surface.base_color);
+            if (shading.outline == Outline::facing)
+                report_facing(report, shading, eye_world, surface, color);
         }
         const float width_px =
             shading.outline_width_px * static_cast<float>(options.samples_per_side);
         if (shading.outline == Outline::hull)
             report_hulls(report, scene, assets.hull_normals, camera, width_px, pixel, options.size,
                          seen ? seen->depth : DepthBuffer::cleared, color);
-        if (shading.outline == Outline::edges) {
-            const auto beside = [&](ivec2 at) {
-                PixelHistory unused;
-                return seen_in(triangles, shading.culling(), scene, at, unused);
-            };
-            report_edges(
-                report, camera, width_px, pixel, options.size,
-                [&](ivec2 at) {
-                    const auto found = beside(at);
-                    return found ? found->depth : DepthBuffer::cleared;
-                },
-                [&](ivec2 at) {
-                    const auto found = beside(at);
-                    if (!found) return vec3(0);
-                    Image<vec3> normal(ivec2(1)), no_color;
-                    add_to_outline(
-                        shading, surface_of(*found),
-                        perspective_correct(perspective_setup(*found->projected), found->on_screen)
-                            .here,
-                        camera.position_world, ivec2(0), normal, no_color, uncounted);
-                    return normal[ivec2(0)];
-                },
-                color);
-        }
+        if (shading.outline == Outline::edges)
+            report_edges(report, camera, width_px, pixel, options.size, edge_inputs, color);
         return color;
     };
 }
