@@ -250,6 +250,17 @@ def check_keys(page: LivePage, address: str) -> list[str]:
     return problems
 
 
+def check_quality(page: LivePage, address: str, build: Path) -> list[str]:
+    """An option that says what the lesson does anyway still counts more than --quality."""
+    page.open(f"{address}/lesson_11.html#size=480x270&quality=fast&filter=trilinear")
+    command = page.all(".live .commands code")[0].text.split()[2:]
+    if command != "--size 480x270 --quality fast --filter trilinear".split():
+        return [f"shows the options {' '.join(command)}"]
+    if page.pixels != native_bytes(build, "11_scenes", command):
+        return ["--quality counts more than an option of its own"]
+    return []
+
+
 def check_comparison(page: LivePage, address: str) -> list[str]:
     problems = []
     for asked, expected in {
@@ -355,7 +366,8 @@ def main() -> None:
                 found = check_probe(page, folder, lesson, build, site)
                 problems += [f"{lesson}: {problem}" for problem in found]
             problems += check_log(browser, lesson, (folder, places["from a server"]))
-        problems += check_click(page, folder) + check_keys(page, folder) + check_comparison(page, folder)
+        problems += check_click(page, folder) + check_keys(page, folder) + check_quality(page, folder, build)
+        problems += check_comparison(page, folder)
         problems += check_links(page, site, folder)
         problems += check_log(browser, "comparisons", (folder,))
         problems += check_failures(page, folder)

@@ -160,7 +160,7 @@ const wholeSize = () => size.split("x").map(Number);
 /** The largest that takes 50 ms at most, as far as one can tell, but at least 480 pixels wide if the whole is. */
 function movingSize() {
   const [width, height] = wholeSize();
-  const ms = pictures.reduce((sum, picture) => sum + (picture?.wholeMs ?? 0), 0);
+  const ms = shownSides().reduce((sum, side) => sum + (pictures[side]?.wholeMs ?? 0), 0);
   const parts = [1, 3 / 4, 1 / 2, 3 / 8].filter((part) => part === 1 || width * part >= 480);
   const share = parts.find((part) => ms * part * part < 50) ?? parts.at(-1);
   return [Math.round(width * share), Math.round(height * share)];
@@ -187,18 +187,21 @@ async function drawWanted() {
       const answer = await ask("draw", { side, name: lessonName, model, settings: sides[side], size: pixels });
       answer.size = pixels;
       answer.wholeMs = isMoving ? before?.wholeMs ?? answer.ms : answer.ms;
-      answer.isSame = before?.pixels.length === answer.pixels.length && before.pixels.every((value, i) => value === answer.pixels[i]);
+      answer.isSame = changed !== "" && before?.pixels.length === answer.pixels.length && before.pixels.every((value, i) => value === answer.pixels[i]);
       pictures[side] = answer;
     }
     clearTimeout(slow);
     stop.hidden = true;
     show();
-    if (!isMoving) report(changed);
-    if (!wanted) place.dataset.state = isMoving ? "moving" : "ready";
-    if (isMoving) cross.hidden = true;
-    else await explain();
-    if (isMoving) whole = setTimeout(draw, 200);
-    else await timeAgain(changed);
+    if (isMoving) {
+      cross.hidden = true;
+      whole = setTimeout(draw, 200);
+    } else {
+      report(changed);
+      await explain();
+      if (!wanted) place.dataset.state = "ready";
+      await timeAgain(changed);
+    }
   } catch (error) {
     if (!wanted) {
       say(error.message, true);
@@ -344,8 +347,10 @@ function inputOf(control, side) {
   return labelled(input, label);
 }
 
+/** What is as in the lesson is not named, unless --quality may say otherwise. */
 function setOption(side, control, value) {
-  if (value === control.preset || value === "") delete sides[side][control.name];
+  const isUsual = value === control.preset && !("--quality" in sides[side] && control.name !== "--quality");
+  if (isUsual || value === "") delete sides[side][control.name];
   else sides[side][control.name] = value;
 }
 
@@ -417,7 +422,7 @@ function addressOf() {
   if (size !== usualSize) pairs.push(["size", size]);
   for (const { name, preset } of lesson.controls) {
     const [left, right] = sides.map((side) => side[name] ?? preset);
-    if (left !== preset || (isCompared() && left !== right)) pairs.push([bare(name), left]);
+    if (name in sides[0] || (isCompared() && left !== right)) pairs.push([bare(name), left]);
     if (isCompared() && left !== right) pairs.push(["against", right]);
   }
   if (isCompared() && !pairs.some(([name]) => name === "against")) pairs.push(["compare", "yes"]);
@@ -579,6 +584,7 @@ sizeChoice.onchange = () => {
 };
 modeChoice.onchange = () => {
   mode = modeChoice.value;
+  probedSide = 0;
   buildAll();
   changed();
 };
