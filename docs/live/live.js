@@ -311,7 +311,10 @@ function report(changed) {
     const { rms, share } = differenceOf(pictures);
     words[0] = `Left ${inMs(left.ms)}, right ${inMs(right.ms)}.`;
     words.push(share === 0 ? "No pixel differs." : `${percent(share)} of the pixels differ, by ${rms.toPrecision(2)} of 255 (RMS of all).`);
-  } else words[0] += ` in this browser, by one thread.${lesson.hasProbe && !probed ? " Click a pixel to see why it has its colour." : ""}`;
+  } else {
+    words[0] += " in this browser, by one thread.";
+    if (lesson.hasProbe && !probed) words.push(`${canTurn() ? "Drag to turn; click" : "Click"} a pixel to see why it has its colour.`);
+  }
   if (changed && (isCompared() ? left.isSame && right.isSame : left.isSame))
     words.push(`${changed} changes no pixel. ${whyNoChange[changed] ?? "Nothing in this picture asks for it."}`);
   say(words.join(" "));
@@ -481,9 +484,11 @@ function takeAddress() {
 
 // --- Turning by pointer and keys
 
+const canTurn = () => lesson.controls.some(({ name }) => name === "--yaw");
+
 function turn(right, up, nearer = 0) {
   const orbit = (name) => lesson.controls.find((control) => control.name === name);
-  if (!orbit("--yaw")) return;
+  if (!canTurn()) return;
   for (const side of [0, 1]) {
     const add = (name, amount, factor = 1) => {
       const control = orbit(name);
@@ -616,9 +621,8 @@ async function begin() {
     startWorker();
     lesson = await give("lesson", lessonName);
     place.append(bar, ...groups, commands);
-    const canTurn = lesson.controls.some(({ name }) => name === "--yaw");
-    stage.classList.toggle("turns", canTurn);
-    const label = `The lesson's picture, drawn here${canTurn ? "; the arrow keys turn it, + and - go nearer and farther" : ""}${lesson.hasProbe ? "; Enter says why a pixel has its colour, Shift with arrow keys goes to its neighbours" : ""}`;
+    stage.classList.toggle("turns", canTurn());
+    const label = `The lesson's picture, drawn here${canTurn() ? "; the arrow keys turn it, + and - go nearer and farther" : ""}${lesson.hasProbe ? "; Enter says why a pixel has its colour, Shift with arrow keys goes to its neighbours" : ""}`;
     canvases.forEach((canvas) => labelled(canvas, label));
     takeAddress();
   } catch (error) {
