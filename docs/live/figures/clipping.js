@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 figure("clipping", (code) => {
   const vertices = [[-1.2, -5.2], [2.9, -3.4], [0.3, 0.6]], planes = { near: 1, far: 6 };
-  const names = ["a", "b", "c"], planeNames = ["left", "right", "bottom", "top", "near", "far"];
+  const names = ["a", "b", "c"];
+  const planeNames = ["left", "right", "bottom", "top", "near", "far"];
   let half = (28 * Math.PI) / 180, fan = [], outside = [];
 
   function update() {
     const count = code.clip(half, planes.near, planes.far, ...vertices.flat());
     const numbers = new Float32Array(code.memory.buffer, code.clipped(), count * 12);
-    const vertex = (i) => ({ view: [...numbers.subarray(4 * i, 4 * i + 2)], ndc: [...numbers.subarray(4 * i + 2, 4 * i + 4)] });
+    const vertex = (i) => {
+      const [viewX, viewZ, ndcX, ndcZ] = numbers.subarray(4 * i, 4 * i + 4);
+      return { view: [viewX, viewZ], ndc: [ndcX, ndcZ] };
+    };
     fan = Array.from({ length: count }, (_, i) => [0, 1, 2].map((k) => vertex(3 * i + k)));
     const distances = new Float32Array(code.memory.buffer, code.plane_distances(), 18);
     outside = names.map((_, i) => planeNames.filter((__, plane) => distances[6 * i + plane] < 0));
@@ -16,8 +20,14 @@ figure("clipping", (code) => {
   const outline = () => (fan.length ? [...fan[0], ...fan.slice(1).map((triangle) => triangle[2])] : []);
 
   function drawPolygon(kind, to) {
-    const points = outline().map((vertex) => to(vertex[kind])), cuts = fan.slice(1).map(([first, second]) => segment(to(first[kind]), to(second[kind]), "rule one thin"));
-    return polygon(points, "area one") + cuts.join("") + polygon(points, "rule one") + points.map((point) => dot(point, 4, "mark one")).join("");
+    const points = outline().map((vertex) => to(vertex[kind]));
+    const cut = ([first, second]) => segment(to(first[kind]), to(second[kind]), "rule one thin");
+    return [
+      polygon(points, "area one"),
+      ...fan.slice(1).map(cut),
+      polygon(points, "rule one"),
+      ...points.map((point) => dot(point, 4, "mark one")),
+    ].join("");
   }
 
   const plane = (name, least, most) => ({
@@ -33,7 +43,8 @@ figure("clipping", (code) => {
     title: "A triangle seen from above, clipped to the frustum",
     caption: `Drag the vertices, the near plane or the far plane. On one side, view space from above: clipping leaves the filled polygon, and the thin lines cut it into a fan of triangles. On the other side, the same polygon in NDC: if the near plane is close to the eye, most depths are close to 1.`,
     layout: (width) => {
-      const wide = width > 500, unit = (wide ? width * 0.6 : width) / 8.4, height = 7.7 * unit, eye = [4.2 * unit, 6.5 * unit];
+      const wide = width > 500, unit = (wide ? width * 0.6 : width) / 8.4;
+      const height = 7.7 * unit, eye = [4.2 * unit, 6.5 * unit];
       const side = wide ? width * 0.34 : Math.min(width * 0.62, 230);
       return {
         unit, side,

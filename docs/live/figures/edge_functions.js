@@ -42,7 +42,8 @@ figure("edge_functions", (code) => {
         const square = (kind) => parts.push(pixel(to([x, y]), `area ${kind}`));
         if (side < 0 ? own[i] : edges[side].inside) square("one");
         if (side < 0 && next[i]) square("two");
-        if (side >= 0) centers.push(label([center[0], center[1] + 5], number(edges[side].value), "middle"));
+        const value = side < 0 ? "" : number(edges[side].value);
+        if (side >= 0) centers.push(label([center[0], center[1] + 5], value, "middle"));
         else centers.push(dot(center, 2.5, "mark"));
       }
     return [parts.join(""), centers.join("")];
@@ -78,7 +79,8 @@ figure("edge_functions", (code) => {
         const onEdge = owns ? " (owned)" : " (not owned)";
         return `${names[i]} = <b class="${inside ? "one" : "four"}">${number(value)}</b>${value === 0 ? onEdge : ""}`;
       });
-      return [`p = (${number(p[0])}, ${number(p[1])})`, ...items, `2A = ${number(code.twice_area(...a, ...b, ...c))}`];
+      const twice = code.twice_area(...a, ...b, ...c);
+      return [`p = (${number(p[0])}, ${number(p[1])})`, ...items, `2A = ${number(twice)}`];
     },
     handles: [
       corner("a", a), corner("b", b), corner("c", c), corner("d", d),

@@ -63,13 +63,15 @@ async function instantiate(name) {
 // Puts the live figure of this name into its place; the still picture before it then goes.
 //
 // describe(code) gives, `code` being what NAME.cpp exports:
-//   caption
-//   layout(width)  { height, to(point), from(pixel) }: the picture's height, and its map from the figure's own units
-//                  to pixels and back
+//   title, caption
+//   layout(width)  { height, to(point), from(pixel) }: the picture's height, and its map from the figure's
+//                  own units to pixels and back
 //   draw(layout)   the picture as SVG
 //   readout()      what stands below the picture, item by item
-//   handles        [{ name, at(), move(x, y), text(), step, letter }]: a point that can be dragged, in the figure's units
-//   controls       [{ label, value, set(value), options: [[value, text], ...] }] or, for a slider, { label, value, set, min, max, step, text }
+//   handles        [{ name, at(), move(x, y), text(), step, letter, kind }]: a point that can be dragged, in
+//                  the figure's units; text() says where it is
+//   controls       [{ label, value, set(value), options: [[value, text], ...] }] or, for a slider,
+//                  { label, value, set(value), min, max, step, text(value) }
 async function figure(name, describe) {
   const place = document.querySelector(`.figure[data-name="${name}"]`);
   if (!place || !window.WebAssembly || !window.DecompressionStream) return;  // the still picture stays
@@ -80,8 +82,8 @@ async function figure(name, describe) {
 <div class="readout"></div><div class="controls"></div><figcaption>${it.caption}</figcaption>`;
   const [svg, readout, controls] = box.children;
   const drawing = svg.firstElementChild;
-  const handles = (it.handles ?? []).map((handle) => addHandle(svg, handle, () => layout, draw));
-  for (const control of it.controls ?? []) addControl(controls, control, draw);
+  const handles = it.handles.map((handle) => addHandle(svg, handle, () => layout, draw));
+  for (const control of it.controls) addControl(controls, control, draw);
 
   let layout;
   function draw() {
@@ -107,7 +109,8 @@ async function figure(name, describe) {
 
 function addHandle(svg, handle, layoutNow, draw) {
   const knob = document.createElementNS("http://www.w3.org/2000/svg", "g");
-  knob.innerHTML = dot([0, 0], 22, "reach") + dot([0, 0], 7, "knob") + label(handle.letterAt ?? [0, -14], handle.letter ?? "", "letter");
+  const letter = label([0, -14], handle.letter ?? "", "letter");
+  knob.innerHTML = dot([0, 0], 22, "reach") + dot([0, 0], 7, "knob") + letter;
   const attributes = { class: `handle ${handle.kind ?? ""}`, tabindex: 0, role: "slider", "aria-label": handle.name };
   for (const [name, value] of Object.entries(attributes)) knob.setAttribute(name, value);
   svg.append(knob);

@@ -4,12 +4,16 @@ figure("footprint", (code) => {
   let pitch = (28 * Math.PI) / 180, filter = "0", floor = "";
 
   const levels = [];
-  for (let level = 0; level < 7; ++level) levels.push(pixelsAsImage(code, code.texels_of(level), texels >> level, texels >> level));
+  for (let level = 0; level < 7; ++level) {
+    const side = texels >> level;
+    levels.push(pixelsAsImage(code, code.texels_of(level), side, side));
+  }
   const render = () => (floor = pixelsAsImage(code, code.draw(pitch, +filter), columns, rows));
   render();
 
   function seen() {
-    const [isFloor, x, y, acrossX, acrossY, downX, downY, level] = new Float32Array(code.memory.buffer, code.seen_in(...pixel), 8);
+    const numbers = new Float32Array(code.memory.buffer, code.seen_in(...pixel), 8);
+    const [isFloor, x, y, acrossX, acrossY, downX, downY, level] = numbers;
     return { isFloor, at: [x, y], across: [acrossX, acrossY], down: [downX, downY], level };
   }
   // The nearest pixel from there on downwards that shows the floor.
@@ -24,14 +28,15 @@ figure("footprint", (code) => {
 
   // The texture with the middle of the footprint in the middle, at the finer of the two levels that are read.
   function drawTexture({ left, top, side }) {
-    const { at, across, down, level } = seen(), scale = side / texels, period = side;
+    const { at, across, down, level } = seen(), scale = side / texels;
+    const finer = levels[Math.floor(Math.min(level, 6))];
     const parts = [], [x, y] = at.map((coordinate) => side / 2 - coordinate * scale);
     for (let i = -1; i <= 1; ++i)
       for (let j = -1; j <= 1; ++j)
-        parts.push(image(levels[Math.floor(Math.min(level, 6))], x + i * period, y + j * period, period + 0.5, period + 0.5));
+        parts.push(image(finer, x + i * side, y + j * side, side + 0.5, side + 0.5));
     const corner = (i, j) => [0, 1].map((axis) => side / 2 + scale * (i * across[axis] + j * down[axis]));
-    parts.push(polygon([corner(-0.5, -0.5), corner(0.5, -0.5), corner(0.5, 0.5), corner(-0.5, 0.5)], "footprint"));
-    parts.push(arrow(corner(-0.5, 0.5), corner(0.5, 0.5), "four"), arrow(corner(-0.5, -0.5), corner(-0.5, 0.5), "ink"));
+    const [a, b, c, d] = [corner(-0.5, -0.5), corner(0.5, -0.5), corner(0.5, 0.5), corner(-0.5, 0.5)];
+    parts.push(polygon([a, b, c, d], "footprint"), arrow(d, c, "four"), arrow(a, d, "ink"));
     return shape("svg", { x: left, y: top, width: side, height: side }, parts.join(""));
   }
 
@@ -39,7 +44,8 @@ figure("footprint", (code) => {
     title: "A pixel of a floor in perspective, and its footprint on the texture",
     caption: `Drag the pixel over the floor. The right square shows 64 × 64 texels of the texture around its centre, in the finer of the two levels that trilinear filtering reads; the outlined area is the pixel's footprint. Far away it grows, mostly away from the viewer.`,
     layout: (width) => {
-      const wide = width > 500, screenWidth = wide ? width * 0.56 : width, screenHeight = (screenWidth * rows) / columns;
+      const wide = width > 500, screenWidth = wide ? width * 0.56 : width;
+      const screenHeight = (screenWidth * rows) / columns;
       const side = wide ? screenHeight : Math.min(width, 280), cell = screenWidth / columns;
       return {
         screenWidth, screenHeight, side, cell,

@@ -10,9 +10,9 @@ figure("line_methods", (code) => {
     return new Float32Array(code.memory.buffer, at, columns * rows).slice();
   };
   const stepOf = (k) => {
-    const names = ["rise", "row", "error", "floatRow", "fixedRow", "start", "length", "minor", "steep", "direction"];
-    const numbers = new Float64Array(code.memory.buffer, code.step_of(...a, ...b, k), names.length);
-    return Object.fromEntries(names.map((name, i) => [name, numbers[i]]));
+    const numbers = new Float64Array(code.memory.buffer, code.step_of(...a, ...b, k), 10);
+    const [rise, row, error, floatRow, fixedRow, start, length, minor, steep, direction] = numbers;
+    return { rise, row, error, floatRow, fixedRow, start, length, minor, steep, direction };
   };
   const pixelOf = ({ start, row, steep, direction }, k) => {
     const first = steep ? (a[1] < b[1] ? a[0] : b[0]) : a[0] <= b[0] ? a[1] : b[1];
@@ -34,16 +34,15 @@ figure("line_methods", (code) => {
   // Of all methods, each has a third of the pixel; Wu's coverage lies behind them.
   function drawPixels({ corner }) {
     const parts = [];
-    methods.forEach((_, method) => {
+    [3, 0, 1, 2].forEach((method) => {
       if (shown !== "all" && +shown !== method) return;
       const third = shown === "all" && method < 3 ? cell / 3 : 0;
       coverage(method).forEach((share, i) => {
         if (share === 0) return;
         const [x, y] = corner([i % columns, Math.floor(i / columns)]);
         const opacity = method < 3 ? 0.75 : share * (shown === "all" ? 0.3 : 0.8);
-        parts[(method + 1) % 4] = (parts[(method + 1) % 4] ?? "") + shape("rect", {
-          x, y: y + method * third, width: cell, height: third || cell, class: `mark ${kinds[method]}`, "fill-opacity": opacity,
-        });
+        const box = { x, y: y + method * third, width: cell, height: third || cell };
+        parts.push(shape("rect", { ...box, class: `mark ${kinds[method]}`, "fill-opacity": opacity }));
       });
     });
     return parts.join("");
@@ -53,13 +52,16 @@ figure("line_methods", (code) => {
   function drawErrors({ corner, plot, width }) {
     const { start, length, steep } = stepOf(0);
     const middle = plot + 54, unit = 40 / Math.max(length, 1);
-    const parts = [segment([0, middle], [width, middle], "rule ink"), label([width, middle - 6], "e", "end")];
-    for (const side of [-1, 1]) parts.push(segment([0, middle + side * 40], [width, middle + side * 40], "grid"));
+    const across = (y, kind) => segment([0, y], [width, y], kind);
+    const parts = [across(middle, "rule ink"), across(middle - 40, "grid"), across(middle + 40, "grid")];
+    parts.push(label([width, middle - 6], "e", "end"));
     for (let k = 0; k <= length; ++k) {
       const { error } = stepOf(k), [x] = corner([(steep ? 0 : start) + k, 0]), size = Math.abs(error) * unit;
       const bar = { x: x + cell * 0.2, y: middle - (error > 0 ? 0 : size), width: cell * 0.6, height: size, rx: 2 };
-      parts.push(shape("rect", { ...bar, class: `mark ${k === chosen ? "four" : "ink"}`, "fill-opacity": k === chosen ? 1 : 0.55 }));
-      if (cell > 30 && error !== 0) parts.push(label([x + cell / 2, middle + (error > 0 ? -5 : 14)], number(error), "middle small"));
+      const look = k === chosen ? { class: "mark four" } : { class: "mark", "fill-opacity": 0.55 };
+      parts.push(shape("rect", { ...bar, ...look }));
+      const place = [x + cell / 2, middle + (error > 0 ? -5 : 14)];
+      if (cell > 30 && error !== 0) parts.push(label(place, number(error), "middle small"));
     }
     return parts.join("");
   }

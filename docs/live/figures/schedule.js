@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 figure("schedule", (code) => {
+  // As in C++: the split, and a tile's side, which rows do not need.
   const splits = { rows: [0, 64], interleaved: [1, 64], 256: [2, 256], 128: [2, 128], 64: [2, 64], 32: [2, 32] };
   let workers = 8, split = "128", at = 0.6;  // at: the moment shown, as a share of the longest schedule's time
   let tasks = [], sum = {}, scale = 1, knobAt = 0;
@@ -40,28 +41,33 @@ figure("schedule", (code) => {
   function drawPicture({ picture }) {
     const unit = picture.width / 1920;
     const boxes = ({ left, top, right, bottom, step }) => {
-      if (step === 1) return [[picture.left + left * unit, picture.top + top * unit, (right - left) * unit, (bottom - top) * unit]];
-      const rows = [];
-      for (let y = top; y < bottom; y += step) rows.push([picture.left, picture.top + y * unit, picture.width, unit]);
-      return rows;
+      const height = step === 1 ? bottom - top : 1, strips = [];
+      for (let y = top; y < bottom; y += height * step)
+        strips.push([picture.left + left * unit, y * unit, (right - left) * unit, height * unit]);
+      return strips;
     };
-    const density = ({ begin, end, left, top, right, bottom, step }) => ((end - begin) * step) / ((right - left) * (bottom - top));
+    const density = ({ begin, end, left, top, right, bottom, step }) =>
+      ((end - begin) * step) / ((right - left) * (bottom - top));
     const most = Math.max(...tasks.map(density));
-    const kindOf = (task) => [stateOf(task), (0.2 + 0.7 * Math.round(5 * Math.sqrt(density(task) / most)) / 5).toFixed(2)];
+    const shade = (task) => Math.round(5 * Math.sqrt(density(task) / most)) / 5;
+    const kindOf = (task) => [stateOf(task), (0.2 + 0.7 * shade(task)).toFixed(2)];
     return drawTasks(boxes, kindOf, split === "interleaved" ? 0 : 0.6);
   }
 
   function drawChart({ chart, to, width }) {
     const height = chart.height / workers, thick = height > 3 ? height - 1 : height;
     const column = (time) => to([time / scale, 0])[0];
-    const boxes = ({ worker, begin, end }) => [[column(begin), chart.top + worker * height, column(end) - column(begin), thick]];
-    const line = (time, kind) => segment([column(time), chart.top - 6], [column(time), chart.top + chart.height + 8], kind);
-    const late = at > 0.8;
+    const boxes = ({ worker, begin, end }) => [
+      [column(begin), chart.top + worker * height, column(end) - column(begin), thick],
+    ];
+    const bottom = chart.top + chart.height + 8;
+    const line = (time, kind) => segment([column(time), chart.top - 6], [column(time), bottom], kind);
+    const late = at > 0.8, time = `${number(moment() / 1000, 1)} ms`;
     return [
       drawTasks(boxes, (task) => [stateOf(task), 0.65], 0.5),
       line(sum.least, "rule three dashed"),
       line(moment(), "rule four"),
-      label([column(moment()) + (late ? -14 : 14), knobAt + 6], `${number(moment() / 1000, 1)} ms`, late ? "end" : ""),
+      label([column(moment()) + (late ? -14 : 14), knobAt + 6], time, late ? "end" : ""),
     ].join("");
   }
 
@@ -69,7 +75,7 @@ figure("schedule", (code) => {
     title: "A picture's tiles, shared out among the cores of a processor",
     caption: `Drag the red line through time, or change the number of cores. Each bar is a tile of lesson 10's picture at 1920 × 1080, as long as one core was measured to draw it; the next tile goes to the core that is free first. Darker tiles cost more for their size. No schedule ends before the green line.`,
     layout: (width) => {
-      const picture = { left: 0, top: 0, width };
+      const picture = { left: 0, width };
       if (width > 500) [picture.width, picture.left] = [width * 0.66, width * 0.17];
       const top = (picture.width * 1080) / 1920 + 20, chart = { top, height: 150 };
       return {
@@ -114,7 +120,10 @@ figure("schedule", (code) => {
       {
         label: "Split",
         value: split,
-        options: [["rows", "rows"], ["interleaved", "interleaved"], ["256", "tiles of 256"], ["128", "128"], ["64", "64"], ["32", "32"]],
+        options: [
+          ["rows", "rows"], ["interleaved", "interleaved"],
+          ["256", "tiles of 256"], ["128", "128"], ["64", "64"], ["32", "32"],
+        ],
         set: (value) => {
           split = value;
           shareOut();

@@ -24,7 +24,9 @@ figure("shadow_bias", (code) => {
         lines.push({ face, visibility, points: [[x, y]] });
     }
     const kinds = { 1: "surface lit", 0: "surface dark", "-1": "surface away" };
-    return lines.map(({ points, visibility }) => segment(to(points[0]), to(points[points.length - 1]), kinds[visibility])).join("");
+    const draw = ({ points, visibility }) =>
+      segment(to(points[0]), to(points[points.length - 1]), kinds[visibility]);
+    return lines.map(draw).join("");
   }
 
   return {
@@ -69,8 +71,14 @@ figure("shadow_bias", (code) => {
       },
     ],
     controls: [
-      { label: "Texels", min: 16, max: 96, step: 1, value: size, text: (n) => `${n} × ${n}`, set: (value) => (size = value) },
-      { label: "Bias", min: 0, max: 6, step: 0.1, value: factor, text: (n) => `× ${number(n, 1)}`, set: (value) => (factor = value) },
+      {
+        label: "Texels", min: 16, max: 96, step: 1, value: size, text: (n) => `${n} × ${n}`,
+        set: (value) => (size = value),
+      },
+      {
+        label: "Bias", min: 0, max: 6, step: 0.1, value: factor, text: (n) => `× ${number(n, 1)}`,
+        set: (value) => (factor = value),
+      },
       {
         label: "Kind",
         value: bias,
