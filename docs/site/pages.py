@@ -10,6 +10,7 @@ import html
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -126,12 +127,16 @@ class Site:
     def picture(self, text: Path, target: str, alt: str) -> str:
         """A picture of a text."""
         file = text.parent / target
+        size = ""
         if file.suffix == ".png":
             name = f"{file.name}.webp"
             self.to_webp[file.resolve()] = self.site / name
+            # So that nothing moves when it comes; PNG has both numbers at this place.
+            width, height = struct.unpack(">II", file.read_bytes()[16:24])
+            size = f' width="{width}" height="{height}"'
         else:
             name = self.picture_file(text, target)
-        return f'<img src="{name}" alt="{html.escape(alt)}" loading="lazy"/>'
+        return f'<img src="{name}" alt="{html.escape(alt)}"{size} loading="lazy"/>'
 
     def live(self, page: Page, comment: str) -> str:
         """What a comment asks for where pages draw: a figure, or a link to a comparison.
