@@ -53,10 +53,10 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "02_triangle_fill",
-                               "Draws a model as filled triangles, in the file's order.",
-                               [](const auto& options, const auto& scene, auto& counters) {
-                                   return render(options, scene, counters);
-                               },
-                               [](const auto&... of) { return fill_probe(of...); });
+    return run_lesson<Options>(
+        argc, argv, "02_triangle_fill", "Draws a model as filled triangles, in the file's order.",
+        [](const auto& options, const auto& scene, auto& counters) {
+            return render(options, scene, counters);
+        },
+        [](const auto&... of) { return fill_probe(of...); });
 }

@@ -61,10 +61,10 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "03_z_buffer",
-                               "Draws a model as filled triangles with a depth buffer.",
-                               [](const auto& options, const auto& scene, auto& counters) {
-                                   return render(options, scene, counters);
-                               },
-                               [](const auto&... of) { return depth_probe(of...); });
+    return run_lesson<Options>(
+        argc, argv, "03_z_buffer", "Draws a model as filled triangles with a depth buffer.",
+        [](const auto& options, const auto& scene, auto& counters) {
+            return render(options, scene, counters);
+        },
+        [](const auto&... of) { return depth_probe(of...); });
 }

@@ -66,12 +66,12 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "04_mvp", "Draws a scene through a camera.",
-                               [](const auto& options, const auto& scene, auto& counters) {
-                                   return render(options, scene, counters);
-                               },
-                               [](const auto& options, const auto& scene) {
-                                   return mvp_probe(options, scene,
-                                                    make_instances(options, scene));
-                               });
+    return run_lesson<Options>(
+        argc, argv, "04_mvp", "Draws a scene through a camera.",
+        [](const auto& options, const auto& scene, auto& counters) {
+            return render(options, scene, counters);
+        },
+        [](const auto& options, const auto& scene) {
+            return mvp_probe(options, scene, make_instances(options, scene));
+        });
 }

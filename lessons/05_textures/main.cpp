@@ -67,8 +67,8 @@ static Image<vec3> render(const Options& options, const Assets& assets, CounterP
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "05_textures", "Draws a scene with textures.",
-                               make_assets,
-                               [](auto&... arguments) { return render(arguments...); },
-                               [](auto&... of) { return texture_probe(of...); });
+    return run_lesson<Options>(
+        argc, argv, "05_textures", "Draws a scene with textures.", make_assets,
+        [](auto&... arguments) { return render(arguments...); },
+        [](auto&... of) { return texture_probe(of...); });
 }

@@ -71,8 +71,8 @@ static Image<vec3> render(const Options& options, const PhongAssets& assets,
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "06_phong", "Draws a scene with Phong lighting.",
-                               make_phong_assets<Options>,
-                               [](auto&... arguments) { return render(arguments...); },
-                               [](auto&... of) { return phong_probe(of...); });
+    return run_lesson<Options>(
+        argc, argv, "06_phong", "Draws a scene with Phong lighting.", make_phong_assets<Options>,
+        [](auto&... arguments) { return render(arguments...); },
+        [](auto&... of) { return phong_probe(of...); });
 }

@@ -79,8 +79,8 @@ static Image<vec3> render(const Options& options, const ToonAssets& assets,
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "07_toon", "Draws a scene as a comic does.",
-                               make_toon_assets<Options>,
-                               [](auto&... arguments) { return render(arguments...); },
-                               [](auto&... of) { return toon_probe(of...); });
+    return run_lesson<Options>(
+        argc, argv, "07_toon", "Draws a scene as a comic does.", make_toon_assets<Options>,
+        [](auto&... arguments) { return render(arguments...); },
+        [](auto&... of) { return toon_probe(of...); });
 }

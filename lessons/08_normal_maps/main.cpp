@@ -71,8 +71,8 @@ static Image<vec3> render(const Options& options, const NormalMapAssets& assets,
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "08_normal_maps", "Draws a scene with normal maps.",
-                               make_normal_map_assets<Options>,
-                               [](auto&... arguments) { return render(arguments...); },
-                               [](auto&... of) { return normal_map_probe(of...); });
+    return run_lesson<Options>(
+        argc, argv, "08_normal_maps", "Draws a scene with normal maps.",
+        make_normal_map_assets<Options>, [](auto&... arguments) { return render(arguments...); },
+        [](auto&... of) { return normal_map_probe(of...); });
 }

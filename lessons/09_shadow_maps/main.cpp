@@ -81,8 +81,8 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets,
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "09_shadow_maps", "Draws a scene with shadow maps.",
-                               make_shadow_assets<Options>,
-                               [](auto&... arguments) { return render(arguments...); },
-                               [](auto&... of) { return shadow_probe(of...); });
+    return run_lesson<Options>(
+        argc, argv, "09_shadow_maps", "Draws a scene with shadow maps.",
+        make_shadow_assets<Options>, [](auto&... arguments) { return render(arguments...); },
+        [](auto&... of) { return shadow_probe(of...); });
 }

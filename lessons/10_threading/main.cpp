@@ -99,7 +99,8 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Po
 int main(int argc, char** argv) {
     return run_lesson<Options>(
         argc, argv, "10_threading", "Draws the same picture with several threads.",
-        make_shadow_assets<Options>, [](const auto& options, const auto& assets, auto& counters) {
+        make_shadow_assets<Options>,
+        [](const auto& options, const auto& assets, auto& counters) {
             thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
             return render(options, assets, *pool, counters);
