@@ -82,7 +82,7 @@ def check_links(site: Path) -> list[str]:
             url = urlsplit(target)
             file = unquote(url.path) or name
             if url.scheme:
-                if tag != "a" and url.scheme != "javascript":
+                if tag != "a" and url.scheme not in ("javascript", "data"):
                     problems.append(f"{name}: loads from elsewhere: {target}")
             elif not (site / file).exists():
                 problems.append(f"{name}: a dead link: {target}")

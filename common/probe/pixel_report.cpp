@@ -103,19 +103,19 @@ void PixelHistory::print(PixelReport& report, const std::string& title) const {
     if (entries_.empty()) return report.text("none");
     constexpr const char* name_title = "mesh #triangle (material)";
     std::string columns = "barycentrics a b c";
-    const auto numbers = [](const Entry& entry) {
+    const auto numbers = [](const TriangleInPixel& entry) {
         return padded(entry.barycentrics, 18) + (entry.depth.empty() ? "" : "  " + entry.depth);
     };
     std::size_t name_width = std::string(name_title).size(), width = columns.size();
     std::size_t missed = 0, covering = 0;
-    for (const Entry& entry : entries_) {
+    for (const TriangleInPixel& entry : entries_) {
         name_width = std::max(name_width, entry.triangle.size());
         width = std::max(width, numbers(entry).size());
     }
     if (width > columns.size()) columns += "  depth";
     report.text(padded(name_title, name_width) + "  " + columns);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
-        const Entry& entry = entries_[i];
+        const TriangleInPixel& entry = entries_[i];
         const bool fits = entry.covers ? covering++ < most_covering : missed++ < most_missed;
         if (!fits && i != last_written_) continue;
         report.text(padded(entry.triangle, name_width) + "  " +

@@ -46,6 +46,12 @@ class PixelReport {
     std::string text_;
 };
 
+/// What became of one triangle in a pixel, in words.
+struct TriangleInPixel {
+    std::string triangle, barycentrics, depth, fate;
+    bool covers;  ///< The pixel's centre.
+};
+
 /// What became of the triangles of a picture in one pixel, in drawing order.
 class PixelHistory {
   public:
@@ -68,12 +74,7 @@ class PixelHistory {
     void print(PixelReport& report, const std::vector<Mesh>& meshes) const;
 
   private:
-    struct Entry {
-        std::string triangle, barycentrics, depth, fate;
-        bool covers;
-    };
-
-    std::vector<Entry> entries_;
+    std::vector<TriangleInPixel> entries_;
     std::optional<std::size_t> last_written_;  ///< Index into entries_.
 };
 

@@ -31,7 +31,9 @@ inline bool box_holds(const ScreenTriangle& triangle, ivec2 pixel) {
 /// The barycentric coordinates of a pixel's centre; none where the triangle does not cover it.
 inline std::optional<Barycentrics> covered(const ScreenTriangle& triangle, ivec2 pixel) {
     std::optional<Barycentrics> found;
-    fill_triangle(triangle, pixel, pixel, [&](ivec2, Barycentrics at) { found = at; });
+    fill_triangle(triangle, pixel, pixel, [&](ivec2 filled, Barycentrics at) {
+        if (filled == pixel) found = at;
+    });
     return found;
 }
 

@@ -83,7 +83,7 @@ inline vec4 report_sample(PixelReport& report, const char* name, const Texture& 
     if (filter == Filter::trilinear) {
         const float level = level_of_detail(uv.ddx, uv.ddy, size);
         const std::size_t last = texture.levels.size() - 1;
-        finest = static_cast<std::size_t>(std::min(level, static_cast<float>(last)));
+        finest = static_cast<std::size_t>(clamp(level, 0.0f, static_cast<float>(last)));
         coarsest = std::min(finest + 1, last);
         report.line("  mip level", words(level) + " of 0 to " + std::to_string(last), "Eq. 5.8");
     }
