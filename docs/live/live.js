@@ -431,7 +431,7 @@ function addressOf() {
   if (isCompared() && !pairs.some(([name]) => name === "against")) pairs.push(["compare", "yes"]);
   if (mode === "difference") pairs.push(["difference", gain]);
   if (probed) pairs.push(["probe", probed.join()]);
-  return pairs.length > 0 ? `#${pairs.map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&")}` : location.pathname + location.search;
+  return pairs.length > 0 ? `#${pairs.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&")}` : location.pathname + location.search;
 }
 
 /** @throws  Says what of the address is wrong. */
@@ -513,6 +513,7 @@ function probe(pixel, side) {
 
 const pointers = new Map();
 let pressed = null;  // where a pointer went down, as long as it may be a click
+let startX = 0;
 let pinch = 0;
 canvases.forEach((canvas) => {
   canvas.tabIndex = 0;
@@ -523,6 +524,7 @@ stage.addEventListener("pointerdown", (event) => {
   pointers.set(event.pointerId, event);
   stage.setPointerCapture(event.pointerId);
   pressed = pointers.size === 1 ? event : null;
+  startX = event.clientX;
   pinch = 0;
 });
 stage.addEventListener("pointermove", (event) => {
@@ -538,7 +540,8 @@ stage.addEventListener("pointermove", (event) => {
     pinch = apart;
   } else {
     const degrees = 200 / stage.clientWidth;  // a picture's width
-    turn((event.clientX - before.clientX) * degrees, (event.clientY - before.clientY) * degrees);
+    const scrolls = event.pointerType === "touch" && Math.abs(event.clientX - startX) < 12;  // as far as one can tell
+    if (!scrolls) turn((event.clientX - before.clientX) * degrees, (event.clientY - before.clientY) * degrees);
   }
 });
 for (const end of ["pointerup", "pointercancel"])
