@@ -12,6 +12,12 @@
 #include <memory>
 #include <type_traits>
 
+// All types that the functions below name, whichever lesson it is.
+#include "07_toon/toon_variants.hpp"
+#include "09_shadow_maps/shadows.hpp"
+#include "11_scenes/scene_program.hpp"
+#include "11_scenes/shaders.hpp"
+
 #include LESSON_HEADER
 
 namespace rasterbook {
