@@ -712,6 +712,18 @@ TEST(Simd, Eq13_2_HardCase_TrianglesThatDoNotFitInto32BitsTakeDoubles) {
         }
 }
 
+TEST(Simd, Eq13_2_HardCase_ATileThatAnEdgeTouchesInOnePixelIsFilled) {
+    // The centre of the pixel (127, 127) is on the left edge: the only one of the tile.
+    const ScreenTriangle triangle = snap_triangle({255, 0}, {0, 255}, {255, 255});
+    for_each_width([&]<int N>() {
+        EXPECT_EQ(pixels_of<Floats<N>>([&](auto&& emit) {
+                      fill_triangle<Floats<N>>(triangle, ivec2(64), ivec2(127), emit);
+                  }).size(),
+                  1u)
+            << "in " << N << " lanes";
+    });
+}
+
 TEST(Simd, Eq13_2_HardCase_TrianglesFarAwayAndHuge) {
     // Up to 2^17 pixels from the origin, the doubles are exact.
     for_each_width([]<int N>() {

@@ -36,32 +36,34 @@ namespace {
 
 constexpr int greatest_side = 16384;
 
+/// Reads two whole numbers with a sign between them, and nothing else.
+std::optional<ivec2> two_numbers(const std::string& text, char between) {
+    ivec2 numbers;
+    const char* const end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, numbers.x);
+    if (x.ec != std::errc() || x.ptr == end || *x.ptr != between) return {};
+    const auto y = std::from_chars(x.ptr + 1, end, numbers.y);
+    if (y.ec != std::errc() || y.ptr != end) return {};
+    return numbers;
+}
+
 /// Reads "1280x720"; anything else is a usage error.
 ivec2 parse_size(const std::string& text) {
-    ivec2 size;
-    const char* const end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, size.x);
-    const bool has_cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-    const auto height = has_cross ? std::from_chars(width.ptr + 1, end, size.y) : width;
     const auto is_side = [](int side) { return side >= 1 && side <= greatest_side; };
-    if (!has_cross || height.ec != std::errc() || height.ptr != end || !is_side(size.x) ||
-        !is_side(size.y))
+    const std::optional<ivec2> size = two_numbers(text, 'x');
+    if (!size || !is_side(size->x) || !is_side(size->y))
         throw CLI::ValidationError("--size", "'" + text +
                                                  "' is not WIDTHxHEIGHT with sides from 1 to " +
                                                  std::to_string(greatest_side));
-    return size;
+    return *size;
 }
 
 /// Reads "640,360"; anything else is a usage error.
 ivec2 parse_pixel(const std::string& text) {
-    ivec2 pixel;
-    const char* const end = text.data() + text.size();
-    const auto x = std::from_chars(text.data(), end, pixel.x);
-    const bool has_comma = x.ec == std::errc() && x.ptr != end && *x.ptr == ',';
-    const auto y = has_comma ? std::from_chars(x.ptr + 1, end, pixel.y) : x;
-    if (!has_comma || y.ec != std::errc() || y.ptr != end)
+    const std::optional<ivec2> pixel = two_numbers(text, ',');
+    if (!pixel)
         throw CLI::ValidationError("--probe", "'" + text + "' is not X,Y, a pixel of the picture");
-    return pixel;
+    return *pixel;
 }
 
 /// @throws CLI::ParseError  When --probe asks for what there is not.

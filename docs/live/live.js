@@ -171,6 +171,7 @@ const shownSides = () => (isCompared() ? [0, 1] : [0]);
 
 async function drawWanted() {
   const { isMoving, changed } = wanted;
+  const drawnFor = mode;
   wanted = null;
   isBusy = true;
   busySince = performance.now();
@@ -192,11 +193,12 @@ async function drawWanted() {
     }
     clearTimeout(slow);
     stop.hidden = true;
-    show();
     if (isMoving) {
+      setTimeout(() => mode === drawnFor && show());  // the worker gets what is wanted next before that
       cross.hidden = true;
       whole = setTimeout(draw, 200);
     } else {
+      show();
       report(changed);
       await explain();
       if (!wanted) place.dataset.state = "ready";
@@ -251,7 +253,7 @@ function put(canvas, { pixels, size }) {
   canvas.getContext("2d", { willReadFrequently: true }).putImageData(new ImageData(pixels, ...size), 0, 0);
 }
 
-/** How much two pictures differ: the root of the mean square, in codes, and the share of pixels. */
+/** How much two pictures differ: the root of the mean square of the 8-bit values, and the share of pixels. */
 function differenceOf([left, right]) {
   const enlarged = new Uint8ClampedArray(left.pixels.length);
   let squares = 0;

@@ -4,6 +4,7 @@
 //
 // The lesson's main() never returns: what it has made stays where it is, and the page calls the
 // functions that are exported here. One picture is drawn at a time.
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -144,7 +145,7 @@ struct Page {
     std::string given{};  ///< What the page has written.
     std::string answer{};
     Image<u8vec3> picture{};  ///< As it was drawn last.
-    std::vector<std::uint8_t> rgba{};
+    std::vector<u8vec4> rgba{};
 };
 Page* page = nullptr;
 
@@ -221,16 +222,16 @@ EXPORTED(prepare) void prepare() { page->program.prepare(page->model); }
 
 /// @param width, height  Of the picture, in pixels.
 /// @return               Its pixels as a canvas has them: four bytes each, row by row.
-EXPORTED(draw) const std::uint8_t* draw(int width, int height) {
+EXPORTED(draw) const u8vec4* draw(int width, int height) {
     LessonOptions& options = page->program.options;
     options.size = ivec2(width, height) * options.samples_per_side;
     const float yaw_degrees = page->program.orbit ? page->program.orbit->yaw_degrees : 0;
     Counters counters;
     Image<vec3> rendered = page->program.render({yaw_degrees, 1}, counters);
     page->picture = srgb8_from_linear(averaged(std::move(rendered), options.samples_per_side));
-    page->rgba.clear();
-    for (const u8vec3 color : page->picture.pixels())
-        page->rgba.insert(page->rgba.end(), {color.r, color.g, color.b, 255});
+    page->rgba.resize(page->picture.pixels().size());
+    std::ranges::transform(page->picture.pixels(), page->rgba.begin(),
+                           [](u8vec3 color) { return u8vec4(color, 255); });
     return page->rgba.data();
 }
 

@@ -136,11 +136,11 @@ void transfer(Archive& archive, Scene& scene) {
                  scene.file);
 }
 
-/// What a pixel is foretold to be by its neighbours to the left, above, and left above, which are 0
+/// A pixel as it is predicted from its neighbours to the left, above, and left above, which are 0
 /// outside of the image: what is left of a smooth image is small numbers, which compress well.
 ///
 /// @see Weinberger et al., "The LOCO-I lossless image compression algorithm", 2000, section III.A
-inline u8vec4 foretold(const Image<u8vec4>& image, ivec2 pixel) {
+inline u8vec4 predicted(const Image<u8vec4>& image, ivec2 pixel) {
     const auto at = [&](ivec2 p) {
         return p.x < 0 || p.y < 0 ? glm::ivec4(0) : glm::ivec4(image[p]);
     };
@@ -153,7 +153,8 @@ inline u8vec4 foretold(const Image<u8vec4>& image, ivec2 pixel) {
 inline u8vec4 from_green(u8vec4 c) { return c - u8vec4(c.g, 0, c.g, 0); }
 inline u8vec4 with_green(u8vec4 c) { return c + u8vec4(c.g, 0, c.g, 0); }
 
-/// An image's size, and channel by channel how its pixels differ from what is foretold.
+/// An image's size, and channel by channel the residuals: how its pixels differ from what is
+/// predicted.
 inline std::vector<std::uint8_t> packed(Image<u8vec4> image) {
     for (u8vec4& color : image.pixels()) color = from_green(color);
     SceneWriter writer;
@@ -162,7 +163,7 @@ inline std::vector<std::uint8_t> packed(Image<u8vec4> image) {
     for (int channel = 0; channel < 4; ++channel)
         for (ivec2 p(0); p.y < size.y; ++p.y)
             for (p.x = 0; p.x < size.x; ++p.x)
-                writer.written.push_back((image[p] - foretold(image, p))[channel]);
+                writer.written.push_back((image[p] - predicted(image, p))[channel]);
     return writer.written;
 }
 
@@ -174,7 +175,7 @@ inline Image<u8vec4> unpacked(const std::vector<std::uint8_t>& bytes) {
     for (int channel = 0; channel < 4; ++channel)
         for (u8vec4& color : image.pixels()) transfer(reader, color[channel]);
     for (ivec2 p(0); p.y < size.y; ++p.y)
-        for (p.x = 0; p.x < size.x; ++p.x) image[p] += foretold(image, p);
+        for (p.x = 0; p.x < size.x; ++p.x) image[p] += predicted(image, p);
     for (u8vec4& color : image.pixels()) color = with_green(color);
     return image;
 }

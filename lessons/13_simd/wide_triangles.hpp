@@ -80,6 +80,15 @@ void fill_box(const std::array<EdgeWalk, 3>& edges, float per_area, const PixelB
     }
 }
 
+/// Whether no pixel of a box is inside of an edge: a trivial reject. The edge function is largest
+/// in a corner.
+inline bool is_outside(const EdgeWalk& edge, const PixelBox& box) {
+    const ivec2 steps = box.last - box.first;
+    return edge.value + std::max<std::int64_t>(0, steps.x * edge.step_x) +
+               std::max<std::int64_t>(0, steps.y * edge.step_y) <
+           edge.least;
+}
+
 /// As fill_triangle() of lesson 02, as many pixels of a row at a time as F has numbers.
 ///
 /// @param triangle  Its vertices lie less than 2^17 pixels from the origin: then a double holds its
@@ -107,7 +116,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
         const ivec2 size = (high - low) >> subpixel_bits;
         if (std::max(size.x, size.y) < pixels_in_32_bits)
             fill_box<std::int32_t, width_of<F>>(edges, per_area, box, emit);
-        else
+        else if (std::ranges::none_of(edges, [&](auto& edge) { return is_outside(edge, box); }))
             fill_box<double, width_of<F>>(edges, per_area, box, emit);
     }
 }
@@ -203,7 +212,10 @@ template <typename F, typename CounterPolicy>
 void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& tiling, std::size_t i,
                CounterPolicy& counters) {
     const Tile tile = tiling[i];
-    clear_tile(map, tile);
+    const auto [first, last] = tile.box;
+    const bool touches_border =
+        std::min(first.x, first.y) == 0 || std::max(last.x, last.y) == map.size - 1;
+    if (touches_border) clear_tile(map, tile);  // the rest is written by copy_to()
     TileDepths depths(tile);
     LaneSum<F> count;
     casters.for_each_in(i, [&](const ProjectedTriangle& caster) {
