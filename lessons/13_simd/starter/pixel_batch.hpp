@@ -176,7 +176,13 @@ class PixelBatch {
         LaneCounters<CounterPolicy> lanes{counters_, count_};
         lanes.add(Counter::fragments_shaded);
         count_ = first_ = 0;
+        if constexpr (with.model == ShadingModel::unlit) return unlit_colors(lanes);
         return shaded<with>(frame_, inputs_, at_, lanes);
+    }
+
+    /// All in one function, as sample(). With lights, that would take the compiler too long.
+    [[gnu::flatten]] Vec3<F> unlit_colors(LaneCounters<CounterPolicy>& lanes) {
+        return shaded<Permutation{}>(frame_, inputs_, at_, lanes);
     }
 
     void shade_and_scatter() {
