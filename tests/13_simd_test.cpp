@@ -503,6 +503,47 @@ TEST(Simd, HardCase_LanesAreCountedOneByOne) {
     for_each_width([&]<int N>() { count(Floats<N>(), N, 70'000); });
 }
 
+TEST(Simd, HardCase_AFilledRunIsThatAlone) {
+    look_up("Eq. 13.2");
+    const vec3 before(7), point(-0.0f, 0.25f, nan_);
+    const auto fill_all = [&]<typename F>(F) {
+        for (int count = 0; count <= 40; ++count) {
+            std::array<vec3, 60> points;
+            points.fill(before);
+            fill<F>(&points[3], count, point);
+            for (int i = 0; i < 60; ++i) {
+                const vec3& expected = i >= 3 && i < 3 + count ? point : before;
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_TRUE(agree(points.at(std::size_t(i))[c], expected[c]))
+                        << "component " << c << " of point " << i << " of 60, after " << count
+                        << " from point 3 on were filled, "
+                        << width_of<F> << " at a time: " << points.at(std::size_t(i))[c];
+            }
+        }
+    };
+    fill_all(1.0f);
+    for_each_width([&]<int N>() { fill_all(Floats<N>()); });
+}
+
+TEST(Simd, HardCase_TheFirstOfManyFloatsIsFound) {
+    look_up("Eq. 13.2");
+    const auto find_all = [&]<typename F>(F) {
+        const auto is_one = [](auto x) { return x == decltype(x)(1.0f); };
+        for (int place = 0; place < 40; ++place) {
+            std::array<float, 60> floats{};
+            floats.at(std::size_t(place)) = floats[50] = 1;
+            for (int i = 0; i <= 40; ++i)
+                for (int end = i; end <= 40; ++end)
+                    ASSERT_EQ(first_where<F>(floats.data(), i, end, is_one),
+                              place >= i && place < end ? place : end)
+                        << "the first 1 of floats " << i << " to " << end - 1 << ", by "
+                        << width_of<F> << "; floats " << place << " and 50 are 1, the others 0";
+        }
+    };
+    find_all(1.0f);
+    for_each_width([&]<int N>() { find_all(Floats<N>()); });
+}
+
 TEST(Simd, HardCase_WhatIsWrittenWhereAMaskHoldsIsThatAlone) {
     look_up("Eq. 13.1");
     for_each_width([]<int N>() {

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 
 #include "02_triangle_fill/triangle.hpp"
@@ -140,8 +139,7 @@ class PixelBatch {
         for (int i = 0; i < run.length;) {
             const ivec2 first = run.first + ivec2(i, 0);
             const int added = std::min(run.length - i, N - count_);
-            write(x_, Ints<N>(first.x) + lane_numbers<N>());
-            write(y_, Ints<N>(first.y));
+            fill_up(Ints<N>(first.x - count_) + lane_numbers<N>(), Ints<N>(first.y));
             count_ += added, i += added;
             if (added == N)
                 store(&frame_.color[first], shade());  // they are neighbours
@@ -153,25 +151,19 @@ class PixelBatch {
     /// Shades what is left. The lanes that are left over repeat the last pixel.
     void finish() {
         if (count_ == 0) return;
-        write(x_, Ints<N>(x_[static_cast<std::size_t>(count_ - 1)]));
-        write(y_, Ints<N>(y_[static_cast<std::size_t>(count_ - 1)]));
+        fill_up(Ints<N>(x_[count_ - 1]), Ints<N>(y_[count_ - 1]));
         shade_and_scatter();
     }
 
   private:
     static constexpr int N = width_of<F>;
-    using Numbers = std::array<std::int32_t, 2 * std::size_t{N}>;  ///< Room for whole vectors.
 
     BatchTriangle<with, N>& current() { return *triangles_[slot_]; }
 
-    /// Behind the pixels that are there already.
-    void write(Numbers& numbers, const Ints<N>& more) {
-        std::memcpy(&numbers[static_cast<std::size_t>(count_)], &more, sizeof more);
-    }
-    static Ints<N> read(const Numbers& numbers) {
-        Ints<N> lanes;
-        std::memcpy(&lanes, numbers.data(), sizeof lanes);
-        return lanes;
+    /// Gives columns and rows to the lanes behind the pixels that are there already.
+    void fill_up(Ints<N> x, Ints<N> y) {
+        const Mask<N> empty = !first_lanes<F>(count_);
+        x_ = select(empty, x, x_), y_ = select(empty, y, y_);
     }
 
     /// Gives the triangle's lanes their coordinates in it, and its inputs. The empty lanes behind
@@ -179,7 +171,7 @@ class PixelBatch {
     void end_triangle() {
         if (first_ == count_) return;
         const PerspectiveBarycentrics<F> at =
-            perspective_correct(current().inputs.setup, current().planes.at(read(x_), read(y_)));
+            perspective_correct(current().inputs.setup, current().planes.at(x_, y_));
         const Mask<N> own = !first_lanes<F>(first_);
         at_ = {select(own, at.here, at_.here), select(own, at.ddx, at_.ddx),
                select(own, at.ddy, at_.ddy)};
@@ -194,19 +186,26 @@ class PixelBatch {
         LaneCounters<CounterPolicy> lanes{counters_, count_};
         lanes.add(Counter::fragments_shaded);
         count_ = first_ = 0;
+        if constexpr (with.model == ShadingModel::unlit) return unlit_colors(lanes);
         return shaded<with>(frame_, inputs_, at_, lanes);
     }
 
+    /// All in one function, as sample(). With lights, that would take the compiler too long.
+    [[gnu::flatten]] Vec3<F> unlit_colors(LaneCounters<CounterPolicy>& lanes) {
+        return shaded<Permutation{}>(frame_, inputs_, at_, lanes);
+    }
+
     void shade_and_scatter() {
-        const auto count = static_cast<std::size_t>(count_);
+        const int count = count_;
         std::array<vec3, N> colors;
         store(colors.data(), shade());
-        for (std::size_t i = 0; i < count; ++i) frame_.color[{x_[i], y_[i]}] = colors[i];
+        for (int i = 0; i < count; ++i)
+            frame_.color[{x_[i], y_[i]}] = colors[static_cast<std::size_t>(i)];
     }
 
     const Frame<ShadowMapsOnDemand>& frame_;
     CounterPolicy& counters_;
-    Numbers x_{}, y_{};          ///< Of the pixels.
+    Ints<N> x_{0}, y_{0};        ///< Of the pixels.
     int count_ = 0, first_ = 0;  ///< So many pixels; the first one of the current triangle.
     /// The current triangle, and those that pixels of the batch are of.
     std::array<std::optional<BatchTriangle<with, N>>, N + 1> triangles_;

@@ -4,6 +4,7 @@
 /// derivation: docs/derivations/13_simd.md.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -251,6 +252,16 @@ inline void store(float* to, F x) {
     std::memcpy(to, &x, sizeof x);
 }
 
+/// The first float, from number i on, for which something holds; `end` if there is none.
+///
+/// @param holds  Called as holds(F) and as holds(float).
+template <typename F, typename Holds>
+inline int first_where(const float* floats, int i, int end, Holds&& holds) {
+    while (i + width_of<F> <= end && !any_of(holds(load<F>(floats + i)))) i += width_of<F>;
+    while (i < end && !holds(floats[i])) ++i;
+    return i;
+}
+
 /// Writes x, y and z of N points as they lie in an array of vec3: one point behind the other.
 template <int N>
 inline void store(vec3* to, const Vec3<Floats<N>>& points) {
@@ -268,6 +279,15 @@ inline void store(vec3* to, const Vec3<Floats<N>>& points) {
     write(std::integral_constant<int, 0>());
     write(std::integral_constant<int, 1>());
     write(std::integral_constant<int, 2>());
+}
+
+/// Writes a point `count` times, one behind the other: as many at once as F has numbers.
+template <typename F>
+inline void fill(vec3* to, int count, vec3 point) {
+    if constexpr (width_of<F> > 1)
+        for (; count >= width_of<F>; to += width_of<F>, count -= width_of<F>)
+            store(to, Vec3<F>(point));
+    std::fill_n(to, count, point);
 }
 
 /// Writes a number where the mask holds.

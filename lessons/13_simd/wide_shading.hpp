@@ -102,7 +102,7 @@ struct VisibleTriangle {
 /// in their pixels.
 ///
 /// @return  Whether it has.
-template <typename CounterPolicy>
+template <typename F, typename CounterPolicy>
 bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, std::span<const VisibleTriangle> visible,
                CounterPolicy& counters) {
     const ProjectedTriangle& first = *visible.front().triangle;
@@ -112,7 +112,7 @@ bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, std::span<const VisibleTr
     for (const auto& [triangle, runs] : visible)
         for (const PixelRun& run : runs) {
             counters.add(Counter::fragments_shaded, static_cast<std::uint64_t>(run.length));
-            std::fill_n(&frame.color[run.first], run.length, color);
+            fill<F>(&frame.color[run.first], run.length, color);
         }
     return true;
 }
@@ -126,7 +126,7 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, std::span<const Visibl
             shade_pixels<with>(frame, *triangle, runs, counters);
     } else {
         if constexpr (with.model == ShadingModel::unlit)
-            if (fill_flat(frame, visible, counters)) return;
+            if (fill_flat<F>(frame, visible, counters)) return;
         PixelBatch<with, F, CounterPolicy> batch(frame, *visible.front().triangle, counters);
         for (const auto& [triangle, runs] : visible) {
             if (triangle != visible.front().triangle) batch.begin(*triangle);

@@ -146,10 +146,11 @@ Floats<N> level_of_detail(const glm::vec<2, Floats<N>>& ddx, const glm::vec<2, F
                   F(0.0f));
 }
 
-/// As sample().
+/// As sample(). A vector that is passed to a function goes through memory, so that may take longer
+/// than the function itself. `flatten` inlines all that is called here, and below it.
 template <int N>
-glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
-                              const TextureCoordinates<Floats<N>>& uv) {
+[[gnu::flatten]] glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
+                                               const TextureCoordinates<Floats<N>>& uv) {
     using F = Floats<N>;
     const F x = wrapped(uv.here.x, texture.wrap);
     const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap);

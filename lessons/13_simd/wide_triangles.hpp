@@ -174,11 +174,16 @@ class TileDepths {
     /// Calls take(run) for the pixels that nothing covers.
     template <typename Take>
     void for_each_empty_run(const Tile& tile, Take&& take) {
+        using F = Floats<native_width>;
+        const auto is_empty = [](auto depth) {
+            return depth == decltype(depth)(DepthBuffer::cleared);
+        };
+        const auto is_covered = [&](auto depth) { return !is_empty(depth); };
         for (int y = tile.box.first.y; y <= tile.box.last.y; y += row_step_) {
             const float* const depths = from({first_.x, y});
             for (int x = 0, end = 0; x < width_; x = end) {
-                while (x < width_ && depths[x] != DepthBuffer::cleared) ++x;
-                for (end = x; end < width_ && depths[end] == DepthBuffer::cleared;) ++end;
+                x = first_where<F>(depths, x, width_, is_empty);
+                end = first_where<F>(depths, x, width_, is_covered);
                 if (end > x) take(PixelRun{{first_.x + x, y}, end - x});
             }
         }
@@ -201,9 +206,9 @@ class TileDepths {
 inline void draw_background(Image<vec3>& color, const Tile& tile, TileDepths& depths,
                             bool is_on_paper) {
     depths.for_each_empty_run(tile, [&](const PixelRun& run) {
-        const PixelBox box{run.first, run.first + ivec2(run.length - 1, 0)};
-        draw_backdrop(color, box.first, box.last);
-        if (is_on_paper) draw_paper(color, Tile{box});
+        fill<Floats<native_width>>(
+            &color[run.first], run.length,
+            is_on_paper ? paper_color : backdrop_color(run.first.y, color.size().y));
     });
 }
 

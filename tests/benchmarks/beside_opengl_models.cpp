@@ -149,6 +149,8 @@ std::vector<BenchmarkScene> benchmark_scenes() {
          [] { return hilly(unlit_material(vec3(1), "brick.png"), 316); }},
         {"textured_plane", "2 triangles to the horizon, a texture, no light", plane},
         {"large_triangles", "16 triangles of one color each, no light", bands_of_one_color},
+        {"small_flat", "200,000 triangles of one color, no light",
+         [] { return hilly(unlit_material(vec3(0.3f, 0.5f, 0.7f)), 316); }},
         {"effects_many", "400,000 triangles: texture, normal map, Phong, shadow",
          [] { return hilly(bumpy_material(), 447); }},
         {"effects_few", "the same with 800 triangles", [] { return hilly(bumpy_material(), 20); }},

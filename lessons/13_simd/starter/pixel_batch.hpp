@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 
 #include "02_triangle_fill/triangle.hpp"
@@ -137,32 +136,27 @@ class PixelBatch {
 
     /// Adds pixels; whenever the batch is full, it is shaded, and another begins.
     void add(const PixelRun& run) {
-        // TODO: step 1: write() puts the columns and rows of N pixels behind those that are there.
-        // Of the run's pixels, as many count as the batch has room for. Once it is full: N
-        // neighbours get their colours from store(), any others from shade_and_scatter(). Both
-        // empty the batch; the rest of the run goes into the next one.
+        // TODO: step 1: fill_up() gives columns and rows to all empty lanes: the first one of them
+        // is lane count_. Of the run's pixels, as many count as the batch has room for. Once it is
+        // full: N neighbours get their colours from store(), any others from shade_and_scatter().
+        // Both empty the batch; the rest of the run goes into the next one.
     }
 
     /// Shades what is left. The lanes that are left over repeat the last pixel.
     void finish() {
-        // TODO: step 1: write() the last pixel to the lanes that are left over, unless the batch is
-        // empty, and shade what is there.
+        // TODO: step 1: fill_up() the lanes that are left over with the last pixel, unless the
+        // batch is empty, and shade what is there.
     }
 
   private:
     static constexpr int N = width_of<F>;
-    using Numbers = std::array<std::int32_t, 2 * std::size_t{N}>;  ///< Room for whole vectors.
 
     BatchTriangle<with, N>& current() { return *triangles_[slot_]; }
 
-    /// Behind the pixels that are there already.
-    void write(Numbers& numbers, const Ints<N>& more) {
-        std::memcpy(&numbers[static_cast<std::size_t>(count_)], &more, sizeof more);
-    }
-    static Ints<N> read(const Numbers& numbers) {
-        Ints<N> lanes;
-        std::memcpy(&lanes, numbers.data(), sizeof lanes);
-        return lanes;
+    /// Gives columns and rows to the lanes behind the pixels that are there already.
+    void fill_up(Ints<N> x, Ints<N> y) {
+        const Mask<N> empty = !first_lanes<F>(count_);
+        x_ = select(empty, x, x_), y_ = select(empty, y, y_);
     }
 
     /// Gives the triangle's lanes their coordinates in it, and its inputs. The empty lanes behind
@@ -182,19 +176,26 @@ class PixelBatch {
         LaneCounters<CounterPolicy> lanes{counters_, count_};
         lanes.add(Counter::fragments_shaded);
         count_ = first_ = 0;
+        if constexpr (with.model == ShadingModel::unlit) return unlit_colors(lanes);
         return shaded<with>(frame_, inputs_, at_, lanes);
     }
 
+    /// All in one function, as sample(). With lights, that would take the compiler too long.
+    [[gnu::flatten]] Vec3<F> unlit_colors(LaneCounters<CounterPolicy>& lanes) {
+        return shaded<Permutation{}>(frame_, inputs_, at_, lanes);
+    }
+
     void shade_and_scatter() {
-        const auto count = static_cast<std::size_t>(count_);
+        const int count = count_;
         std::array<vec3, N> colors;
         store(colors.data(), shade());
-        for (std::size_t i = 0; i < count; ++i) frame_.color[{x_[i], y_[i]}] = colors[i];
+        for (int i = 0; i < count; ++i)
+            frame_.color[{x_[i], y_[i]}] = colors[static_cast<std::size_t>(i)];
     }
 
     const Frame<ShadowMapsOnDemand>& frame_;
     CounterPolicy& counters_;
-    Numbers x_{}, y_{};          ///< Of the pixels.
+    Ints<N> x_{0}, y_{0};        ///< Of the pixels.
     int count_ = 0, first_ = 0;  ///< So many pixels; the first one of the current triangle.
     /// The current triangle, and those that pixels of the batch are of.
     std::array<std::optional<BatchTriangle<with, N>>, N + 1> triangles_;
