@@ -67,8 +67,8 @@ build() {
     local home fresh=() log
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
     [ -z "$home" ] || [ "$home" = "$PWD" ] || fresh=(--fresh)
-    # What is the reader's own is built again and again: then only what has changed is looked at.
-    if [[ $preset != mine* ]] || [ "$home" != "$PWD" ] || [ CMakePresets.json -nt "build/$preset/CMakeCache.txt" ]; then
+    # A lesson is built again and again: then only what has changed is looked at, and not what may have been installed since.
+    if [ ! -d "lessons/$1" ] || [ "$home" != "$PWD" ] || [ CMakePresets.json -nt "build/$preset/build.ninja" ]; then
         quietly cmake --preset "$preset" "${fresh[@]}"
     fi
     log=$(mktemp)

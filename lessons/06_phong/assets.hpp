@@ -19,15 +19,14 @@ struct PhongAssets {
     std::vector<EffectMask> effects;
 };
 
-/// @param options  Has TextureOptions `texture` and LightOptions `shading`.
+/// @param all_effects  Each effect is planned also where it can change nothing.
 /// @throws InputError  When an image cannot be read.
+PhongAssets make_phong_assets(Scene scene, const TextureOptions& texture, bool all_effects);
+
+/// @param options  Has TextureOptions `texture` and LightOptions `shading`.
 template <typename Options>
 PhongAssets make_phong_assets(Scene scene, const Options& options) {
-    complete_normals(scene);
-    SurfaceTextures textures = load_surface_textures(scene, options.texture);
-    if (options.shading.all_effects) add_neutral_inputs(scene, textures);
-    auto effects = plan_effects(scene, textures, options.shading.all_effects);
-    return {std::move(scene), std::move(textures), std::move(effects)};
+    return make_phong_assets(std::move(scene), options.texture, options.shading.all_effects);
 }
 
 }  // namespace rasterbook

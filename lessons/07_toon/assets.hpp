@@ -21,16 +21,13 @@ struct ToonAssets {
     HullNormals hull_normals;
 };
 
-/// @param options  As of make_phong_assets(), with ToonVariant `shading`.
 /// @throws InputError  When an image cannot be read.
+ToonAssets make_toon_assets(Scene scene, const TextureOptions& texture, const ToonVariant& shading);
+
+/// @param options  As of make_phong_assets(), with ToonVariant `shading`.
 template <typename Options>
 ToonAssets make_toon_assets(Scene scene, const Options& options) {
-    complete_normals(scene);
-    SurfaceTextures textures = load_surface_textures(scene, options.texture);
-    if (options.shading.all_effects) add_neutral_inputs(scene, textures);
-    auto effects = plan_effects(scene, textures, options.shading.all_effects);
-    HullNormals hull_normals = make_hull_normals(scene, options.shading.outline);
-    return {std::move(scene), std::move(textures), std::move(effects), std::move(hull_normals)};
+    return make_toon_assets(std::move(scene), options.texture, options.shading);
 }
 
 }  // namespace rasterbook

@@ -21,19 +21,15 @@ struct NormalMapAssets {
     std::vector<EffectMask> effects;
 };
 
-/// @param options  As of make_phong_assets(), with NormalMapVariant `normal_map`.
 /// @throws InputError  When an image cannot be read.
+NormalMapAssets make_normal_map_assets(Scene scene, const TextureOptions& texture, bool all_effects,
+                                       const NormalMapVariant& normal_map);
+
+/// @param options  As of make_phong_assets(), with NormalMapVariant `normal_map`.
 template <typename Options>
 NormalMapAssets make_normal_map_assets(Scene scene, const Options& options) {
-    const bool all_effects = options.shading.all_effects;
-    complete_normals(scene);
-    SurfaceTextures textures = load_surface_textures(scene, options.texture);
-    NormalMaps normal_maps =
-        load_normal_maps(scene, options.texture, options.normal_map, all_effects);
-    make_tangents(scene, normal_maps, options.normal_map);
-    if (all_effects) add_neutral_inputs(scene, textures);
-    auto effects = plan_effects(scene, textures, normal_maps, all_effects);
-    return {std::move(scene), std::move(textures), std::move(normal_maps), std::move(effects)};
+    return make_normal_map_assets(std::move(scene), options.texture, options.shading.all_effects,
+                                  options.normal_map);
 }
 
 }  // namespace rasterbook

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -136,6 +137,29 @@ SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
                                      "only, by the alpha of their textures");
     return {std::move(scene),  std::move(textures), std::move(normal_maps), bounds,
             std::move(lit_by), std::move(plan),     std::move(hulls),       is_on_paper};
+}
+
+std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera) {
+    std::vector<Mesh> outlines;
+    outlines.reserve(assets.hulls.size());
+    for (const OutlineHull& hull : assets.hulls) outlines.push_back(pushed(hull, camera));
+    return outlines;
+}
+
+std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* const> meshes) {
+    std::vector<Pass> passes;
+    for (const auto& [is_blended, is_glass] :
+         {std::pair{false, false}, {true, false}, {true, true}})
+        for (const Culling culling : {Culling::back_faces, Culling::none}) {
+            Pass pass{is_blended, is_glass, culling};
+            for (const Mesh* const mesh : meshes)
+                if (std::ranges::any_of(mesh->triangles, [&](const Triangle& triangle) {
+                        return pass.takes(plan, triangle.material);
+                    }))
+                    pass.meshes.push_back(mesh);
+            if (!pass.meshes.empty()) passes.push_back(std::move(pass));
+        }
+    return passes;
 }
 
 }  // namespace rasterbook

@@ -3,7 +3,6 @@
 /// A scene of any file with all that it calls for. Introduced in lesson 11.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -61,12 +60,7 @@ inline void draw_paper(Image<vec3>& color, const Tile& part) {
 }
 
 /// The outlines as a camera is to see them.
-inline std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera) {
-    std::vector<Mesh> outlines;
-    outlines.reserve(assets.hulls.size());
-    for (const OutlineHull& hull : assets.hulls) outlines.push_back(pushed(hull, camera));
-    return outlines;
-}
+std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera);
 
 /// What may be seen of a scene and its outlines. Only the scene's own meshes are counted.
 template <typename CounterPolicy>
@@ -97,21 +91,7 @@ struct Pass {
 /// The passes that a scene calls for: what is opaque first, as glass is drawn over it.
 ///
 /// @param meshes  Those in the camera's view: of the scene, and of outlines.
-inline std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* const> meshes) {
-    std::vector<Pass> passes;
-    for (const auto& [is_blended, is_glass] :
-         {std::pair{false, false}, {true, false}, {true, true}})
-        for (const Culling culling : {Culling::back_faces, Culling::none}) {
-            Pass pass{is_blended, is_glass, culling};
-            for (const Mesh* const mesh : meshes)
-                if (std::ranges::any_of(mesh->triangles, [&](const Triangle& triangle) {
-                        return pass.takes(plan, triangle.material);
-                    }))
-                    pass.meshes.push_back(mesh);
-            if (!pass.meshes.empty()) passes.push_back(std::move(pass));
-        }
-    return passes;
-}
+std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* const> meshes);
 
 /// The triangles of a picture, binned by passes.
 struct BinnedPasses {

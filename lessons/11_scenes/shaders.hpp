@@ -234,10 +234,7 @@ class Shaders {
     using Shader = void (*)(const Frame<>&, const ProjectedTriangle&, const Tile&,
                             TransparentFragments&, CounterPolicy&);
 
-    explicit Shaders(const ScenePlan& plan) {
-        for (const MaterialPlan& material : plan.materials)
-            of_material_.push_back(table[permutation_of(material)]);
-    }
+    explicit Shaders(const ScenePlan& plan);
 
     Shader operator[](std::size_t material) const { return of_material_[material]; }
 
@@ -250,5 +247,12 @@ class Shaders {
 
     std::vector<Shader> of_material_;
 };
+
+template <typename CounterPolicy>
+Shaders<CounterPolicy>::Shaders(const ScenePlan& plan) {
+    for (const MaterialPlan& material : plan.materials)
+        of_material_.push_back(table[permutation_of(material)]);
+}
+extern template class Shaders<Counters>;  // shaders.cpp, so that main.cpp takes less time
 
 }  // namespace rasterbook

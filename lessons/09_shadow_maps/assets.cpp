@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "09_shadow_maps/assets.hpp"
+
+#include <utility>
+
+namespace rasterbook {
+
+ShadowAssets make_shadow_assets(Scene scene, const TextureOptions& texture, bool all_effects,
+                                const NormalMapVariant& normal_map) {
+    complete_normals(scene);
+    SurfaceTextures textures = load_surface_textures(scene, texture);
+    NormalMaps normal_maps = load_normal_maps(scene, texture, normal_map, all_effects);
+    make_tangents(scene, normal_maps, normal_map);
+    if (all_effects) add_neutral_inputs(scene, textures);
+    auto effects = plan_effects(scene, textures, normal_maps, all_effects);
+    const ShadowBounds bounds = shadow_bounds(scene);
+    return {std::move(scene), std::move(textures), std::move(normal_maps), std::move(effects),
+            bounds};
+}
+
+}  // namespace rasterbook
