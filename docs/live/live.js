@@ -328,7 +328,7 @@ function report(changed) {
     words[0] = `Left ${inMs(left.ms)}, right ${inMs(right.ms)}.`;
     words.push(share === 0 ? "No pixel differs." : `${percent(share)} of the pixels differ, by ${rms.toPrecision(2)} of 255 (RMS of all).`);
   } else {
-    words[0] += " in this browser, by one thread.";
+    words[0] += ` in this browser, by ${own ? "your program" : "one thread"}.`;
     if (lesson.hasProbe && !probed) words.push(`${canTurn() ? "Drag to turn; click" : "Click"} a pixel to see why it has its colour.`);
   }
   if (changed && (isCompared() ? left.isSame && right.isSame : left.isSame))

@@ -21,8 +21,7 @@ const colours = HighlightStyle.define([
   { tag: [tags.processingInstruction, tags.meta, tags.moduleKeyword], color: "var(--fragment-preprocessor)" },
 ]);
 const look = EditorView.theme({
-  "&": { height: "100%", backgroundColor: "var(--fragment-background)", color: "var(--fragment-foreground)", fontSize: "13px" },
-  ".cm-scroller": { fontFamily: "var(--font-family-monospace)", lineHeight: "1.5" },
+  "&": { height: "100%", backgroundColor: "var(--fragment-background)", color: "var(--fragment-foreground)", },
   ".cm-content": { caretColor: "var(--page-foreground-color)" },
   ".cm-cursor": { borderLeftColor: "var(--page-foreground-color)" },
   ".cm-gutters": { backgroundColor: "var(--fragment-linenumber-background)", color: "var(--fragment-linenumber-color)", borderRight: "1px solid var(--separator-color)" },

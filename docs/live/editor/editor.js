@@ -69,10 +69,12 @@ class Editor {
     this.messages = element("ol", { className: "messages", "aria-label": "What the compiler says" });
     this.log = element("pre", { hidden: true, tabIndex: 0, "aria-label": "What the compiler prints" });
     this.failure = element("pre", { className: "failure", hidden: true, tabIndex: 0, "aria-label": "The first failure" });
+    this.toPictures = button("Compare the pictures", () => this.compared.scrollIntoView({ block: "center" }), { hidden: true });
     this.compared = element("div", { className: "comparison", hidden: true });
-    const results = element("section", { className: "results", "aria-label": "What came of it" }, this.status, this.progress, this.tiers, this.onward);
+    const results = element("section", { className: "results", "aria-label": "What came of it" },
+      this.status, this.progress, this.tiers, this.onward, this.messages, this.log, this.failure, this.toPictures);
     const panel = element("section", { className: "editor", "aria-label": "Write it yourself" },
-      head, this.tabs, this.code, keys, foot, this.note, this.messages, this.log, this.failure, this.compared);
+      head, this.tabs, this.code, keys, foot, this.note, this.compared);
     this.parts = [results, panel];
     this.place.querySelector(".said").after(...this.parts);
     this.place.classList.add("writing");
@@ -99,7 +101,7 @@ class Editor {
       this.tabs.append(tab);
     }
     this.place.querySelector(".editor .adding")?.remove();
-    if (this.sandbox) this.tabs.after(this.sandbox.fileBar(this));
+    if (this.sandbox) this.place.querySelector(".editor .keys").after(this.sandbox.fileBar(this));
   }
 
   tabKey(event, name) {
@@ -130,7 +132,7 @@ class Editor {
     this.onward.hidden = true;
     this.tiers.replaceChildren();
     this.messages.replaceChildren();
-    this.failure.hidden = this.compared.hidden = this.log.hidden = true;
+    this.failure.hidden = this.log.hidden = this.compared.hidden = this.toPictures.hidden = true;
   }
 
   say(words, kind = "") {
@@ -291,7 +293,7 @@ class Editor {
     const warned = warnings > 0 ? ` with ${counted(warnings, "warning")}` : "";
     if (!program) {
       const errors = messages.filter(({ severity }) => severity === "error").length;
-      return this.say(`It does not compile${errors > 0 ? `: ${counted(errors, "error")}` : "."}`, "wrong");
+      return this.say(`It does not compile${errors > 0 ? `: ${counted(errors, "error")}` : ""}${warned}.`, "wrong");
     }
     const options = this.optionsToDraw();
     this.isNewStep = false;
@@ -367,7 +369,7 @@ class Editor {
       this.say(`${what} is done: ${sum}; ${how}.${next ? "" : ` The hard cases are for ./tests/run --mine ${number}.`}`, "right");
       this.onward.textContent = next;
       this.onward.hidden = next === "";
-    } else this.say(`${what}: ${sum}; ${how}. The first failure stands below.`, "wrong");
+    } else this.say(`${what}: ${sum}; ${how}. The first failure:`, "wrong");
     this.failure.hidden = !first;
     if (first) this.failure.textContent = first.text;
   }
@@ -378,7 +380,7 @@ class Editor {
     if (isOld()) return;
     const box = this.compared;
     box.replaceChildren(element("h3", { textContent: `${name}${options.length > 0 ? `, drawn with ${options.join(" ")}` : ""}` }), ...comparisonOf(expected, own));
-    box.hidden = false;
+    box.hidden = this.toPictures.hidden = false;
     const looks = await this.toolchain.diagnose(this.start.compiled, own.data, expected.data, expected.width, expected.height);
     if (!isOld() && looks) box.append(element("p", { className: "looks", textContent: looks }));
   }
