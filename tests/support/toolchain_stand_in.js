@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // In place of the site's compiler, for tests of the editor: it answers at once. The program is the
-// lesson's own, from the site; what is said depends on words in the files.
+// lesson's own, from the site; what is said depends on words in the files. "PROGRAM NAME" asks for
+// another program.
 
 const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-async function programOf(lesson) {
+async function programOf(lesson, files) {
+  const [, other] = Object.values(files).join("\n").match(/PROGRAM (\w+)/) ?? [];
+  if (other) return new Uint8Array(await (await fetch(new URL(`${other}.wasm`, import.meta.url))).arrayBuffer());
   const script = await (await fetch(new URL(`../${lesson === "sandbox" ? "02_triangle_fill" : lesson}.js`, import.meta.url))).text();
   const [, text] = script.match(/= "(.*)";/);
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -45,7 +48,7 @@ export class Toolchain {
     await this.until(all.some(([, text]) => text.includes("SLOW")) ? 3000 : 50);
     if (all.some(([, text]) => text.includes("NO TOOLCHAIN"))) throw new Error("There is not enough memory for the compiler.");
     const isWrong = messages.some(({ severity }) => severity === "error");
-    return { messages, log: "", program: isWrong ? null : await programOf(lesson) };
+    return { messages, log: "", program: isWrong ? null : await programOf(lesson, files) };
   }
 
   async test(lesson, files, step) {

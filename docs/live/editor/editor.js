@@ -62,7 +62,7 @@ class Editor {
     const keys = element("p", { className: "keys", id: "editor-keys", textContent: "Ctrl+Enter runs, Ctrl+F finds. Tab indents; Escape, then Tab, leaves the code." });
     this.note = element("p", { className: "note", role: "status" });
 
-    this.status = element("p", { className: "outcome", role: "status" });
+    this.status = element("p", { className: "outcome" });
     this.progress = element("progress", { hidden: true, max: 1, "aria-label": "Fetched of the compiler" });
     this.tiers = element("ul", { className: "tiers" });
     this.onward = button("", () => this.goOn(), { hidden: true, className: "run" });
@@ -72,7 +72,7 @@ class Editor {
     this.toPictures = button("Compare the pictures", () => this.compared.scrollIntoView({ block: "center" }), { hidden: true });
     this.compared = element("div", { className: "comparison", hidden: true });
     const results = element("section", { className: "results", "aria-label": "What came of it" },
-      this.status, this.progress, this.tiers, this.onward, this.messages, this.log, this.failure, this.toPictures);
+      element("div", { role: "status" }, this.status, this.tiers), this.progress, this.onward, this.messages, this.log, this.failure, this.toPictures);
     const panel = element("section", { className: "editor", "aria-label": "Write it yourself" },
       head, this.tabs, this.code, keys, foot, this.note, this.compared);
     this.parts = [results, panel];
@@ -363,13 +363,12 @@ class Editor {
     }));
     const number = this.start.name.slice(0, 2);
     const what = this.step > 0 ? `Step ${this.step}` : `Lesson ${number}`;
-    const sum = tiers.map(({ name, passed, total }) => `${name} ${passed} of ${total}`).join(", ");
     if (isAll && tiers.length > 0) {
       const next = this.step > 0 && this.step < this.steps.length ? `Go on to step ${this.step + 1}` : this.step > 0 ? "Test the whole lesson" : "";
-      this.say(`${what} is done: ${sum}; ${how}.${next ? "" : ` The hard cases are for ./tests/run --mine ${number}.`}`, "right");
+      this.say(`${what} is done; ${how}.${next ? "" : ` The hard cases are for ./tests/run --mine ${number}.`}`, "right");
       this.onward.textContent = next;
       this.onward.hidden = next === "";
-    } else this.say(`${what}: ${sum}; ${how}. The first failure:`, "wrong");
+    } else this.say(`${what} is not done yet; ${how}.`, "wrong");
     this.failure.hidden = !first;
     if (first) this.failure.textContent = first.text;
   }
