@@ -10,7 +10,9 @@ import functools
 import http.server
 import io
 import json
+import random
 import re
+import string
 import subprocess
 import sys
 import tempfile
@@ -319,6 +321,10 @@ def check_storage(page: EditorPage) -> list[str]:
     page.open("lesson_03.html")
     first = page.written
     page.write("// mine\n")
+    page.browser.refresh()
+    page.until(lambda: page.all(".write"))
+    if page.one(".write").text != "Go on writing":
+        problems.append("does not say that something is written already")
     page.open("lesson_03.html", is_forgotten=False)
     if page.written != "// mine\n":
         problems.append("forgets what was written")
@@ -543,7 +549,7 @@ def check_sandbox(page: EditorPage, site: Path) -> list[str]:
     page.run()
     if page.script("return document.querySelector('.live .bar:not(.editor *) select').value") != "horizon.obj":
         problems.append("a link does not bring its options")
-    page.write("".join(chr(33 + (i * i * 7919 + i // 7) % 90) for i in range(90000)))
+    page.write("".join(random.Random(1).choices(string.ascii_letters, k=60000)))
     page.button("Copy link").click()
     if "too long" not in page.note:
         problems.append(f"of a long link it says '{page.note}'")

@@ -35,7 +35,8 @@ const look = EditorView.theme({
   ".cm-foldPlaceholder, .cm-collapsedLines": { background: "var(--code-background)", color: "var(--page-secondary-foreground-color)" },
   ".cm-changedLine": { backgroundColor: "var(--added) !important" },
   ".cm-deletedChunk": { backgroundColor: "var(--removed) !important", paddingLeft: "6px" },
-  ".cm-changedText, .cm-deletedText": { background: "color-mix(in srgb, currentColor 16%, transparent) !important" },
+  ".cm-deletedText": { background: "none !important", textDecoration: "none" },
+  ".cm-collapsedLines::before, .cm-collapsedLines::after": { content: "'\\22ef' !important" },
 });
 const plain = [basicSetup, cpp(), Prec.high(syntaxHighlighting(colours)), look, indentUnit.of("    "), EditorState.tabSize.of(4)];
 const severities = { error: "error", warning: "warning", note: "info" };
@@ -115,7 +116,7 @@ export class CodeView {
         plain,
         EditorState.readOnly.of(true),
         EditorView.contentAttributes.of({ "aria-label": `${name}: from yours to the course's` }),
-        unifiedMergeView({ original, mergeControls: false, collapseUnchanged: { margin: 3, minSize: 6 } }),
+        unifiedMergeView({ original, mergeControls: false, highlightChanges: false, collapseUnchanged: { margin: 3, minSize: 6 } }),
       ],
     }));
   }

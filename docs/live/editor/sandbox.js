@@ -84,7 +84,9 @@ export class Sandbox {
     const field = element("input", { type: "text", placeholder: "shade.hpp", "aria-label": "A file's name" });
     field.setAttribute("list", list.id);
     const add = () => this.add(editor, field.value.trim());
-    field.onkeydown = (event) => event.key === "Enter" && add();
+    field.onkeydown = (event) => {
+      if (event.key === "Enter") add();
+    };
     return element("div", { className: "bar adding" }, field, list, button("Add file", add), button("Remove this file", () => this.remove(editor, editor.selected)));
   }
 
