@@ -573,6 +573,7 @@ def check_elsewhere(page: EditorPage, site: Path) -> list[str]:
         words = page.one(".offer span").text
         if "./docs/run --serve" not in words or not words.endswith(f"8000/{file}"):
             problems.append(f"{file} from a folder: says '{words}'")
+    page.browser.execute_cdp_cmd("Network.setCacheDisabled", {"cacheDisabled": True})
     Server.has_compiler = False
     page.open("sandbox.html")
     page.button("Run").click()
