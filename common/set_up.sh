@@ -43,8 +43,8 @@ find_lesson() {
     return 1
 }
 
-# Sets `preset`, the build's: "release"; or for --mine, "mine", and what may follow it, --fast or --sanitize, "mine_fast" or
-# "mine_sanitize". `taken` is the number of arguments that say so.
+# Sets `preset`, the build's: "release"; or for --mine, "mine", and with what may follow it, --debug, --fast or --sanitize,
+# "mine_debug" and so on. `taken` is the number of arguments that say so.
 # shellcheck disable=SC2034  # they are for the script that calls
 choose_preset() {
     preset=release
@@ -53,7 +53,7 @@ choose_preset() {
     preset=mine
     taken=1
     case ${2-} in
-        --fast | --sanitize) preset=mine_${2#--} taken=2 ;;
+        --debug | --fast | --sanitize) preset=mine_${2#--} taken=2 ;;
     esac
     local files=(mine/[0-9][0-9]_*/*.[ch]pp)
     if [ ! -e "${files[0]}" ]; then

@@ -4,22 +4,19 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <string>
 
-#include "04_mvp/camera.hpp"
 #include "04_mvp/probe.hpp"
 #include "06_phong/probe.hpp"
-#include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "08_normal_maps/probe.hpp"
 #include "09_shadow_maps/assets.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "common/app/counters.hpp"
+#include "common/app/lesson_app.hpp"
 #include "common/probe/pixel_report.hpp"
 
 namespace rasterbook {
@@ -75,51 +72,27 @@ inline float report_visibility(PixelReport& report, const ShadowMaps& shadow_map
     return visibility;
 }
 
+/// What shadow_probe() is to know of a lesson's options, wherever they stand.
+struct ShadowProbeOptions {
+    const ivec2& size;
+    const Orbit& orbit;
+    const TextureOptions& texture;
+    const LightOptions& shading;
+    const NormalMapVariant& normal_map;
+    const ShadowVariant& shadow;
+};
+
 /// Explains pixels of the pictures of this lesson and lesson 10, which are the same.
 ///
-/// @param options  With TextureOptions `texture`, LightOptions `shading`, NormalMapVariant
-///                 `normal_map` and ShadowVariant `shadow`. Both have to outlive the probe.
+/// @param options, assets  What they refer to has to outlive the probe.
+PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& assets);
+
+/// The same, of all options of a lesson.
 template <typename Options>
 PixelProbe shadow_probe(const Options& options, const ShadowAssets& assets) {
-    const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
-    const std::array lights = raking_lights(options.shading.key_light, assets.scene.bounds());
-    NoCounters unused;
-    return [&options, &assets, camera, lights,
-            triangles = projected_triangles(assets.scene, camera.clip_from_world(options.size),
-                                            options.size),
-            shadow_maps = std::make_shared<const ShadowMaps>(draw_shadow_maps(
-                options.shadow, options.shading.all_effects, assets.scene, assets.shadow_bounds,
-                lights, unused))](ivec2 pixel, PixelReport& report) {
-        const Scene& scene = assets.scene;
-        const Filter filter = options.texture.filter;
-        const auto seen =
-            report_triangles(report, triangles, options.shading.culling(), scene, pixel);
-        if (!seen) return report_backdrop(report, pixel, options.size);
-        const ProjectedTriangle& projected = *seen->projected;
-        const EffectMask effects = assets.effects[projected.triangle.material];
-        const auto [surface, on_surface, base_color] = report_surface(
-            report, *seen, triangle_surface(scene, assets.textures, effects, projected), filter);
-        if (!effects[Effect::light]) return report_unlit(report, base_color);
-        NoCounters uncounted;
-        const vec3 smooth_normal = interpolate(surface.normals_world, on_surface.here);
-        const vec3 normal = report_normal(
-            report, triangle_normal_map(options.normal_map, scene, assets.normal_maps, projected),
-            options.normal_map, on_surface, smooth_normal, filter);
-        const SurfacePoint<float> point =
-            surface_point(surface, on_surface.here, normal, camera.position_world, uncounted);
-        report_point(report, point);
-        TriangleReceiver receiver = triangle_receiver(surface.positions_world);
-        report_lights(report, lights, point, highlight_of(surface), [&](std::size_t l) {
-            return report_visibility(report, *shadow_maps, l, receiver, point.position_world,
-                                     smooth_normal);
-        });
-        const auto visibility = [&](std::size_t l) {
-            return light_visibility(*shadow_maps, l, receiver, point.position_world, smooth_normal,
-                                    uncounted);
-        };
-        return report_phong(report, base_color, ambient_light,
-                            reflected_light(lights, point, highlight_of(surface), visibility));
-    };
+    return shadow_probe(ShadowProbeOptions{options.size, options.orbit, options.texture,
+                                           options.shading, options.normal_map, options.shadow},
+                        assets);
 }
 
 }  // namespace rasterbook
