@@ -408,6 +408,17 @@ def check_zip(page: EditorPage) -> list[str]:
         problems.append("does not keep what it has loaded")
     if json.loads(page.script(KEPT, LESSONS[1]) or "{}").get("files") != {"main.cpp": "// 2\n"}:
         problems.append("does not keep another lesson's files")
+
+    page.open("sandbox.html#start=05.1")
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "mine.zip")
+        file.write_bytes(zip_of({"mine/05_textures/main.cpp": b"// 5\n", "mine/06_phong/phong.hpp": b"// 6\n"}))
+        page.one(".editor input[type=file]").send_keys(str(file))
+        time.sleep(0.3)
+        page.answer()
+        page.until(lambda: "Loaded" in page.note, 5)
+    if page.tabs != ["main.cpp", "06_phong/phong.hpp"] or page.written != "// 5\n":
+        problems.append(f"the sandbox loads {page.tabs}")
     return problems
 
 
@@ -638,8 +649,8 @@ def main() -> None:
         for name in sys.argv[3:] or checks:
             check = checks[name]
             problems += [f"{name}: {problem}" for problem in check()]
-            if name != "elsewhere":
-                problems += check_log(browser, name, (address,))
+            noted = check_log(browser, name, (address,))
+            problems += noted if name != "elsewhere" else []
     finally:
         browser.quit()
         server.shutdown()

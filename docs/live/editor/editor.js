@@ -199,7 +199,9 @@ class Editor {
     const all = Object.fromEntries(keptLessons().map((name) => [name, kept(name)?.files ?? {}]));
     const folder = this.start.compiled;
     download(zipOf(this.sandbox ? { [folder]: this.files } : { ...all, [folder]: this.files }), "mine.zip", "application/zip");
-    this.note.textContent = "Unpacked in the course's folder, mine.zip is its folder mine/, for ./lessons/run --mine.";
+    this.note.textContent = folder === "sandbox"
+      ? "Load takes mine.zip back."
+      : "Unpacked in the course's folder, mine.zip is its folder mine/, for ./lessons/run --mine. Load takes it back.";
   }
 
   async load() {
@@ -209,12 +211,16 @@ class Editor {
     try {
       const folders = foldersOf(new Uint8Array(await file.arrayBuffer()));
       const names = Object.keys(folders);
-      const here = folders[this.start.compiled];
+      let here = folders[this.start.compiled];
       if (!here && this.sandbox) throw new Error(`${file.name} has no files of ${this.start.compiled}.`);
       if (!confirm(`Take ${names.join(", ")} from ${file.name}, in place of what this browser has of ${names.length > 1 ? "them" : "it"}?`)) return;
       if (!this.sandbox)
         for (const name of names)
           if (name !== this.start.compiled && name !== "sandbox") keep(name, { files: folders[name], begun: {} });
+      if (this.sandbox)
+        for (const name of names)
+          if (name !== this.start.compiled)
+            for (const [other, text] of Object.entries(folders[name])) here = { ...here, [`${name}/${other}`]: text };
       if (here) {
         this.stop();
         this.take(this.sandbox ? here : { ...this.start.files, ...here }, this.step, this.begun);

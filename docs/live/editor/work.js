@@ -45,11 +45,11 @@ export function keptLessons() {
   }
 }
 
-/** @param {object} folders  mine/NAME by NAME: texts by the files' names. */
+/** @param {object} folders  mine/NAME by NAME: texts by the files' names; 06_phong/phong.hpp has its own folder. */
 export function zipOf(folders) {
   const inside = {};
   for (const [folder, files] of Object.entries(folders))
-    for (const [name, text] of Object.entries(files)) inside[`mine/${folder}/${name}`] = strToU8(text);
+    for (const [name, text] of Object.entries(files)) inside[`mine/${name.includes("/") ? name : `${folder}/${name}`}`] = strToU8(text);
   return zipSync(inside, { level: 9 });
 }
 
