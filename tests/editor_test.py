@@ -31,6 +31,8 @@ return run === "done" && (state === "ready" || state === "failed");"""
 OUTCOME = "return document.querySelector('.outcome').textContent"
 WRITTEN = "return document.querySelector('.cm-content').cmTile.view.state.doc.toString()"
 KEPT = "return localStorage.getItem(`rasterbook ${arguments[0]}`)"
+MIDDLES = """return [...document.querySelectorAll("figure canvas")].map((canvas) =>
+  [...canvas.getContext("2d").getImageData(480, 270, 1, 1).data].slice(0, 3));"""
 WIDTH = """return [document.scrollingElement, document.getElementById("doc-content")]
   .filter((box) => box.scrollWidth > box.clientWidth).length"""
 
@@ -233,8 +235,14 @@ def check_loop(page: EditorPage, build: Path) -> list[str]:
     page.until(lambda: page.all(".looks"))
     sizes = [(canvas.get_property("width"), canvas.get_property("height")) for canvas in page.all("figure canvas")]
     words = page.one(".comparison").text
-    if sizes != [(960, 540)] * 3 or "0 of 518,400 pixels differ" not in words or "looks the same" not in words:
+    expected, own, apart = page.script(MIDDLES)
+    differing = re.search(r"([\d,]+) of 518,400 pixels differ", words)
+    if sizes != [(960, 540)] * 3 or not differing or differing[1] == "0" or "drawn with --paint barycentric" not in words:
         problems.append(f"does not compare the pictures: {sizes}, {words}")
+    if apart != [min(255, 8 * abs(a - b)) for a, b in zip(expected, own)] or expected == own:
+        problems.append(f"of {expected} and {own} the difference is {apart}")
+    if page.one(".looks").text != f"In the middle {','.join(map(str, own))}, expected {','.join(map(str, expected))}.":
+        problems.append(f"of {expected} and {own} it is said: {page.one('.looks').text}")
     if page.script(PIXELS) != native_bytes(build, LESSONS[1]):
         problems.append("does not draw with the program that was made")
 
