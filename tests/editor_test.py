@@ -545,6 +545,12 @@ def check_sandbox(page: EditorPage, site: Path) -> list[str]:
     chosen = page.script("return document.querySelector('.live .bar:not(.editor *) select').value")
     if page.script("return standIn.last.lesson") != "05_textures" or chosen != "horizon.obj":
         problems.append(f"exercise 05.1 is drawn with {chosen}")
+    page.write(f"// tried\n{page.written}")
+    page.button("What you changed").click()
+    changed = [line.text for line in page.all(".cm-changedLine")]
+    if changed != ["// tried"] or page.all(".cm-deletedLine"):
+        problems.append(f"says that {changed} was changed")
+    page.button("What you changed").click()
     page.write("// tried\n")
     page.button("Copy link").click()
     page.until(lambda: "link" in page.note)

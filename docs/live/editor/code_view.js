@@ -71,7 +71,7 @@ export class CodeView {
     return EditorState.create({
       doc: text,
       extensions: [
-        Prec.highest(keymap.of([{ key: "Mod-Enter", run }])),
+        Prec.highest(keymap.of([{ key: "Ctrl-Enter", run }, { key: "Mod-Enter", run }])),
         plain,
         keymap.of([indentWithTab]),
         lintGutter(),
@@ -105,17 +105,16 @@ export class CodeView {
     this.scrolled[this.shown] = this.view.scrollSnapshot();
   }
 
-  /** How a file would become the course's. */
-  showDifference(name, course) {
+  /** What changes from one text of a file to another. */
+  showDifference(name, original, changed) {
     this.leave();
     this.shown = "";
-    const original = this.states[name].doc;
     this.view.setState(EditorState.create({
-      doc: course,
+      doc: changed,
       extensions: [
         plain,
         EditorState.readOnly.of(true),
-        EditorView.contentAttributes.of({ "aria-label": `${name}: from yours to the course's` }),
+        EditorView.contentAttributes.of({ "aria-label": `${name}: what differs from the course's` }),
         unifiedMergeView({ original, mergeControls: false, highlightChanges: false, collapseUnchanged: { margin: 3, minSize: 6 } }),
       ],
     }));

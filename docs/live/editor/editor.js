@@ -44,7 +44,7 @@ class Editor {
     this.stepChoice = element("select", { onchange: () => this.chooseStep(+this.stepChoice.value) },
       ...this.steps.map(({ title }, i) => element("option", { value: i + 1, textContent: `Step ${i + 1} of ${this.steps.length}: ${title}` })),
       element("option", { value: 0, textContent: "The whole lesson" }));
-    this.solution = button("Course's solution", () => this.toggleSolution(), { "aria-pressed": "false" });
+    this.solution = button(this.sandbox ? "What you changed" : "Course's solution", () => this.toggleSolution(), { "aria-pressed": "false" });
     this.file = element("input", { type: "file", accept: ".zip", hidden: true, onchange: () => this.load() });
     const again = [
       ...(this.steps.length > 0 ? [button("Start the step again", () => this.startAgain(true))] : []),
@@ -122,7 +122,9 @@ class Editor {
       tab.tabIndex = isThis ? 0 : -1;
       if (isThis) this.code.setAttribute("aria-labelledby", tab.id);
     }
-    if (this.isSolutionShown) this.view.showDifference(name, this.start.solution[name] ?? "");
+    const course = this.start.solution?.[name] ?? this.sandbox?.textOf(name, this.start.compiled) ?? "";
+    const both = this.sandbox ? [course, this.files[name]] : [this.files[name], course];
+    if (this.isSolutionShown) this.view.showDifference(name, ...both);
     else this.view.show(name);
   }
 
@@ -187,7 +189,8 @@ class Editor {
     this.isSolutionShown = !this.isSolutionShown;
     this.solution.setAttribute("aria-pressed", this.isSolutionShown);
     this.select(this.selected);
-    this.note.textContent = this.isSolutionShown ? "Green is in the course's file, red in yours. Yours stays as it is; the same button goes back to it." : "";
+    const [green, red] = this.sandbox ? ["yours", "the course's"] : ["the course's", "yours"];
+    this.note.textContent = this.isSolutionShown ? `Green is in ${green} alone, red in ${red}. The same button goes back to your file.` : "";
   }
 
   hideSolution() {
