@@ -83,7 +83,7 @@ const presets = element("select", {}, ...[["", "its own settings"], ["lesson", "
 const presetLabel = element("label", {}, "Right side ", presets);
 const reset = element("button", { type: "button", textContent: "Reset" });
 const bar = element("div", { className: "bar" }, element("label", {}, "Scene ", modelChoice), element("label", {}, "Size ", sizeChoice), element("label", {}, "Show ", modeChoice), gainLabel, presetLabel, reset);
-const groups = ["Options of this lesson", "Camera and samples", "Options of earlier lessons"].map((title, i) =>
+const groups = [`Options of this ${isSandbox ? "program" : "lesson"}`, "Camera and samples", "Options of earlier lessons"].map((title, i) =>
   element("details", { open: i === 0 && innerWidth >= 768 }, element("summary", { textContent: title }), element("div", { className: i === 0 ? "options own" : "options" })));
 const commands = element("div", { className: "commands" });
 

@@ -87,7 +87,7 @@ export class Sandbox {
     field.onkeydown = (event) => {
       if (event.key === "Enter") add();
     };
-    return element("div", { className: "bar adding" }, field, list, button("Add file", add), button("Remove this file", () => this.remove(editor, editor.selected)));
+    return element("div", { className: "bar files adding" }, field, list, button("Add file", add), button("Remove this file", () => this.remove(editor, editor.selected)));
   }
 
   add(editor, name) {
