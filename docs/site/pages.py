@@ -95,7 +95,10 @@ class Site:
 
     def __init__(self, build: Path, is_live: bool, is_editor: bool) -> None:
         self.is_live = is_live
-        self.has_editor = is_editor and (build / "live/scripts/editor/editor.js").exists()
+        scripts = build / "live/scripts"
+        self.has_editor = is_editor and all(
+            (scripts / part).exists() for part in ("editor/editor.js", "compiler/manifest.json")
+        )
         self.kept = build / "webp"  # pictures that were converted before
         self.to_webp: dict[Path, Path] = {}
         self.pages, self.site = build / "site_pages", build / "site"
