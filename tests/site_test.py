@@ -17,7 +17,7 @@ from urllib.parse import unquote, urlsplit
 ROOT = Path(__file__).resolve().parents[1]
 LESSONS = sorted(folder.name for folder in (ROOT / "lessons").glob("[0-9][0-9]_*"))
 TEXTS = (
-    r"index|gallery|costs|roofline|side_by_side|troubleshooting|glossary|conventions|gltf|animation|assets"
+    r"index|gallery|sandbox|costs|roofline|side_by_side|troubleshooting|glossary|conventions|gltf|animation|assets"
     r"|(lesson|derivation|accuracy|changes)_\d\d|code_.+"
 )
 CODE = r"files|annotated|(triangle|image|lesson__app)_8hpp(_source)?|classrasterbook_1_1Image"

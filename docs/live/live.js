@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A lesson's page draws its picture itself. What the address says after # is what the
 // controls say: #filter=nearest&against=trilinear compares two values of an option.
+// The editor (docs/live/editor) puts the reader's program in the place of the lesson's.
 
 const place = document.querySelector(".live");
 const still = place.closest(".contents").querySelector("img");
@@ -34,7 +35,12 @@ const whyNoChange = {
   "--explain": "It says what was done, below.",
 };
 
+const isSandbox = lessonName === "sandbox";  // a page without a program of its own
+const ofEditor = ["start", "code"];  // what an address says to the editor
+const longestRun = 10000;  // ms that a reader's program may take for an answer
+
 let lesson = null;  // { model, controls }
+let own = null;  // the reader's program, if it is what draws
 let model = "";
 let size = usualSize;  // of a picture that stands still
 let sides = [{}, {}];  // what differs from the lesson's presets, left and right
@@ -77,7 +83,7 @@ const presets = element("select", {}, ...[["", "its own settings"], ["lesson", "
 const presetLabel = element("label", {}, "Right side ", presets);
 const reset = element("button", { type: "button", textContent: "Reset" });
 const bar = element("div", { className: "bar" }, element("label", {}, "Scene ", modelChoice), element("label", {}, "Size ", sizeChoice), element("label", {}, "Show ", modeChoice), gainLabel, presetLabel, reset);
-const groups = ["Options of this lesson", "Camera and samples", "Options of earlier lessons"].map((title, i) =>
+const groups = [`Options of this ${isSandbox ? "program" : "lesson"}`, "Camera and samples", "Options of earlier lessons"].map((title, i) =>
   element("details", { open: i === 0 && innerWidth >= 768 }, element("summary", { textContent: title }), element("div", { className: i === 0 ? "options own" : "options" })));
 const commands = element("div", { className: "commands" });
 
@@ -108,10 +114,16 @@ function startWorker(whyStopped) {
 }
 
 function ask(task, values) {
-  return new Promise((resolve, reject) => {
+  const answer = new Promise((resolve, reject) => {
     waiting.set(++lastId, { resolve, reject });
     worker.postMessage({ id: lastId, task, ...values });
   });
+  if (!own) return answer;
+  const asked = worker;
+  const tooLong = setTimeout(() => {
+    if (worker === asked) startWorker(`Your program did not end within ${longestRun / 1000} seconds and was stopped: perhaps a loop never ends.`);
+  }, longestRun);
+  return answer.finally(() => clearTimeout(tooLong));
 }
 
 /** What the script live/NAME.js has, loaded at most once: pages opened from a folder may load nothing else. */
@@ -131,8 +143,9 @@ function textOf(name) {
 }
 
 function give(task, name) {
+  const asked = async () => ask(task, { name, ...(name === "own" ? { bytes: own } : { text: await textOf(name) }) });
   if (!given.has(name))
-    given.set(name, textOf(name).then((text) => ask(task, { name, text })).catch((error) => {
+    given.set(name, asked().catch((error) => {
       given.delete(name);
       throw error;
     }));
@@ -155,6 +168,7 @@ function draw(isMoving = false, changed = "") {
   if (!isBusy) drawWanted();
 }
 
+const programName = () => (own ? "own" : lessonName);
 const wholeSize = () => size.split("x").map(Number);
 
 /** The largest that takes 50 ms at most, as far as one can tell, but at least 480 pixels wide if the whole is. */
@@ -180,12 +194,12 @@ async function drawWanted() {
     stop.hidden = false;
   }, 700);
   try {
-    await give("lesson", lessonName);
+    await give("lesson", programName());
     await give("scene", model);
     const pixels = isMoving ? movingSize() : wholeSize();
     for (const side of shownSides()) {
       const before = pictures[side];
-      const answer = await ask("draw", { side, name: lessonName, model, settings: sides[side], size: pixels });
+      const answer = await ask("draw", { side, name: programName(), model, settings: sides[side], size: pixels });
       answer.size = pixels;
       answer.wholeMs = isMoving ? before?.wholeMs ?? answer.ms : answer.ms;
       answer.isSame = changed !== "" && before?.pixels.length === answer.pixels.length && before.pixels.every((value, i) => value === answer.pixels[i]);
@@ -233,13 +247,14 @@ async function explain() {
 
 /** A program's first pictures are slow, until the browser has optimised it: times are of several, by turns. */
 async function timeAgain(changed) {
+  if (own) return;  // its tests are to come soon
   const times = [[], []];
   const end = performance.now() + 1500;
   for (let i = 0; i < 5 && performance.now() < end; ++i)
     for (const side of shownSides()) {
       if (wanted) return;
       busySince = performance.now();
-      const { ms } = await ask("draw", { side, name: lessonName, model, settings: sides[side], size: wholeSize() });
+      const { ms } = await ask("draw", { side, name: programName(), model, settings: sides[side], size: wholeSize() });
       times[side].push(ms);
     }
   for (const side of shownSides()) pictures[side].ms = pictures[side].wholeMs = median(times[side]);
@@ -314,7 +329,7 @@ function report(changed) {
     words[0] = `Left ${inMs(left.ms)}, right ${inMs(right.ms)}.`;
     words.push(share === 0 ? "No pixel differs." : `${percent(share)} of the pixels differ, by ${rms.toPrecision(2)} of 255 (RMS of all).`);
   } else {
-    words[0] += " in this browser, by one thread.";
+    words[0] += ` in this browser, by ${own ? "your program" : "one thread"}.`;
     if (lesson.hasProbe && !probed) words.push(`${canTurn() ? "Drag to turn; click" : "Click"} a pixel to see why it has its colour.`);
   }
   if (changed && (isCompared() ? left.isSame && right.isSame : left.isSame))
@@ -382,9 +397,10 @@ function buildOptions() {
 }
 
 function buildCommands() {
+  if (isSandbox) return;
   commands.replaceChildren(...shownSides().map((i) => {
     const side = sides[i];
-    const words = [`./lessons/run ${lessonName.slice(0, 2)}`];
+    const words = [`./lessons/run ${own ? "--mine " : ""}${lessonName.slice(0, 2)}`];
     if (size !== usualSize) words.push(`--size ${size}`);
     if (probed && i === probedSide) words.push(`--probe ${probed.join()}`);
     if (model !== lesson.model) words.push(`--model ${model}`);
@@ -414,7 +430,7 @@ function buildAll() {
 
 /** After any change of the state: the address, the command line, and the picture. */
 function changed(name = "", isMoving = false) {
-  history.replaceState(null, "", addressOf());
+  if (!own || isSandbox) history.replaceState(null, "", addressOf());
   buildCommands();
   draw(isMoving, name);
 }
@@ -422,7 +438,7 @@ function changed(name = "", isMoving = false) {
 // --- The address
 
 function addressOf() {
-  const pairs = [];
+  const pairs = pairsOf(location.hash).filter(([name]) => ofEditor.includes(name));
   if (model !== lesson.model) pairs.push(["model", model]);
   if (size !== usualSize) pairs.push(["size", size]);
   for (const { name, preset } of lesson.controls) {
@@ -436,6 +452,14 @@ function addressOf() {
   return pairs.length > 0 ? `#${pairs.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&")}` : location.pathname + location.search;
 }
 
+/** What stands behind #, as names and values. */
+function pairsOf(hash) {
+  return hash.includes("=") ? hash.slice(1).split("&").map((pair) => {
+    const [name, ...rest] = pair.split("=");
+    return [name, decodeURIComponent(rest.join("="))];
+  }) : [];
+}
+
 /** @throws  Says what of the address is wrong. */
 function readAddress() {
   model = lesson.model;
@@ -443,11 +467,9 @@ function readAddress() {
   sides = [{}, {}];
   mode = "picture";
   probed = null;
-  if (!location.hash.includes("=")) return;
   let last = null;
-  for (const pair of location.hash.slice(1).split("&")) {
-    const [name, ...rest] = pair.split("=");
-    const value = decodeURIComponent(rest.join("="));
+  for (const [name, value] of pairsOf(location.hash)) {
+    if (ofEditor.includes(name)) continue;
     const control = lesson.controls.find((each) => each.name === `--${name}`);
     if (name === "model" && models.includes(value)) model = value;
     else if (name === "size" && sizes.includes(value)) size = value;
@@ -461,7 +483,7 @@ function readAddress() {
       setOption(0, control, value);
       setOption(1, control, value);
       last = control;
-    } else throw new Error(`The address asks for ${pair}, which this page does not have.`);
+    } else throw new Error(`The address asks for ${name}=${value}, which this page does not have.`);
   }
 }
 
@@ -616,19 +638,116 @@ reset.onclick = () => {
 };
 addEventListener("hashchange", () => lesson && takeAddress());
 
+// --- The reader's own program
+
+/** A command line's options, as settings and a model; what only the command line has is passed over. */
+function settingsOf(words) {
+  const settings = {};
+  let model = lesson.model;
+  words.forEach((word, i) => {
+    const control = lesson.controls.find(({ name }) => name === word);
+    if (word === "--model") model = words[i + 1];
+    else if (control) settings[word] = control.kind === "flag" ? "true" : words[i + 1];
+  });
+  return { settings, model };
+}
+
+/**
+ * From now on a reader's program draws, with its controls and its probe; for null the lesson's.
+ *
+ * @param {Uint8Array?} program  As docs/live/live_app.cpp exports its functions.
+ * @param {string[]?} options    To draw with; else those of before stay, as far as it has them.
+ */
+place.setProgram = async (program, options = null) => {
+  if (!program && !own) return;
+  own = program;
+  startWorker("Stopped.");
+  const isFirst = lesson === null;
+  place.dataset.state = "drawing";
+  try {
+    lesson = await give("lesson", programName());
+    if (isFirst) build();
+    if (isFirst && pairsOf(location.hash).some(([name]) => !ofEditor.includes(name))) return takeAddress();
+    if (options || isFirst) {
+      const asked = settingsOf(options ?? []);
+      sides = [asked.settings, { ...asked.settings }];
+      model = asked.model;
+      mode = "picture";
+    }
+    const names = lesson.controls.map(({ name }) => name);
+    sides = sides.map((side) => Object.fromEntries(Object.entries(side).filter(([name]) => names.includes(name))));
+    if (!lesson.hasProbe) probed = null;
+    if (isSandbox) history.replaceState(null, "", addressOf());
+    buildAll();
+    draw();
+  } catch (error) {
+    say(error.message, true);
+    place.dataset.state = "failed";
+  }
+};
+
+/** Another picture by the same program, beside the page's: its pixels, four bytes each. */
+place.drawPicture = async (options, size) => {
+  const { settings, model } = settingsOf(options);
+  await give("lesson", programName());
+  await give("scene", model);
+  return (await ask("draw", { side: "beside", name: programName(), model, settings, size })).pixels;
+};
+
+function isBegun() {
+  try {
+    return localStorage.getItem(`rasterbook ${lessonName}`) !== null;
+  } catch {
+    return false;  // nothing is kept here
+  }
+}
+
+const write = element("button", { type: "button", className: "write", textContent: isBegun() ? "Go on writing" : "Write it yourself" });
+const writeNote = element("span");
+
+async function openEditor() {
+  write.disabled = true;
+  try {
+    if (location.protocol === "file:")
+      throw new Error(`The editor takes a server: run ./docs/run --serve, and open http://127.0.0.1:8000/${location.pathname.split("/").at(-1)}`);
+    const { open } = await import("./editor/editor.js");
+    await open(place);
+    offer.hidden = true;
+  } catch (error) {
+    writeNote.textContent = error.message;
+  }
+  write.disabled = false;
+}
+
+const offer = element("p", { className: "offer", hidden: !("editor" in place.dataset) }, write, writeNote);
+writeNote.textContent = "in this page: with an editor, the compiler and the tests, and nothing to install";
+write.onclick = openEditor;
+place.addEventListener("editorclosed", () => {
+  offer.hidden = false;
+  write.focus();
+});
+
+// --- The beginning
+
+function build() {
+  place.append(bar, ...groups, commands);
+  stage.classList.toggle("turns", canTurn());
+  const label = `The lesson's picture, drawn here${canTurn() ? "; the arrow keys turn it, + and - go nearer and farther" : ""}${lesson.hasProbe ? "; Enter says why a pixel has its colour, Shift with arrow keys goes to its neighbours" : ""}`;
+  canvases.forEach((canvas) => labelled(canvas, label));
+}
+
 async function begin() {
   if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function") {
     say("This browser has no WebAssembly, or cannot unpack what is compressed: the picture stands still.", true);
     place.dataset.state = "failed";
+    offer.hidden = true;
     return;
   }
+  if (isSandbox) return openEditor();
   try {
     startWorker();
-    lesson = await give("lesson", lessonName);
-    place.append(bar, ...groups, commands);
-    stage.classList.toggle("turns", canTurn());
-    const label = `The lesson's picture, drawn here${canTurn() ? "; the arrow keys turn it, + and - go nearer and farther" : ""}${lesson.hasProbe ? "; Enter says why a pixel has its colour, Shift with arrow keys goes to its neighbours" : ""}`;
-    canvases.forEach((canvas) => labelled(canvas, label));
+    lesson = await give("lesson", programName());
+    build();
     takeAddress();
   } catch (error) {
     say(error.message, true);
@@ -636,5 +755,5 @@ async function begin() {
   }
 }
 
-place.append(stage, element("div", { className: "said" }, status, stop), probeBox, printed);
+place.append(stage, element("div", { className: "said" }, status, stop), offer, probeBox, printed);
 begin();

@@ -14,8 +14,8 @@ async function unpacked(text) {
 }
 
 const tasks = {
-  lesson: async ({ name, text }) => {
-    modules[name] = await WebAssembly.compile(await unpacked(text));
+  lesson: async ({ name, text, bytes }) => {
+    modules[name] = await WebAssembly.compile(bytes ?? (await unpacked(text)));
     const { model, hasProbe, controls } = new Lesson(modules[name]);
     return { model, hasProbe, controls };
   },
@@ -56,9 +56,13 @@ function inWords(error) {
   if (error instanceof LessonError) return error.message;
   if (error instanceof WebAssembly.CompileError)
     return "This browser does not know all instructions of this program: lesson 13 needs SIMD of 128 bits.";
+  const [, name] = String(error.stack).match(/^ *at (.+) \(wasm:|^(?=.*wasm-function)([^@]+)@/m) ?? [];
+  if (name?.endsWith("abort") && !error.said) return "The program gave up, most likely since there was not enough memory.";
+  const where = name ? ` in ${name.replace(/^\S+\.wasm\./, "")}` : "";  // without the module's name
+  if (/call stack|too much recursion/.test(error.message)) return `The program calls itself without end${where}.`;
   if (error instanceof RangeError || /bad_alloc|length_error/.test(error.said ?? ""))
     return "There is not enough memory for this picture. Fewer samples or a smaller depth map take less.";
-  return `The program ended: ${error.message}.`;
+  return `The program ended${where}: ${error.said?.trim() || error.message}.`;
 }
 
 onmessage = async ({ data }) => {

@@ -1,8 +1,9 @@
-"""Makes Doxygen's pages of the course's texts: pages.py BUILD_FOLDER KATEX_FOLDER [--live].
+"""Makes Doxygen's pages of the course's texts: pages.py BUILD_FOLDER KATEX_FOLDER [--live] [--editor].
 
 The texts are written for GitHub. Here their formulas, links, pictures and quoted equations become
 what Doxygen 1.9.4 understands, each lesson gets a page of what it changes, and the pages of
-a lesson get links to each other. With --live, a lesson's page draws its picture itself. It writes
+a lesson get links to each other. With --live, a lesson's page draws its picture itself; with --editor,
+it can be written there, if BUILD_FOLDER/live has the editor. It writes
 BUILD_FOLDER/site_pages, and BUILD_FOLDER/site what Doxygen does not bring itself.
 """
 
@@ -17,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
+from exercises import EXERCISE, sandbox_files
 from links import EQUATION, LESSONS, ROOT, link_equations, source_page
 
 
@@ -57,6 +59,7 @@ OTHERS = [
     Page("assets", "Assets", ROOT / "assets/README.md"),
 ]
 GALLERY = Page("gallery", "Gallery", None)
+SANDBOX = Page("sandbox", "Sandbox", None)
 PAGE_OF = {page.text: page for page in [*sum(COURSE, []), *OTHERS] if page.text}
 EQUATIONS = {
     number
@@ -90,8 +93,12 @@ EMPHASIS_WITH_FORMULA = re.compile(
 class Site:
     """The folders that are written, and the texts on their way there."""
 
-    def __init__(self, build: Path, is_live: bool) -> None:
+    def __init__(self, build: Path, is_live: bool, is_editor: bool) -> None:
         self.is_live = is_live
+        scripts = build / "live/scripts"
+        self.has_editor = is_editor and all(
+            (scripts / part).exists() for part in ("editor/editor.js", "compiler/manifest.json")
+        )
         self.kept = build / "webp"  # pictures that were converted before
         self.to_webp: dict[Path, Path] = {}
         self.pages, self.site = build / "site_pages", build / "site"
@@ -141,11 +148,14 @@ class Site:
     def live(self, page: Page, comment: str) -> str:
         """What a comment asks for where pages draw: a figure, or a link to a comparison.
 
-        `figure: NAME` is docs/live/figures/NAME; `compare: OPTIONS | in words` are options of the
-        page's lesson.
+        `sandbox: IN WORDS` is a link to the sandbox. `figure: NAME` is docs/live/figures/NAME; `compare: OPTIONS | in words` are options of the
+        page's lesson; `sandbox: in words` comes with the editor.
         """
         if not self.is_live:
             return ""
+        if words := re.fullmatch(r"<!-- sandbox: (.+) -->", comment):
+            link = '<a href="sandbox.html">Open the sandbox</a>'
+            return html_only(f'<p class="compare">{link} {words[1]}</p>') if self.has_editor else ""
         if name := re.fullmatch(r"<!-- figure: (\w+) -->", comment):
             return html_only(
                 f'<div class="figure" data-name="{name[1]}"></div>\n'
@@ -178,6 +188,8 @@ class Site:
     def convert(self, page: Page) -> str:
         """A text as Doxygen wants it, without its title."""
         text = page.text.read_text(encoding="utf-8")
+        if self.has_editor and page.name.startswith("lesson_"):
+            text = with_sandbox(page.name[-2:], text)
 
         def convert_token(found: re.Match[str]) -> str:
             if found["diff"]:
@@ -188,6 +200,11 @@ class Site:
                 return (html_only(anchor) if anchor else "") + f"\\f[{formula}\\f]"
             if formula := found["inline"] or found["math"]:
                 return f"\\htmlonly\\({html.escape(formula)}\\)\\endhtmlonly"
+            if mark := re.fullmatch(r"<!-- exercise: (\d\d)\.(\d+) -->", found["comment"] or ""):
+                return html_only(f'<a class="anchor" id="exercise_{mark[2]}"></a>')
+            if mark := re.fullmatch(r"<!-- try: ([\d.]+) -->", found["comment"] or ""):
+                link = f'<a href="sandbox.html#start={mark[1]}">Try it in the sandbox</a>'
+                return html_only(f'<p class="compare try">{link}</p>')
             if found["comment"]:
                 return self.live(page, found["comment"])
             if found["summary"]:
@@ -229,19 +246,36 @@ class Site:
         return text
 
 
-def with_live_picture(lesson: str, text: str) -> str:
-    """A lesson's text with the place, behind its first picture, where the page draws."""
+def place_to_draw(lesson: str, has_editor: bool) -> str:
+    """Where the page draws, as docs/live/live.js takes it; with the editor's button."""
     models = " ".join(
         file.name for file in sorted((ROOT / "assets/models").iterdir())
         if file.suffix in (".obj", ".glb", ".gltf")
     )
-    live = f'<div class="live" data-lesson="{lesson}" data-models="{models}"></div>'
-    script = '<script src="live/live.js" defer></script>'
+    editor = " data-editor" if has_editor else ""
+    live = f'<div class="live" data-lesson="{lesson}" data-models="{models}"{editor}></div>'
+    return html_only(f'{live}<script src="live/live.js" defer></script>')
+
+
+def with_live_picture(lesson: str, text: str, has_editor: bool) -> str:
+    """A lesson's text with the place, behind its first picture, where the page draws."""
 
     def first(image: re.Match[str]) -> str:
-        return image[0].replace(' loading="lazy"', "") + html_only(live + script)
+        return image[0].replace(' loading="lazy"', "") + place_to_draw(lesson, has_editor)
 
     return re.sub(r"<img [^>]*>", first, text, count=1)
+
+
+def with_sandbox(number: str, text: str) -> str:
+    """A lesson's text with a mark before each exercise, and one for its link before the answer."""
+    before, heading, turn = text.partition("\n## Your turn\n")
+
+    def marked_exercise(found: re.Match[str]) -> str:
+        name = f"{number}.{found[1]}"
+        asked, answer, rest = found[0].partition("<details><summary>Answer ")
+        return f"<!-- exercise: {name} -->\n\n{asked}<!-- try: {name} -->\n\n{answer}{rest}"
+
+    return before + heading + EXERCISE.sub(marked_exercise, turn)
 
 
 def with_anchor(heading: re.Match[str]) -> str:
@@ -350,7 +384,15 @@ def gallery() -> str:
     return html_only(f'<ul class="gallery">\n{"".join(cards)}\n</ul>')
 
 
-def layout(code: list[Page]) -> str:
+def sandbox() -> str:
+    """The page of whatever a reader wants to try."""
+    return f"""All lessons' headers are at hand here: include what you need, and draw. A knob that the
+program declares becomes a control below its picture; `run_lesson` hands over the scene that is
+chosen there. What you write stays in this browser.
+{place_to_draw("sandbox", True)}"""
+
+
+def layout(code: list[Page], has_editor: bool) -> str:
     """The navigation tree, for Doxygen."""
 
     def tab(page: Page, name: str, inside: str = "") -> str:
@@ -361,7 +403,7 @@ def layout(code: list[Page]) -> str:
     tabs = ['<tab type="mainpage" title="Start"/>\n', tab(GALLERY, GALLERY.kind)]
     for lesson, *parts in COURSE:
         tabs.append(tab(lesson, title(lesson), "".join(tab(part, part.kind) for part in parts)))
-    tabs += [tab(page, page.kind) for page in OTHERS[1:]]
+    tabs += [tab(page, page.kind) for page in [*[SANDBOX] * has_editor, *OTHERS[1:]]]
     tabs.append(
         '<tab type="usergroup" url="files.html" title="The code">'
         '<tab type="filelist" title="Files"/><tab type="classlist" title="Classes"/>\n'
@@ -385,23 +427,27 @@ def copy_katex(katex: Path, site: Path) -> None:
 
 def main() -> None:
     build, katex = map(Path, sys.argv[1:3])
-    site = Site(build, is_live="--live" in sys.argv)
+    site = Site(build, "--live" in sys.argv, "--editor" in sys.argv)
     copy_katex(katex, site.site)
     for page in OTHERS:
         label = "mainpage" if page.name == "index" else page.name
         site.write(page.name, f"# {title(page)} {{#{label}}}\n{site.convert(page)}")
     site.write(GALLERY.name, f"# {GALLERY.kind} {{#{GALLERY.name}}}\n{gallery()}")
+    if site.has_editor:
+        site.write(SANDBOX.name, f"# {SANDBOX.kind} {{#{SANDBOX.name}}}\n{sandbox()}")
+        (site.site / "live/editor").mkdir(parents=True)
+        (site.site / "live/editor/exercises.json").write_text(sandbox_files(), encoding="utf-8")
     shutil.copytree(build / "cards", site.site, dirs_exist_ok=True)
     for lesson, pages in enumerate(COURSE):
         for page in pages:
             name = title(page) if page.text else f"What lesson {LESSONS[lesson][:2]} changes"
             text = site.convert(page) if page.text else changes(lesson)
             if site.is_live and page == pages[0]:
-                text = with_live_picture(LESSONS[lesson], text)
+                text = with_live_picture(LESSONS[lesson], text, site.has_editor)
             text = f"{steps(lesson, page)}\n{text}{neighbours(lesson, page)}"
             site.write(page.name, f"# {name} {{#{page.name}}}\n{text}")
     site.convert_pictures()
-    (site.pages / "layout.xml").write_text(layout(site.code), encoding="utf-8")
+    (site.pages / "layout.xml").write_text(layout(site.code, site.has_editor), encoding="utf-8")
 
 
 if __name__ == "__main__":

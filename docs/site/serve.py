@@ -11,6 +11,10 @@ class QuietHandler(SimpleHTTPRequestHandler):
     def log_message(self, *_: object) -> None:
         """Nothing: the browser shows what is missing."""
 
+    def end_headers(self) -> None:
+        self.send_header("Cache-Control", "no-cache")  # ask first: the site may have been made anew
+        super().end_headers()
+
     def copyfile(self, *files: IO[bytes]) -> None:
         with contextlib.suppress(ConnectionError):  # the reader has left the page
             super().copyfile(*files)

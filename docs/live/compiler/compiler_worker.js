@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// Compiles and links in a worker: clang and lld, themselves WebAssembly, on files in memory.
+// Each message is answered by one with the same id.
+
+import { ConsoleStdout, Directory, File, OpenFile, PreopenDirectory, WASI } from "./wasi/index.js";
+
+const options = ["--target=wasm32-wasi", "-std=c++20", "-ffp-contract=off", "-fno-math-errno", "-fignore-exceptions", "-Wall", "-Wextra",
+  "-Wno-psabi", "-Wno-unused-parameter", "-Wno-missing-field-initializers", "-fno-color-diagnostics",
+  "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_DEATH_TEST=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
+  '-DRASTERBOOK_ASSETS=""', '-DRASTERBOOK_LESSONS=""', '-DRASTERBOOK_GOLDEN=""', '-DRASTERBOOK_TEST_DATA=""', '-DRASTERBOOK_GENERATE_ASSETS=""',
+  "-nostdinc", "-nostdinc++", "-I/docs/live/without_threads", "-I/mine", "-I/", "-I/lessons", "-I/tests"];
+
+let compiler;  // WebAssembly.Module
+const root = new Map();  // the files, as folders in folders
+const texts = new Map();  // the course's files: text by path
+let precompiled = "";  // what precompiled.pch is of
+let version, level, searchPath;
+
+const encoder = new TextEncoder();
+
+/** @param {Uint8Array | string} data */
+function put(path, data) {
+  const parts = path.split("/");
+  let folder = root;
+  for (const part of parts.slice(0, -1)) {
+    if (!folder.has(part)) folder.set(part, new Directory(new Map()));
+    folder = folder.get(part).contents;
+  }
+  const file = new File(new ArrayBuffer(0));
+  file.data = typeof data === "string" ? encoder.encode(data) : data;
+  folder.set(parts.at(-1), file);
+}
+
+function get(path) {
+  let entry = { contents: root };
+  for (const part of path.split("/")) entry = entry?.contents?.get(part);
+  return entry?.data;
+}
+
+async function unpacked(blob) {
+  return new Response(blob.stream().pipeThrough(new DecompressionStream("gzip")));
+}
+
+/** Runs a tool of LLVM; what it prints comes back. */
+function run(args) {
+  const printed = [], said = [];
+  const files = [
+    new OpenFile(new File([])),
+    new ConsoleStdout((bytes) => printed.push(bytes.slice())),
+    new ConsoleStdout((bytes) => said.push(bytes.slice())),
+    new PreopenDirectory("/", root),
+  ];
+  const wasi = new WASI(args, [], files, { debug: false });
+  const instance = new WebAssembly.Instance(compiler, { wasi_snapshot_preview1: wasi.wasiImport });
+  const status = wasi.start(instance);
+  return { status, bytes: joined(printed), text: new TextDecoder().decode(joined(said)) };
+}
+
+function joined(parts) {
+  const all = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
+  let at = 0;
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
+  }
+  return all;
+}
+
+/** Runs clang as its driver would run it, but in the same program. */
+function clang(args) {
+  const driver = run(["clang++", level, ...options, ...searchPath, ...args, "-###"]);
+  const line = driver.text.split("\n").find((line) => line.startsWith(' "'));
+  if (driver.status !== 0 || !line) return driver;
+  const words = [...line.matchAll(/"((?:[^"\\]|\\.)*)"/g)].map(([, word]) => word.replace(/\\(.)/g, "$1"));
+  return run(words[0] === "" ? words.slice(1) : words);
+}
+
+// --- What includes what
+
+const includesOf = (text) => [...text.matchAll(/^#include ([<"])([^>"]+)[>"]/gm)].map(([, quote, name]) => ({ isOwn: quote === '"', name }));
+const found = (name) => ["docs/live/without_threads/", "", "lessons/", "tests/"].map((folder) => folder + name).find((path) => texts.has(path));
+
+/** The headers that some files include, themselves or by others; those that depend on one of `own` are left out. */
+function headersOf(files, own) {
+  const known = new Map();
+  const depends = (path) => {
+    if (known.has(path)) return known.get(path);
+    known.set(path, false);
+    const is = own.has(path) || includesOf(texts.get(path)).some(({ isOwn, name }) => isOwn && found(name) && depends(found(name)));
+    known.set(path, is);
+    return is;
+  };
+  const headers = new Set(), seen = new Set();
+  const visit = (path) => {
+    if (seen.has(path)) return;
+    seen.add(path);
+    for (const { isOwn, name } of includesOf(texts.get(path))) {
+      const header = isOwn && found(name);
+      if (!isOwn) headers.add(`<${name}>`);
+      else if (header) {
+        if (!depends(header)) headers.add(`"${name}"`);
+        visit(header);
+      }
+    }
+  };
+  files.filter((file) => texts.has(file)).forEach(visit);
+  return { headers: [...headers], depends };
+}
+
+/** The reader's files in place of the course's. */
+function putOwn(lesson, files) {
+  root.delete("mine");
+  const own = new Set();
+  for (const [name, text] of Object.entries(files)) {
+    const path = name.includes("/") ? name : `${lesson}/${name}`;
+    put(`mine/${path}`, text);
+    own.add(`lessons/${path}`).add(path);
+  }
+  return own;
+}
+
+/** Precompiles what does not change while the reader writes, or takes what the browser has kept of it. */
+async function precompile(headers) {
+  const text = headers.map((header) => `#include ${header}\n`).join("");
+  if (precompiled === text) return;
+  put("unit/precompiled.hpp", text);
+  const cache = await globalThis.caches?.open("rasterbook compiler").catch(() => null);
+  const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode(level + text)));
+  const url = cache && `${self.origin}/precompiled/${[...hash].map((byte) => byte.toString(16)).join("")}?${version}`;
+  const kept = await cache?.match(url);
+  if (kept) put("precompiled.pch", new Uint8Array(await kept.arrayBuffer()));
+  else {
+    const { status, bytes, text: said } = clang(["-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", "/unit/precompiled.hpp", "-o", "-"]);
+    if (status !== 0) throw new Error(`The course's headers do not compile: ${said.slice(0, 500)}`);
+    put("precompiled.pch", bytes);
+    await cache?.put(url, new Response(bytes)).catch(() => {});  // a full disk is no reason to stop
+  }
+  precompiled = text;
+}
+
+/** What clang says, for each place; paths as the reader knows them. */
+function messagesOf(text, lesson) {
+  const mine = (path) => path.replace(/^\/?mine\//, "").replace(`${lesson}/`, "").replace(/^\//, "");
+  return [...text.matchAll(/^(.+?):(\d+):(\d+): (?:fatal )?(error|warning|note): (.*)$/gm)].map(([, file, line, column, severity, words]) => (
+    { file: mine(file), line: +line, column: +column, severity, text: words }));
+}
+
+const mostLog = 6000;
+function shortened(log) {
+  if (log.length <= mostLog) return log;
+  const first = log.search(/: (?:fatal )?error: /);
+  const second = log.slice(first + 1).search(/^.*: (?:fatal )?error: /m);
+  return `${log.slice(0, Math.min(second > 0 ? first + 1 + second : mostLog, mostLog))}...\n`;
+}
+
+const tasks = {
+  load: async ({ blobs, version: of, level: given, searchPath: folders }) => {
+    version = of;
+    level = given;
+    searchPath = folders.flatMap((folder) => ["-isystem", folder]);
+    const wasm = (await unpacked(blobs["llvm.wasm.gz"])).body;
+    compiler = await WebAssembly.compileStreaming(new Response(wasm, { headers: { "Content-Type": "application/wasm" } }));
+    for (const [path, text] of Object.entries(await (await unpacked(blobs["texts.json.gz"])).json())) {
+      put(path, text);
+      texts.set(path, text);
+    }
+    const packed = new Uint8Array(await (await unpacked(blobs["objects.gz"])).arrayBuffer());
+    const length = new DataView(packed.buffer).getUint32(0, true);
+    let at = 4 + length;
+    for (const [name, size] of Object.entries(JSON.parse(new TextDecoder().decode(packed.subarray(4, at))))) {
+      put(`objects/${name}`, packed.subarray(at, at + size));
+      at += size;
+    }
+    return {};
+  },
+
+  /**
+   * Compiles sources as one.
+   *
+   * @param {string[]} like   Files that include what is worth to be precompiled.
+   * @param {boolean} only    Only those that depend on the reader's files; `which` says which these
+   *                          are, and `object` is null where there is none.
+   * @param {string[]} extra  Options of clang.
+   */
+  compile: async ({ lesson, files, sources, like, only, extra = [] }) => {
+    const own = putOwn(lesson, files);
+    const { headers, depends } = headersOf(like, own);
+    const which = sources.filter((source) => !only || depends(source));
+    if (which.length === 0) return { object: null, which, messages: [], log: "" };
+    await precompile(headers);
+    const place = (source) => {
+      const mine = source.replace(/^lessons\//, "mine/");
+      return get(mine) ? mine : source;
+    };
+    put("unit/unit.cpp", which.map((source) => `#include "/${place(source)}"\n`).join(""));
+    const { status, bytes, text } = clang(["-include-pch", "/precompiled.pch", ...extra, "-c", "/unit/unit.cpp", "-o", "-"]);
+    const log = text.replace(/^In file included from \/unit\/unit\.cpp:\d+:\n/gm, "").replace(/^\d+ (?:error|warning)s?.* generated\.\n/gm, "");
+    return { object: status === 0 ? bytes : null, which, messages: messagesOf(log, lesson), log: shortened(log) };
+  },
+
+  /** Links objects, the compiled ones and those of the pack, into a program. */
+  link: ({ compiled, names, start }) => {
+    compiled.forEach((bytes, i) => put(`linked/${i}.o`, bytes));
+    const { status, text } = run(["wasm-ld", "-m", "wasm32", ...start, ...compiled.map((_, i) => `/linked/${i}.o`),
+      ...names.map((name) => `/objects/${name}`), "/objects/libc++.a", "/objects/libc++abi.a", "/objects/libc-printscan-long-double.a", "/objects/libc.a", "/objects/libclang_rt.builtins-wasm32.a",
+      "--stack-first", "-z", "stack-size=8388608", "--max-memory=1073741824", "--strip-debug", "-o", "/linked/program.wasm"]);
+    const program = status === 0 ? get("linked/program.wasm") : null;
+    root.delete("linked");
+    return { program, log: shortened(text) };
+  },
+};
+
+onmessage = async ({ data }) => {
+  try {
+    postMessage({ id: data.id, ...(await tasks[data.task](data)) });
+  } catch (error) {
+    postMessage({ id: data.id, error: /memory/i.test(error.message) ? "There is not enough memory for the compiler." : error.message });
+  }
+};

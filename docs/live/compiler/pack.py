@@ -1,0 +1,206 @@
+"""Makes the compiler of the site's pages: pack.py NPM CLANG FOLDER LINKED JUDGE OUT.
+
+npm installs clang, compiled to WebAssembly, in FOLDER. OUT is the folder of what a page fetches:
+the compiler; headers and sources; objects and libraries; what is known of the lessons; and the
+golden pictures. LINKED lists the objects that programs are linked with, JUDGE is judge.cpp's
+module. Where npm cannot install the compiler, OUT is left empty, and the site is made without the
+editor.
+"""
+
+import gzip
+import hashlib
+import json
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tarfile
+from pathlib import Path
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[2]
+LESSONS = sorted(path.name for path in (ROOT / "lessons").glob("[01][0-9]_*"))[:11]
+# What a reader's file and the tests may include, beside the headers of the course.
+STANDARD = """algorithm array bit bitset cassert cctype cfloat chrono climits cmath compare complex concepts
+cstddef cstdint cstdio cstdlib cstring deque exception filesystem fstream functional initializer_list iomanip
+iostream istream iterator limits list map memory new numbers numeric optional ostream queue random ranges set
+span sstream stack stdexcept string string_view tuple type_traits typeinfo unordered_map unordered_set utility
+variant vector version glm/glm.hpp glm/ext.hpp gtest/gtest.h""".split()
+LIBRARIES = ("crt1-reactor.o", "crt1-command.o", "libc.a", "libc-printscan-long-double.a", "libc++.a", "libc++abi.a",
+             "builtins")
+WITHOUT = ["-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_DEATH_TEST=0",
+           "-DGTEST_HAS_STREAM_REDIRECTION=0"]
+TO_WASM = ["--target=wasm32-wasi", "-std=c++20", "-fignore-exceptions", *WITHOUT]
+
+
+def install(npm: str, folder: Path) -> bool:
+    folder.mkdir(parents=True, exist_ok=True)
+    for file in ("package.json", "package-lock.json"):
+        shutil.copy(HERE / file, folder)
+    command = [npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8")
+    if done.returncode != 0:
+        print(done.stderr.strip()[-2000:], file=sys.stderr)
+        print("The site is made without the editor: npm could not install its compiler.")
+    return done.returncode == 0
+
+
+def system_headers(clang: str) -> list[Path]:
+    """What the C and C++ libraries, GLM and GoogleTest include."""
+    text = "".join(f"#include <{name}>\n" for name in STANDARD)
+    listed = subprocess.run([clang, *TO_WASM, "-M", "-x", "c++", "-"], input=text, check=True,
+                            capture_output=True, encoding="utf-8").stdout
+    return [Path(name) for name in listed.replace("\\\n", " ").split()[1:] if name != "-"]
+
+
+def search_path(clang: str) -> list[str]:
+    """Where headers are looked for; the other clang's own come from the package."""
+    said = subprocess.run([clang, *TO_WASM, "-E", "-v", "-x", "c++", "-"], input="", check=True,
+                          capture_output=True, encoding="utf-8").stderr
+    listed = re.search(r"#include <\.\.\.> search starts here:\n(.*?)End of search list", said, re.DOTALL)
+    assert listed, said
+    folders = [line.strip() for line in listed[1].splitlines()]
+    return ["/clang" if "lib/clang/" in folder else str(Path(folder).resolve()) for folder in folders]
+
+
+def library(clang: str, name: str) -> Path:
+    asked = "-print-libgcc-file-name" if name == "builtins" else f"-print-file-name={name}"
+    return Path(subprocess.run([clang, *TO_WASM, asked], check=True, capture_output=True, encoding="utf-8").stdout.strip())
+
+
+def texts(clang: str, resources: Path) -> dict[str, str]:
+    """All headers and sources, by the names that the compiler in the page has for them."""
+    found = {}
+    for header in system_headers(clang):
+        if "lib/clang/" not in str(header):  # of the other clang
+            found[str(header.resolve())[1:]] = header.read_text("utf-8", "replace")
+    with tarfile.open(resources) as tar:
+        for member in tar.getmembers():
+            name = re.fullmatch(r"(?:\./)?(?:usr/)?include/((?:__std|__float|std|float|limits|inttypes|iso646|tgmath)[\w.]*\.h)", member.name)
+            if name and (file := tar.extractfile(member)):
+                found[f"clang/{name[1]}"] = file.read().decode()
+    for pattern in ("common/**/*.hpp", "tests/support/*.hpp", "docs/live/**/*.hpp"):
+        for file in ROOT.glob(pattern):
+            found[str(file.relative_to(ROOT))] = file.read_text("utf-8")
+    for lesson in LESSONS:
+        for file in (ROOT / "lessons" / lesson).glob("*.[hc]pp"):
+            found[str(file.relative_to(ROOT))] = file.read_text("utf-8")
+        for file in ROOT.glob(f"tests/{lesson}_*test.cpp"):
+            found[str(file.relative_to(ROOT))] = file.read_text("utf-8")
+    return found
+
+
+def marks_of(kind: str, lesson: str) -> list[str]:
+    readme = (ROOT / "lessons" / lesson / "README.md").read_text("utf-8")
+    return re.findall(rf"^{kind}: (.*)$", readme, re.MULTILINE)
+
+
+def before(lesson: str) -> str | None:
+    """The lesson that one goes on from."""
+    if named := marks_of("builds on", lesson):
+        return named[0]
+    at = LESSONS.index(lesson)
+    return LESSONS[at - 1] if at > 0 else None
+
+
+def starter(lesson: str) -> dict[str, str]:
+    """What ./lessons/run --start gives."""
+    folder = ROOT / "lessons" / lesson
+    files = {file.name: file.read_text("utf-8") for file in sorted((folder / "starter").glob("*.hpp"))}
+    main = (ROOT / "lessons" / (before(lesson) or lesson) / "main.cpp").read_text("utf-8")
+    if base := before(lesson):
+        main = main.replace(f'"{base}"', f'"{lesson}"')
+        main = main.replace(f"\n/// Lesson {base[:2]}", f"\n/// Lesson {lesson[:2]}")
+    return {**files, "main.cpp": main}
+
+
+def pictures(lesson: str) -> dict[str, dict]:
+    """The tests of pictures: the program's options, the golden picture, how many pixels may jump."""
+    found = {}
+    for file in sorted(ROOT.glob(f"tests/{lesson}_*test.cpp")):
+        text = file.read_text("utf-8")
+        numbers = dict(re.findall(r"constexpr std::size_t (\w+) = (\d+);", text))
+        for test in re.finditer(r"^TEST\((\w+), (PictureOf\w+)\) \{(.*?)\}\s*$(?=\n\n|\n?\Z|\nTEST|\n//)", text, re.MULTILINE | re.DOTALL):
+            suite, name, body = test.groups()
+            call = re.search(r'equals_golden\(\s*"(\w+)",\s*"(\w+)"(?:,\s*\{(.*?)\})?(?:,\s*(\w+))?\)', body, re.DOTALL)
+            if other := re.search(r"IsLesson(\d\d)s", name):
+                golden = next(path for path in LESSONS if path.startswith(other[1]))
+                call_options, jump = "", None
+            elif call and call[1] == lesson:
+                golden, call_options, jump = call[2], call[3] or "", call[4]
+            else:
+                continue
+            found[name] = {
+                "suite": suite, "golden": f"{golden}.png", "options": re.findall(r'"([^"]*)"', call_options),
+                "mayJump": int(numbers.get(jump, 0)) if jump else 0,
+                "place": f"{file.relative_to(ROOT)}:{text[:test.start()].count(chr(10)) + 1}",
+            }
+    return found
+
+
+def tests_of_formulas(lesson: str) -> list[Path]:
+    """Files of tests that a page can run: there are neither files nor threads in it, and no time to compile whole lessons."""
+    def is_one(text: str) -> bool:
+        has_formulas = re.search(r"^TEST\(\w+, Eq(?!.*HardCase)", text, re.MULTILINE)
+        return bool(has_formulas) and not re.search(r'std::ofstream|std::this_thread|#include "support/(?:lesson_|pictures)', text)
+
+    return [file for file in sorted(ROOT.glob(f"tests/{lesson}_*test.cpp")) if is_one(file.read_text("utf-8"))]
+
+
+def described(lesson: str) -> dict:
+    folder = ROOT / "lessons" / lesson
+    given = starter(lesson)
+    steps = []
+    for mark in marks_of("step", lesson):
+        equations, options, names, title = (part.strip() for part in mark.split("|"))
+        steps.append({"title": title, "equations": equations.split(), "options": shlex.split(options),
+                      "pictures": [name for name in names.split() if name != "-"]})
+    return {
+        "before": before(lesson), "starter": given, "steps": steps, "pictures": pictures(lesson),
+        "solution": {name: (folder / name).read_text("utf-8") for name in given},
+        "apart": [str(file.relative_to(ROOT)) for file in sorted(folder.glob("*.cpp")) if file.name != "main.cpp"],
+        "tests": [str(file.relative_to(ROOT)) for file in tests_of_formulas(lesson)],
+    }
+
+
+def compressed(file: Path, data: bytes) -> None:
+    file.write_bytes(gzip.compress(data, 9, mtime=0))
+
+
+def main() -> None:
+    npm, clang = sys.argv[1:3]
+    folder, linked, judge, out = map(Path, sys.argv[3:])
+    shutil.rmtree(out, ignore_errors=True)
+    if not install(npm, folder):
+        return
+    out.mkdir(parents=True)
+    modules = folder / "node_modules"
+    package = modules / "@yowasp/clang"
+    compressed(out / "llvm.wasm.gz", (package / "gen/llvm.core.wasm").read_bytes())
+    found = texts(clang, package / "gen/llvm-resources.tar")
+    compressed(out / "texts.json.gz", json.dumps(found).encode())
+    # Objects and libraries in a row; their sizes come first.
+    names = [*map(Path, linked.read_text().split()), *(library(clang, name) for name in LIBRARIES)]
+    parts = {name.name: name.read_bytes() for name in names}
+    sizes = json.dumps({name: len(data) for name, data in parts.items()}).encode()
+    compressed(out / "objects.gz", len(sizes).to_bytes(4, "little") + sizes + b"".join(parts.values()))
+    lessons = {lesson: described(lesson) for lesson in LESSONS}
+    (out / "lessons.json").write_text(json.dumps(lessons), encoding="utf-8")
+    (out / "golden").mkdir()
+    for golden in {picture["golden"] for lesson in lessons.values() for picture in lesson["pictures"].values()}:
+        shutil.copy(ROOT / "tests/golden" / golden, out / "golden")
+    shutil.copytree(modules / "@bjorn3/browser_wasi_shim/dist", out / "wasi")
+    for script in HERE.glob("*.js"):
+        shutil.copy(script, out)
+    program = (HERE / "program_worker.js").read_text("utf-8") + (HERE.parent / "lesson.js").read_text("utf-8")
+    (out / "program_worker.js").write_text(program, encoding="utf-8")
+    compressed(out / "judge.wasm.gz", judge.read_bytes())
+    all_files = [file for file in sorted(out.rglob("*.gz"))]
+    version = hashlib.sha256(b"".join(file.read_bytes() for file in all_files)).hexdigest()[:16]
+    manifest = {"version": version, "searchPath": search_path(clang), "sizes": {file.name: file.stat().st_size for file in all_files}}
+    (out / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

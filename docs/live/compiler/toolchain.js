@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+// A C++ compiler in the page, for the editor: fetched when it is first asked for, run in workers.
+//
+//   const toolchain = new Toolchain();
+//   await toolchain.load(({ bytes, of, what }) => ...);
+//   const { messages, log, program } = await toolchain.compile("05_textures", { "main.cpp": text, ... });
+//   const { messages, log, tiers, first } = await toolchain.test("05_textures", files, step);
+//
+// What goes wrong in the page rejects with an Error whose message is a sentence; what stop() ends,
+// with one named "AbortError".
+
+const at = (path) => new URL(path, import.meta.url);
+const mostSeconds = { draw: 60, run: 60 };  // for a picture of a test, or all tests of formulas
+const mostCompileSeconds = 120;
+
+const objectOf = (source) => `${source.replaceAll("/", "_")}.o`;
+const shared = ["docs/live/live_app.cpp", "common/app/knobs.cpp", "common/probe/pixel_report.cpp"].map(objectOf);
+
+/** Where one compiles, links, draws or runs what the reader wrote; it can be ended at any time. */
+class Helper {
+  constructor(script, begin) {
+    this.script = script;
+    this.begin = begin;  // what a new worker is told first
+    this.asked = new Map();
+    this.count = 0;
+  }
+
+  start() {
+    this.worker = new Worker(at(this.script), { type: "module" });
+    this.worker.onmessage = ({ data: { id, error, ...answer } }) => {
+      const { resolve, reject, timer } = this.asked.get(id);
+      this.asked.delete(id);
+      clearTimeout(timer);
+      if (error === undefined) resolve(answer);
+      else reject(new Error(error));
+    };
+    this.worker.onerror = () => this.end(new Error("The compiler's worker ended: there may not be enough memory."));
+    this.ready = this.begin ? this.send(this.begin) : Promise.resolve();
+  }
+
+  send(message, seconds = null) {
+    return new Promise((resolve, reject) => {
+      const id = ++this.count;
+      const timer = seconds && setTimeout(() => this.end(Object.assign(new Error(`did not end within ${seconds} seconds`), { name: "TimeoutError" })), 1000 * seconds);
+      this.asked.set(id, { resolve, reject, timer });
+      this.worker.postMessage({ id, ...message });
+    });
+  }
+
+  async ask(message, seconds) {
+    if (!this.worker) this.start();
+    await this.ready;
+    return this.send(message, seconds);
+  }
+
+  /** The next question starts it anew. */
+  end(error) {
+    this.worker?.terminate();
+    this.worker = null;
+    for (const { reject, timer } of this.asked.values()) {
+      clearTimeout(timer);
+      reject(error);
+    }
+    this.asked.clear();
+  }
+
+  stop() {
+    if (this.asked.size > 0) this.end(Object.assign(new Error("Stopped."), { name: "AbortError" }));
+  }
+}
+
+/** Fetches a file, or takes it from what the browser has kept of this version. */
+async function fetched(name, version, progress) {
+  const cache = await globalThis.caches?.open("rasterbook compiler").catch(() => null);
+  const url = at(`${name}?${version}`).href;
+  const kept = await cache?.match(url);
+  if (kept) {
+    const blob = await kept.blob();
+    progress(blob.size);
+    return blob;
+  }
+  const answer = await fetch(url).catch(() => null);
+  if (!answer?.ok) throw new Error("The compiler cannot be fetched.");
+  const parts = [];
+  let bytes = 0;
+  const reader = answer.body.getReader();
+  for (let part; !(part = await reader.read()).done;) {
+    parts.push(part.value);
+    progress((bytes += part.value.length));
+  }
+  const blob = new Blob(parts);
+  await cache?.put(url, new Response(blob)).catch(() => {});  // a full disk is no reason to stop
+  return blob;
+}
+
+/** What is kept of older versions takes room. */
+async function forgetOthers(version) {
+  const cache = await globalThis.caches?.open("rasterbook compiler").catch(() => null);
+  for (const request of (await cache?.keys()) ?? [])
+    if (!request.url.endsWith(`?${version}`)) await cache.delete(request);
+}
+
+export class Toolchain {
+  async load(progress) {
+    this.loading ??= this.fetchAll(progress).catch((error) => {
+      this.loading = null;
+      throw error;
+    });
+    await this.loading;
+  }
+
+  async fetchAll(progress) {
+    const json = async (name, how) => {
+      const answer = await fetch(at(name), how).catch(() => null);
+      if (!answer?.ok) throw new Error("The compiler cannot be fetched.");
+      return answer.json();
+    };
+    const { version, searchPath, sizes } = await json("manifest.json", { cache: "no-cache" });
+    this.lessons = await json("lessons.json");
+    const all = Object.values(sizes).reduce((sum, size) => sum + size, 0);
+    const got = {};
+    const blobs = {};
+    for (const name of Object.keys(sizes))
+      blobs[name] = await fetched(name, version, (bytes) => {
+        got[name] = bytes;
+        progress({ bytes: Object.values(got).reduce((sum, size) => sum + size, 0), of: all, what: "the compiler" });
+      });
+    await forgetOthers(version);
+    this.judgeBlob = blobs["judge.wasm.gz"];
+    const compiler = (level) => new Helper("compiler_worker.js", { task: "load", blobs, version, level, searchPath });
+    // A picture is to come soon; tests take longer to run than to be compiled.
+    this.compilers = [compiler("-O0"), compiler("-O1")];
+    this.drawing = new Helper("program_worker.js");
+    this.testing = new Helper("program_worker.js");
+    this.scenes = {};
+    for (const helper of this.compilers) helper.start();
+  }
+
+  async compile(lesson, files) {
+    const isLesson = lesson in this.lessons;
+    const main = isLesson ? `lessons/${lesson}/main.cpp` : `lessons/sandbox/main.cpp`;
+    const { before, apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
+    const like = isLesson ? [main, ...(before ? [`lessons/${before}/main.cpp`] : [])] : ["lessons/05_textures/main.cpp"];
+    const own = { lesson, files };
+    const [ofMain, ofApart] = await Promise.all([
+      this.compilers[0].ask({ task: "compile", ...own, sources: [main], like }, mostCompileSeconds),
+      // The lesson's other sources; those that none of the reader's headers is in are compiled already.
+      this.compilers[1].ask({ task: "compile", ...own, sources: apart, like: this.likeOfTests(lesson), only: true }, mostCompileSeconds),
+    ]);
+    const messages = [...ofMain.messages];
+    if (!ofMain.object) return { messages, log: ofMain.log, program: null };
+    if (ofApart.which.length > 0 && !ofApart.object) return { messages: ofApart.messages, log: ofApart.log, program: null };
+    const { program, log } = await this.compilers[0].ask({
+      task: "link", compiled: [ofMain.object, ...(ofApart.object ? [ofApart.object] : [])],
+      names: [...shared, ...this.apartOf(lesson).filter((source) => !ofApart.which.includes(source)).map(objectOf)],
+      start: ["/objects/crt1-reactor.o", "--entry", "_initialize"],
+    }, mostCompileSeconds);
+    this.compiled = { lesson, files: JSON.stringify(files), program };
+    return { messages: program ? messages : linkMessages(log), log, program };
+  }
+
+  /** The sources beside main.cpp that a program is linked with: those of a lesson and, as its main.cpp may be that of the lesson before, of that one. */
+  apartOf(lesson) {
+    if (!(lesson in this.lessons)) return Object.values(this.lessons).flatMap(({ apart }) => apart);
+    const { before, apart } = this.lessons[lesson];
+    return [...new Set([...apart, ...(before ? this.apartOf(before) : [])])];
+  }
+
+  likeOfTests(lesson) {
+    const { apart = [], tests = [] } = this.lessons[lesson] ?? {};
+    return ["docs/live/compiler/formula_tests.hpp", ...apart, ...tests];
+  }
+
+  async test(lesson, files, step) {
+    if (this.compiled?.lesson !== lesson || this.compiled.files !== JSON.stringify(files)) await this.compile(lesson, files);
+    const { steps } = this.lessons[lesson];
+    const done = step ? steps.slice(0, step) : steps;
+    const isAll = !step || step === steps.length;
+    const equations = isAll ? "*" : done.flatMap(({ equations }) => equations.flatMap(numbersIn)).join(" ");
+    const known = this.lessons[lesson].pictures;
+    const names = step ? done.at(-1).pictures.filter((name) => name in known) : Object.keys(known);
+    const [formulas, pictures] = await Promise.all([this.formulas(lesson, files, equations), this.pictures(lesson, names)]);
+    if (formulas.messages) return { messages: formulas.messages, log: formulas.log, tiers: [], first: null };
+    const tiers = [{ name: "formulas", passed: formulas.passed, total: formulas.total }];
+    if (names.length > 0) tiers.push({ name: "pictures", passed: pictures.passed, total: names.length });
+    return { messages: [], log: "", tiers: tiers.filter(({ total }) => total > 0), first: formulas.first ?? pictures.first };
+  }
+
+  async formulas(lesson, files, equations) {
+    if (equations === "" || this.lessons[lesson].tests.length === 0) return { passed: 0, total: 0, first: null };
+    const { object, messages, log } = await this.compilers[1].ask({
+      task: "compile", lesson, files, sources: this.lessons[lesson].tests, like: this.likeOfTests(lesson),
+      extra: [`-DASKED_EQUATIONS="${equations}"`, "-include", "/docs/live/compiler/formula_tests.hpp"],
+    }, mostCompileSeconds);
+    if (!object) return { messages: messages.length > 0 ? messages : [{ file: "", line: 0, column: 0, severity: "error", text: log }], log };
+    const apart = this.apartOf(lesson).map(objectOf);
+    const linked = await this.compilers[1].ask({
+      task: "link", compiled: [object],
+      names: ["docs_live_compiler_formula_tests.cpp.o", "gtest-all.o", "tests_support_visibility.cpp.o", ...shared, ...apart], start: ["/objects/crt1-command.o"],
+    }, mostCompileSeconds);
+    if (!linked.program) return { messages: linkMessages(linked.log), log: linked.log };
+    let text, ended = "";
+    try {
+      ({ text, ended } = await this.testing.ask({ task: "run", program: linked.program, lesson }, mostSeconds.run));
+    } catch (error) {
+      if (error.name === "AbortError") throw error;
+      ended = error.message;
+      text = "";
+    }
+    return outcome(text, ended, lesson);
+  }
+
+  async pictures(lesson, names) {
+    let passed = 0, first = null;
+    for (const name of names) {
+      const picture = this.lessons[lesson].pictures[name];
+      let text;
+      try {
+        text = await this.drawn(lesson, picture);
+      } catch (error) {
+        if (error.name === "AbortError") throw error;
+        text = error.message;
+      }
+      if (text === "") ++passed;
+      else first ??= { text: `FAILED ${picture.suite}.${name}\n${picture.place}: ${text}`, picture: { name, options: picture.options, golden: picture.golden } };
+    }
+    return { passed, first };
+  }
+
+  async drawn(lesson, picture) {
+    const { program } = this.compiled;
+    const { model } = await this.drawing.ask({ task: "model", program }, mostSeconds.draw);
+    const asked = picture.options.indexOf("--model");
+    const scene = await this.scene(asked >= 0 ? picture.options[asked + 1] : model.split("/").at(-1));
+    const golden = await (await fetch(at(`golden/${picture.golden}`))).blob();
+    const { text } = await this.drawing.ask({ task: "draw", program, picture, scene, golden, judgeBlob: this.judgeBlob }, mostSeconds.draw);
+    return text;
+  }
+
+  /** A packed scene, from the script that pages load it with. */
+  async scene(name) {
+    if (!this.scenes[name]) {
+      const answer = await fetch(at(`../${name}.js`)).catch(() => null);
+      if (!answer?.ok) throw new Error(`The scene ${name} cannot be fetched.`);
+      const [, text] = (await answer.text()).match(/= "(.*)";/);
+      const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+      const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+      this.scenes[name] = new Uint8Array(await new Response(stream).arrayBuffer());
+    }
+    return this.scenes[name];
+  }
+
+  async diagnose(lesson, own, expected, width, height) {
+    const { text } = await this.drawing.ask({ task: "judge", judgeBlob: this.judgeBlob, own, expected, width, height }, mostSeconds.draw);
+    return text.replace(/^[^]*?\nThe picture: /, "");
+  }
+
+  stop() {
+    for (const helper of [...(this.compilers ?? []), this.drawing, this.testing]) helper?.stop();
+  }
+}
+
+/** "5.4-5.5" as "Eq5_4_" and "Eq5_5_". */
+function numbersIn(range) {
+  const [from, to = from] = range.split("-");
+  const [lesson, first] = from.split(".");
+  const last = to.split(".").at(-1);
+  return Array.from({ length: last - first + 1 }, (_, i) => `Eq${lesson}_${+first + i}_`);
+}
+
+/** What the linker misses, without what it is missed by. */
+function linkMessages(log) {
+  const names = new Set([...log.matchAll(/undefined symbol: (.*)/g)].map(([, name]) => name));
+  const texts = names.size > 0 ? [...names].map((name) => (/^(__main_argc_argv|main)$/.test(name) ? "there is no main()" : `${name} is declared, but defined nowhere`)) : [log || "The program cannot be linked."];
+  return texts.map((text) => ({ file: "", line: 0, column: 0, severity: "error", text }));
+}
+
+/** What the tests of formulas have printed, in the equations' order. */
+function outcome(text, ended, lesson) {
+  const said = text.split("\x01").slice(1).map((part) => part.match(/^(\w+) (\S+)\n([^]*)$/));
+  const of = (kind) => said.filter(([, is]) => is === kind);
+  const inOrder = of("failed").sort(([, , a], [, , b]) => a.localeCompare(b, "en", { numeric: true }));
+  const running = of("running").at(-1)?.[2];
+  const finished = new Set([...of("passed"), ...of("failed")].map(([, , name]) => name));
+  let first = inOrder.length > 0 ? { text: inOrder[0][3].trimEnd() } : null;
+  if (ended && !(running && finished.has(running)))
+    first ??= { text: `FAILED ${running ?? ""}\n${running ?? "The tests of formulas"} ${ended}` };
+  const total = Math.max(of("running").length, 1);
+  return { passed: of("passed").length, total: ended ? Math.max(total, finished.size + 1) : total, first };
+}

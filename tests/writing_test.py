@@ -1,0 +1,127 @@
+"""Writes lessons in their pages with the site's own compiler: writing_test.py SITE_FOLDER BUILD_FOLDER [LESSON... | all].
+
+Without lessons it takes two. Each lesson's starter has to compile and to fail readably; with the course's files, all tests have
+to pass, and the picture has to have the native bytes. What goes wrong has to end in a sentence,
+and the next run has to work. Prints how long runs take. Exits with 77 where something is missing,
+or with 1 if RASTERBOOK_SITE_REQUIRED is set.
+"""
+
+import functools
+import http.server
+import json
+import sys
+import threading
+import time
+from pathlib import Path
+
+from editor_test import EditorPage
+from live_test import LESSONS, PIXELS, QuietServer, native_bytes
+from site_test import ROOT, check_log, skip, start_browser
+
+STATUS = "return document.querySelector('.live .status').textContent"
+PUT = "localStorage[`rasterbook ${arguments[0]}`] = arguments[1]"
+EVERYTHING = "#include <vector>\nint main() { std::vector<char> all; for (;;) all.resize(all.size() + (1 << 28), 1); }\n"
+# What stands in place of lesson 02's main.cpp, and a part of what is to be said.
+WRONG = {
+    "#error no such thing\n": "does not compile",
+    "": "does not compile",
+    "Dear diary, this is no C++.\n": "does not compile",
+    "int main() { for (volatile int i = 0;;) i = i + 1; }\n": "did not end within",
+    "volatile int n = 1;\nint deeper(int i) { return deeper(i + n) + n; }\nint main() { return deeper(1); }\n": "",
+    EVERYTHING: "",
+}
+
+
+class Run(EditorPage):
+    def timed_run(self) -> float:
+        """How many seconds it takes until all is shown."""
+        begun = time.monotonic()
+        self.button("Run").click()
+        self.until(lambda: self.script("return document.querySelector('.live').dataset.run") == "done", 180)
+        return time.monotonic() - begun
+
+
+def check_lesson(page: Run, build: Path, lesson: str) -> list[str]:
+    problems = []
+    page.open(f"lesson_{lesson[:2]}.html")
+    first = page.timed_run()
+    failure = page.script("return document.querySelector('.failure').textContent")
+    if "is not done yet" not in page.outcome or not failure.startswith("FAILED "):
+        problems.append(f"the starter: {page.outcome} {failure[:200]}")
+    again = []
+    for i in range(2):
+        page.write(f"{page.written}\n// edit {i}\n")
+        again.append(page.timed_run())
+    page.script(PUT, lesson, json.dumps({"files": solution(lesson), "step": 0, "begun": {}}))
+    page.open(f"lesson_{lesson[:2]}.html", is_forgotten=False)
+    solved = page.timed_run()
+    page.wait()
+    if "is done" not in page.outcome:
+        failure = page.script("return document.querySelector('.failure').textContent")
+        problems.append(f"the course's files: {page.outcome} {failure[:300]}")
+    elif page.script(PIXELS) != native_bytes(build, lesson):
+        problems.append(f"draws other bytes than the program: {page.script(STATUS)}")
+    times = ", ".join(f"{seconds:.1f}" for seconds in (first, *again, solved))
+    print(f"{lesson}: {times} s (first, after two edits, the course's files)", flush=True)
+    return problems
+
+
+def solution(lesson: str) -> dict[str, str]:
+    folder = ROOT / "lessons" / lesson
+    names = [file.name for file in (folder / "starter").iterdir()] + ["main.cpp"]
+    return {name: (folder / name).read_text("utf-8") for name in names}
+
+
+def check_wrong(page: Run) -> list[str]:
+    problems = []
+    page.open("lesson_02.html")
+    page.all(".tabs button")[1].click()
+    right = page.written
+    for text, sentence in WRONG.items():
+        page.write(text)
+        page.timed_run()
+        time.sleep(1)
+        page.wait()
+        said = f"{page.outcome} {page.script(STATUS)} {page.script('return document.querySelector(`.failure`).textContent')}"
+        print(f"{text[:50]!r}: {said[:300]}", flush=True)
+        if not said.strip() or sentence not in said:
+            problems.append(f"of {text[:60]!r} it says {said[:300]}")
+        page.write(right)
+        page.timed_run()
+        if "is not done yet" not in page.outcome:
+            problems.append(f"after {text[:60]!r}: {page.outcome}")
+    return problems
+
+
+def main() -> None:
+    site, build = (Path(argument).resolve() for argument in sys.argv[1:3])
+    browser = start_browser(site)
+    if not (site / "live/compiler/toolchain.js").exists() or not (site / "live/editor").exists():
+        skip("the site has no editor with a compiler: npm was missing")
+    lessons = json.loads((site / "live/compiler/lessons.json").read_text("utf-8"))
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(QuietServer, directory=site))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    address = f"http://127.0.0.1:{server.server_port}"
+    browser.set_script_timeout(180)
+    page = Run(browser, address)
+    page.view("desk", "light")
+    problems = []
+    asked = sys.argv[3:] or ["02_triangle_fill", "09_shadow_maps"]
+    if asked == ["all"]:
+        asked = [lesson for lesson in LESSONS if lesson in lessons]
+    try:
+        for lesson in asked:
+            problems += [f"{lesson}: {problem}" for problem in check_lesson(page, build, lesson)]
+        problems += check_wrong(page)
+        problems += check_log(browser, "writing", (address,))
+    finally:
+        browser.quit()
+        server.shutdown()
+    for problem in problems:
+        print(problem)
+    print(f"{len(asked)} lessons written in their pages; {len(problems)} problems")
+    sys.exit(1 if problems or len(lessons) < 11 else 0)
+
+
+if __name__ == "__main__":
+    main()
