@@ -46,7 +46,8 @@ def check_lesson(page: Run, build: Path, lesson: str) -> list[str]:
     page.open(f"lesson_{lesson[:2]}.html")
     first = page.timed_run()
     failure = page.script("return document.querySelector('.failure').textContent")
-    if "is not done yet" not in page.outcome or not failure.startswith("FAILED "):
+    is_failing = "is not done yet" in page.outcome and failure.startswith("FAILED ")
+    if not is_failing and "runs them" not in page.outcome:  # no test of lesson 10's first step can run in a page
         problems.append(f"the starter: {page.outcome} {failure[:200]}")
     again = []
     for i in range(2):

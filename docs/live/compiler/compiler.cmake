@@ -1,6 +1,6 @@
 # The compiler of the site's pages, in BUILD/live/scripts/compiler; a part of ../CMakeLists.txt.
 set(options_of_pages ${options})
-list(APPEND options -Itests -DGTEST_HAS_EXCEPTIONS=0 -DGTEST_HAS_PTHREAD=0 -DGTEST_HAS_DEATH_TEST=0 -DGTEST_HAS_STREAM_REDIRECTION=0)
+list(APPEND options -Itests -DGTEST_HAS_EXCEPTIONS=0 -DGTEST_HAS_PTHREAD=0 -DGTEST_HAS_STREAM_REDIRECTION=0)
 compile_for_pages(of_tests docs/live/compiler/formula_tests.cpp tests/support/visibility.cpp)
 compile_for_pages(judge docs/live/compiler/judge.cpp tests/support/image_doctor.cpp tests/support/image_mistakes.cpp
                         tests/support/visibility_mistakes.cpp)

@@ -2,11 +2,12 @@
 // Compiles and links in a worker: clang and lld, themselves WebAssembly, on files in memory.
 // Each message is answered by one with the same id.
 
+import { unpacked } from "./unpacked.js";
 import { ConsoleStdout, Directory, File, OpenFile, PreopenDirectory, WASI } from "./wasi/index.js";
 
 const options = ["--target=wasm32-wasi", "-std=c++20", "-ffp-contract=off", "-fno-math-errno", "-fignore-exceptions", "-Wall", "-Wextra",
   "-Wno-psabi", "-Wno-unused-parameter", "-Wno-missing-field-initializers", "-fno-color-diagnostics",
-  "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_DEATH_TEST=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
+  "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
   '-DRASTERBOOK_ASSETS=""', '-DRASTERBOOK_LESSONS=""', '-DRASTERBOOK_GOLDEN=""', '-DRASTERBOOK_TEST_DATA=""', '-DRASTERBOOK_GENERATE_ASSETS=""',
   "-nostdinc", "-nostdinc++", "-I/docs/live/without_threads", "-I/mine", "-I/", "-I/lessons", "-I/tests"];
 
@@ -35,10 +36,6 @@ function get(path) {
   let entry = { contents: root };
   for (const part of path.split("/")) entry = entry?.contents?.get(part);
   return entry?.data;
-}
-
-async function unpacked(blob) {
-  return new Response(blob.stream().pipeThrough(new DecompressionStream("gzip")));
 }
 
 /** Runs a tool of LLVM; what it prints comes back. */

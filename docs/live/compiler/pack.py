@@ -29,7 +29,7 @@ span sstream stack stdexcept string string_view tuple type_traits typeinfo unord
 variant vector version glm/glm.hpp glm/ext.hpp gtest/gtest.h""".split()
 LIBRARIES = ("crt1-reactor.o", "crt1-command.o", "libc.a", "libc-printscan-long-double.a", "libc++.a", "libc++abi.a",
              "builtins")
-WITHOUT = ["-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_DEATH_TEST=0",
+WITHOUT = ["-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0",
            "-DGTEST_HAS_STREAM_REDIRECTION=0"]
 TO_WASM = ["--target=wasm32-wasi", "-std=c++20", "-fignore-exceptions", *WITHOUT]
 

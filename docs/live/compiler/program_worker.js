@@ -2,6 +2,7 @@
 // Draws pictures of tests with the reader's program, and says how they differ from the golden ones.
 // What it is loaded behind: lesson.js.
 
+import { unpacked } from "./unpacked.js";
 import { ConsoleStdout, File, OpenFile, WASI } from "./wasi/index.js";
 
 let judge;  // the instance of judge.wasm
@@ -16,7 +17,7 @@ async function pixelsOf(blob) {
 /** Hands two pictures over to judge.cpp; a text comes back. */
 async function judged(blob, own, expected, width, height, mayJump) {
   if (!judge) {
-    const bytes = await new Response(blob.stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+    const bytes = await (await unpacked(blob)).arrayBuffer();
     const nothing = new Proxy({}, { get: () => () => 52 });
     judge = (await WebAssembly.instantiate(bytes, { wasi_snapshot_preview1: nothing, page: nothing, env: nothing })).instance.exports;
     judge._initialize();

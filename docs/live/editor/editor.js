@@ -377,6 +377,8 @@ class Editor {
       this.say(`${what} is done; ${how}.${next ? "" : ` The hard cases are for ./tests/run --mine ${number}.`}`, "right");
       this.onward.textContent = next;
       this.onward.hidden = next === "";
+    } else if (tiers.length === 0) {
+      this.say(`Compiled. Tests of ${this.step > 0 ? "this step" : "this lesson"} need what a browser has not: ./tests/run --mine ${number} runs them.`);
     } else this.say(`${what} is not done yet; ${how}.`, "wrong");
     this.failure.hidden = !first;
     if (first) this.failure.textContent = first.text;
