@@ -74,8 +74,10 @@ function clang(args) {
 
 // --- What includes what
 
-const includesOf = (text) => [...text.matchAll(/^#include ([<"])([^>"]+)[>"]/gm)].map(([, quote, name]) => ({ isOwn: quote === '"', name }));
-const found = (name) => ["docs/live/without_threads/", "", "lessons/", "tests/"].map((folder) => folder + name).find((path) => texts.has(path));
+const folders = ["docs/live/without_threads/", "", "lessons/", "tests/"];  // in which the course's headers are looked for
+const found = (name) => folders.map((folder) => folder + name).find((path) => texts.has(path));
+const includesOf = (text) =>
+  [...text.matchAll(/^#include ([<"])([^>"]+)[>"]/gm)].map(([, quote, name]) => ({ isOwn: quote === '"', name }));
 
 /** The headers that some files include, themselves or by others; those that depend on one of `own` are left out. */
 function headersOf(files, own) {
@@ -125,12 +127,14 @@ async function precompile(headers) {
   const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode(level + text)));
   const url = cache && `${self.origin}/precompiled/${[...hash].map((byte) => byte.toString(16)).join("")}?${version}`;
   const kept = await cache?.match(url);
-  if (kept) put("precompiled.pch", new Uint8Array(await kept.arrayBuffer()));
+  if (kept) put("precompiled.pch", new Uint8Array(await (await unpacked(await kept.blob())).arrayBuffer()));
   else {
-    const { status, bytes, text: said } = clang(["-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", "/unit/precompiled.hpp", "-o", "-"]);
+    const { status, bytes, text: said } = clang(
+      ["-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", "/unit/precompiled.hpp", "-o", "-"]);
     if (status !== 0) throw new Error(`The course's headers do not compile: ${said.slice(0, 500)}`);
     put("precompiled.pch", bytes);
-    await cache?.put(url, new Response(bytes)).catch(() => {});  // a full disk is no reason to stop
+    // Packed it takes a quarter of 30 MB; a full disk is no reason to stop.
+    cache?.put(url, new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream("gzip")))).catch(() => {});
   }
   precompiled = text;
 }
@@ -151,10 +155,10 @@ function shortened(log) {
 }
 
 const tasks = {
-  load: async ({ blobs, version: of, level: given, searchPath: folders }) => {
+  load: async ({ blobs, version: of, level: given, searchPath: path }) => {
     version = of;
     level = given;
-    searchPath = folders.flatMap((folder) => ["-isystem", folder]);
+    searchPath = path.flatMap((folder) => ["-isystem", folder]);
     const wasm = (await unpacked(blobs["llvm.wasm.gz"])).body;
     compiler = await WebAssembly.compileStreaming(new Response(wasm, { headers: { "Content-Type": "application/wasm" } }));
     for (const [path, text] of Object.entries(await (await unpacked(blobs["texts.json.gz"])).json())) {
@@ -191,15 +195,18 @@ const tasks = {
     };
     put("unit/unit.cpp", which.map((source) => `#include "/${place(source)}"\n`).join(""));
     const { status, bytes, text } = clang(["-include-pch", "/precompiled.pch", ...extra, "-c", "/unit/unit.cpp", "-o", "-"]);
-    const log = text.replace(/^In file included from \/unit\/unit\.cpp:\d+:\n/gm, "").replace(/^\d+ (?:error|warning)s?.* generated\.\n/gm, "");
+    const log = text
+      .replace(/^In file included from \/unit\/unit\.cpp:\d+:\n/gm, "")
+      .replace(/^\d+ (?:error|warning)s?.* generated\.\n/gm, "");
     return { object: status === 0 ? bytes : null, which, messages: messagesOf(log, lesson), log: shortened(log) };
   },
 
   /** Links objects, the compiled ones and those of the pack, into a program. */
   link: ({ compiled, names, start }) => {
     compiled.forEach((bytes, i) => put(`linked/${i}.o`, bytes));
+    const libraries = ["libc++.a", "libc++abi.a", "libc-printscan-long-double.a", "libc.a", "libclang_rt.builtins-wasm32.a"];
     const { status, text } = run(["wasm-ld", "-m", "wasm32", ...start, ...compiled.map((_, i) => `/linked/${i}.o`),
-      ...names.map((name) => `/objects/${name}`), "/objects/libc++.a", "/objects/libc++abi.a", "/objects/libc-printscan-long-double.a", "/objects/libc.a", "/objects/libclang_rt.builtins-wasm32.a",
+      ...[...names, ...libraries].map((name) => `/objects/${name}`),
       "--stack-first", "-z", "stack-size=8388608", "--max-memory=1073741824", "--strip-debug", "-o", "/linked/program.wasm"]);
     const program = status === 0 ? get("linked/program.wasm") : null;
     root.delete("linked");

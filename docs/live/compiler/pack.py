@@ -29,9 +29,8 @@ span sstream stack stdexcept string string_view tuple type_traits typeinfo unord
 variant vector version glm/glm.hpp glm/ext.hpp gtest/gtest.h""".split()
 LIBRARIES = ("crt1-reactor.o", "crt1-command.o", "libc.a", "libc-printscan-long-double.a", "libc++.a", "libc++abi.a",
              "builtins")
-WITHOUT = ["-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0",
-           "-DGTEST_HAS_STREAM_REDIRECTION=0"]
-TO_WASM = ["--target=wasm32-wasi", "-std=c++20", "-fignore-exceptions", *WITHOUT]
+TO_WASM = ["--target=wasm32-wasi", "-std=c++20", "-fignore-exceptions", "-DGTEST_HAS_EXCEPTIONS=0",
+           "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0"]
 
 
 def install(npm: str, folder: Path) -> bool:
@@ -75,9 +74,10 @@ def texts(clang: str, resources: Path) -> dict[str, str]:
     for header in system_headers(clang):
         if "lib/clang/" not in str(header):  # of the other clang
             found[str(header.resolve())[1:]] = header.read_text("utf-8", "replace")
+    builtin = r"(?:\./)?(?:usr/)?include/((?:__std|__float|std|float|limits|inttypes|iso646|tgmath)[\w.]*\.h)"
     with tarfile.open(resources) as tar:
         for member in tar.getmembers():
-            name = re.fullmatch(r"(?:\./)?(?:usr/)?include/((?:__std|__float|std|float|limits|inttypes|iso646|tgmath)[\w.]*\.h)", member.name)
+            name = re.fullmatch(builtin, member.name)
             if name and (file := tar.extractfile(member)):
                 found[f"clang/{name[1]}"] = file.read().decode()
     for pattern in ("common/**/*.hpp", "tests/support/*.hpp", "docs/live/**/*.hpp"):

@@ -41,7 +41,7 @@ class Helper {
   send(message, seconds = null) {
     return new Promise((resolve, reject) => {
       const id = ++this.count;
-      const timer = seconds && setTimeout(() => this.end(Object.assign(new Error(`did not end within ${seconds} seconds`), { name: "TimeoutError" })), 1000 * seconds);
+      const timer = seconds && setTimeout(() => this.end(new Error(`did not end within ${seconds} seconds`)), 1000 * seconds);
       this.asked.set(id, { resolve, reject, timer });
       this.worker.postMessage({ id, ...message });
     });
@@ -159,7 +159,7 @@ export class Toolchain {
     return { messages: program ? messages : linkMessages(log), log, program };
   }
 
-  /** The sources beside main.cpp that a program is linked with: those of a lesson and, as its main.cpp may be that of the lesson before, of that one. */
+  /** A program is linked with the sources beside main.cpp of its lesson and, as it begins with the main.cpp of the one before, of that one. */
   apartOf(lesson) {
     if (!(lesson in this.lessons)) return Object.values(this.lessons).flatMap(({ apart }) => apart);
     const { before, apart } = this.lessons[lesson];
@@ -192,12 +192,11 @@ export class Toolchain {
       task: "compile", lesson, files, sources: this.lessons[lesson].tests, like: this.likeOfTests(lesson),
       extra: [`-DASKED_EQUATIONS="${equations}"`, "-include", "/docs/live/compiler/formula_tests.hpp"],
     }, mostCompileSeconds);
-    if (!object) return { messages: messages.length > 0 ? messages : [{ file: "", line: 0, column: 0, severity: "error", text: log }], log };
+    if (!object) return { messages: messages.length > 0 ? messages : [errorOf(log)], log };
     const apart = this.apartOf(lesson).map(objectOf);
-    const linked = await this.compilers[1].ask({
-      task: "link", compiled: [object],
-      names: ["docs_live_compiler_formula_tests.cpp.o", "gtest-all.o", "tests_support_visibility.cpp.o", ...shared, ...apart], start: ["/objects/crt1-command.o"],
-    }, mostCompileSeconds);
+    const names = ["docs_live_compiler_formula_tests.cpp.o", "gtest-all.o", "tests_support_visibility.cpp.o", ...shared, ...apart];
+    const linked = await this.compilers[1].ask(
+      { task: "link", compiled: [object], names, start: ["/objects/crt1-command.o"] }, mostCompileSeconds);
     if (!linked.program) return { messages: linkMessages(linked.log), log: linked.log };
     let text, ended = "";
     try {
@@ -207,7 +206,7 @@ export class Toolchain {
       ended = error.message;
       text = "";
     }
-    return outcome(text, ended, lesson);
+    return outcome(text, ended);
   }
 
   async pictures(lesson, names) {
@@ -222,7 +221,10 @@ export class Toolchain {
         text = error.message;
       }
       if (text === "") ++passed;
-      else first ??= { text: `FAILED ${picture.suite}.${name}\n${picture.place}: ${text}`, picture: { name, options: picture.options, golden: picture.golden } };
+      else {
+        const { suite, place, options, golden } = picture;
+        first ??= { text: `FAILED ${suite}.${name}\n${place}: ${text}`, picture: { name, options, golden } };
+      }
     }
     return { passed, first };
   }
@@ -268,16 +270,20 @@ function numbersIn(range) {
   return Array.from({ length: last - first + 1 }, (_, i) => `Eq${lesson}_${+first + i}_`);
 }
 
+/** An error of no place. */
+const errorOf = (text) => ({ file: "", line: 0, column: 0, severity: "error", text });
+
 /** What the linker misses, without what it is missed by. */
 function linkMessages(log) {
   const names = new Set([...log.matchAll(/undefined symbol: (.*)/g)].map(([, name]) => name));
-  const texts = names.size > 0 ? [...names].map((name) => (/^(__main_argc_argv|main)$/.test(name) ? "there is no main()" : `${name} is declared, but defined nowhere`)) : [log || "The program cannot be linked."];
-  return texts.map((text) => ({ file: "", line: 0, column: 0, severity: "error", text }));
+  const missing = (name) => (/^(__main_argc_argv|main)$/.test(name) ? "there is no main()" : `${name} is declared, but defined nowhere`);
+  const texts = names.size > 0 ? [...names].map(missing) : [log || "The program cannot be linked."];
+  return texts.map(errorOf);
 }
 
 /** What the tests of formulas have printed, in the equations' order. */
-function outcome(text, ended, lesson) {
-  const said = text.split("\x01").slice(1).map((part) => part.match(/^(\w+) (\S+)\n([^]*)$/));
+function outcome(text, ended) {
+  const said = text.split("\x01").slice(1).map((part) => part.match(/^(\w+) (\S+)\n([^]*)$/)).filter(Boolean);
   const of = (kind) => said.filter(([, is]) => is === kind);
   const inOrder = of("failed").sort(([, , a], [, , b]) => a.localeCompare(b, "en", { numeric: true }));
   const running = of("running").at(-1)?.[2];
