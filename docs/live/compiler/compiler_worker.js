@@ -14,8 +14,8 @@ const options = ["--target=wasm32-wasi", "-std=c++20", "-ffp-contract=off", "-fn
 let compiler;  // WebAssembly.Module
 const root = new Map();  // the files, as folders in folders
 const texts = new Map();  // the course's files: text by path
-let precompiled = "";  // what precompiled.pch is of
-let version, level, searchPath;
+const precompiled = {};  // by level of optimisation, what is precompiled
+let version, searchPath;
 
 const encoder = new TextEncoder();
 
@@ -64,7 +64,7 @@ function joined(parts) {
 }
 
 /** Runs clang as its driver would run it, but in the same program. */
-function clang(args) {
+function clang(level, args) {
   const driver = run(["clang++", level, ...options, ...searchPath, ...args, "-###"]);
   const line = driver.text.split("\n").find((line) => line.startsWith(' "'));
   if (driver.status !== 0 || !line) return driver;
@@ -119,24 +119,25 @@ function putOwn(lesson, files) {
 }
 
 /** Precompiles what does not change while the reader writes, or takes what the browser has kept of it. */
-async function precompile(headers) {
+async function precompile(level, headers) {
   const text = headers.map((header) => `#include ${header}\n`).join("");
-  if (precompiled === text) return;
-  put("unit/precompiled.hpp", text);
+  if (precompiled[level] === text) return;
+  const file = `precompiled${level}.pch`;
+  put(`unit/precompiled${level}.hpp`, text);
   const cache = await globalThis.caches?.open("rasterbook compiler").catch(() => null);
   const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode(level + text)));
   const url = cache && `${self.origin}/precompiled/${[...hash].map((byte) => byte.toString(16)).join("")}?${version}`;
   const kept = await cache?.match(url);
-  if (kept) put("precompiled.pch", new Uint8Array(await (await unpacked(await kept.blob())).arrayBuffer()));
+  if (kept) put(file, new Uint8Array(await (await unpacked(await kept.blob())).arrayBuffer()));
   else {
     const { status, bytes, text: said } = clang(
-      ["-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", "/unit/precompiled.hpp", "-o", "-"]);
+      level, ["-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", `/unit/precompiled${level}.hpp`, "-o", "-"]);
     if (status !== 0) throw new Error(`The course's headers do not compile: ${said.slice(0, 500)}`);
-    put("precompiled.pch", bytes);
+    put(file, bytes);
     // Packed it takes a quarter of 30 MB; a full disk is no reason to stop.
     cache?.put(url, new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream("gzip")))).catch(() => {});
   }
-  precompiled = text;
+  precompiled[level] = text;
 }
 
 /** What clang says, for each place; paths as the reader knows them. */
@@ -155,9 +156,8 @@ function shortened(log) {
 }
 
 const tasks = {
-  load: async ({ blobs, version: of, level: given, searchPath: path }) => {
+  load: async ({ blobs, version: of, searchPath: path }) => {
     version = of;
-    level = given;
     searchPath = path.flatMap((folder) => ["-isystem", folder]);
     const wasm = (await unpacked(blobs["llvm.wasm.gz"])).body;
     compiler = await WebAssembly.compileStreaming(new Response(wasm, { headers: { "Content-Type": "application/wasm" } }));
@@ -178,23 +178,24 @@ const tasks = {
   /**
    * Compiles sources as one.
    *
+   * @param {string} level    Of optimisation: "-O0" or "-O1".
    * @param {string[]} like   Files that include what is worth to be precompiled.
    * @param {boolean} only    Only those that depend on the reader's files; `which` says which these
    *                          are, and `object` is null where there is none.
    * @param {string[]} extra  Options of clang.
    */
-  compile: async ({ lesson, files, sources, like, only, extra = [] }) => {
+  compile: async ({ lesson, files, level, sources, like, only, extra = [] }) => {
     const own = putOwn(lesson, files);
     const { headers, depends } = headersOf(like, own);
     const which = sources.filter((source) => !only || depends(source));
     if (which.length === 0) return { object: null, which, messages: [], log: "" };
-    await precompile(headers);
+    await precompile(level, headers);
     const place = (source) => {
       const mine = source.replace(/^lessons\//, "mine/");
       return get(mine) ? mine : source;
     };
     put("unit/unit.cpp", which.map((source) => `#include "/${place(source)}"\n`).join(""));
-    const { status, bytes, text } = clang(["-include-pch", "/precompiled.pch", ...extra, "-c", "/unit/unit.cpp", "-o", "-"]);
+    const { status, bytes, text } = clang(level, ["-include-pch", `/precompiled${level}.pch`, ...extra, "-c", "/unit/unit.cpp", "-o", "-"]);
     const log = text
       .replace(/^In file included from \/unit\/unit\.cpp:\d+:\n/gm, "")
       .replace(/^\d+ (?:error|warning)s?.* generated\.\n/gm, "");

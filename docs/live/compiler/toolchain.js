@@ -127,9 +127,8 @@ export class Toolchain {
       });
     await forgetOthers(version);
     this.judgeBlob = blobs["judge.wasm.gz"];
-    const compiler = (level) => new Helper("compiler_worker.js", { task: "load", blobs, version, level, searchPath });
-    // A picture is to come soon; tests take longer to run than to be compiled.
-    this.compilers = [compiler("-O0"), compiler("-O1")];
+    const begin = { task: "load", blobs, version, searchPath };
+    this.compilers = [new Helper("compiler_worker.js", begin), new Helper("compiler_worker.js", begin)];
     this.drawing = new Helper("program_worker.js");
     this.testing = new Helper("program_worker.js");
     this.scenes = {};
@@ -141,11 +140,11 @@ export class Toolchain {
     const main = isLesson ? `lessons/${lesson}/main.cpp` : `lessons/sandbox/main.cpp`;
     const { before, apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
     const like = isLesson ? [main, ...(before ? [`lessons/${before}/main.cpp`] : [])] : ["lessons/05_textures/main.cpp"];
-    const own = { lesson, files };
+    const own = { lesson, files, level: "-O0" };  // a picture is to come soon
     const [ofMain, ofApart] = await Promise.all([
       this.compilers[0].ask({ task: "compile", ...own, sources: [main], like }, mostCompileSeconds),
       // The lesson's other sources; those that none of the reader's headers is in are compiled already.
-      this.compilers[1].ask({ task: "compile", ...own, sources: apart, like: this.likeOfTests(lesson), only: true }, mostCompileSeconds),
+      this.compilers[1].ask({ task: "compile", ...own, sources: apart, like: apart, only: true }, mostCompileSeconds),
     ]);
     const messages = [...ofMain.messages];
     if (!ofMain.object) return { messages, log: ofMain.log, program: null };
@@ -166,11 +165,6 @@ export class Toolchain {
     return [...new Set([...apart, ...(before ? this.apartOf(before) : [])])];
   }
 
-  likeOfTests(lesson) {
-    const { apart = [], tests = [] } = this.lessons[lesson] ?? {};
-    return ["docs/live/compiler/formula_tests.hpp", ...apart, ...tests];
-  }
-
   async test(lesson, files, step) {
     if (this.compiled?.lesson !== lesson || this.compiled.files !== JSON.stringify(files)) await this.compile(lesson, files);
     const { steps } = this.lessons[lesson];
@@ -189,7 +183,8 @@ export class Toolchain {
   async formulas(lesson, files, equations) {
     if (equations === "" || this.lessons[lesson].tests.length === 0) return { passed: 0, total: 0, first: null };
     const { object, messages, log } = await this.compilers[1].ask({
-      task: "compile", lesson, files, sources: this.lessons[lesson].tests, like: this.likeOfTests(lesson),
+      task: "compile", lesson, files, level: "-O1",  // they take longer to run than to be compiled
+      sources: this.lessons[lesson].tests, like: ["docs/live/compiler/formula_tests.hpp", ...this.lessons[lesson].tests],
       extra: [`-DASKED_EQUATIONS="${equations}"`, "-include", "/docs/live/compiler/formula_tests.hpp"],
     }, mostCompileSeconds);
     if (!object) return { messages: messages.length > 0 ? messages : [errorOf(log)], log };
