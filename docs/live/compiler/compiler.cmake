@@ -7,7 +7,7 @@ compile_for_pages(judge docs/live/compiler/judge.cpp tests/support/image_doctor.
 set(googletest ${live}/objects/gtest-all.o)
 cmake_path(GET GTEST_ALL PARENT_PATH sources_of_googletest)
 add_custom_command(OUTPUT ${googletest} DEPENDS ${GTEST_ALL} VERBATIM
-    COMMAND ${CLANG_FOR_WASM} ${options} -w -I${sources_of_googletest}/.. -I${sources_of_googletest}/../include -c ${GTEST_ALL} -o ${googletest}
+    COMMAND ${CLANG_FOR_WASM} ${options} -w -D_WASI_EMULATED_SIGNAL -I${sources_of_googletest}/.. -I${sources_of_googletest}/../include -c ${GTEST_ALL} -o ${googletest}
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     COMMENT "For pages: GoogleTest")
 set(judge_wasm ${live}/objects/judge.wasm)
