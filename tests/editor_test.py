@@ -6,7 +6,6 @@ RASTERBOOK_SITE_REQUIRED is set.
 """
 
 import base64
-import functools
 import http.server
 import io
 import json
@@ -16,12 +15,11 @@ import string
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import zipfile
 from pathlib import Path
 
-from live_test import LESSONS, PIXELS, native_bytes
+from live_test import LESSONS, PIXELS, axe_of, native_bytes, serve
 from site_test import ROOT, check_log, skip, start_browser
 
 SIZES = {"desk": (1400, 1000), "phone": (390, 844)}
@@ -636,13 +634,9 @@ def main() -> None:
     browser = start_browser(site)
     if not (site / "live/editor/editor.js").exists():
         skip("the site has no editor: npm was missing")
-    axe = build / "axe/node_modules/axe-core/axe.min.js"
-    if not axe.exists():
-        skip(f"{axe} is missing: npm install --prefix {build / 'axe'} axe-core")
+    axe = axe_of(build)
     Server.programs = wrong_programs()
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Server, directory=site))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    address = f"http://127.0.0.1:{server.server_port}"
+    server, address = serve(site, Server)
     page = EditorPage(browser, address)
     page.view("desk", "light")
     checks = {
@@ -655,7 +649,7 @@ def main() -> None:
         "solution": lambda: check_solution(page),
         "keyboard": lambda: check_keyboard(page),
         "sandbox": lambda: check_sandbox(page, site),
-        "looks": lambda: check_looks(page, axe.read_text(encoding="utf-8")),
+        "looks": lambda: check_looks(page, axe),
         "elsewhere": lambda: check_elsewhere(page, site),
     }
     problems = []

@@ -340,18 +340,29 @@ def check_accessibility(page: LivePage, address: str, axe: str) -> list[str]:
     return problems
 
 
+def axe_of(build: Path) -> str:
+    """The script that looks for what keeps people out."""
+    axe = build / "axe/node_modules/axe-core/axe.min.js"
+    if not axe.exists():
+        skip(f"{axe} is missing: npm install --prefix {build / 'axe'} axe-core")
+    return axe.read_text(encoding="utf-8")
+
+
+def serve(site: Path, handler: type = QuietServer) -> tuple[http.server.ThreadingHTTPServer, str]:
+    """A server of the site, and its address."""
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(handler, directory=site))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    return server, f"http://127.0.0.1:{server.server_port}"
+
+
 def main() -> None:
     site, build = (Path(argument).resolve() for argument in sys.argv[1:])
     browser = start_browser(site)
     if not (site / "live").exists():
         skip("the site's pages do not draw: clang 19 for WebAssembly was missing")
-    axe = build / "axe/node_modules/axe-core/axe.min.js"
-    if not axe.exists():
-        skip(f"{axe} is missing: npm install --prefix {build / 'axe'} axe-core")
-    handler = functools.partial(QuietServer, directory=site)
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    places = {"from the folder": site.as_uri(), "from a server": f"http://127.0.0.1:{server.server_port}"}
+    axe = axe_of(build)
+    server, address = serve(site)
+    places = {"from the folder": site.as_uri(), "from a server": address}
     folder = places["from the folder"]
     columns, rows = WIDTHS["desk"]
     browser.set_window_size(columns, rows)
@@ -373,7 +384,7 @@ def main() -> None:
         problems += check_links(page, site, folder)
         problems += check_log(browser, "comparisons", (folder,))
         problems += check_failures(page, folder)
-        problems += check_accessibility(page, folder, axe.read_text(encoding="utf-8"))
+        problems += check_accessibility(page, folder, axe)
     finally:
         browser.quit()
         server.shutdown()

@@ -6,16 +6,13 @@ has to end in a sentence, and the next run has to work. Prints how long runs tak
 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED is set.
 """
 
-import functools
-import http.server
 import json
 import sys
-import threading
 import time
 from pathlib import Path
 
 from editor_test import EditorPage
-from live_test import LESSONS, PIXELS, QuietServer, native_bytes
+from live_test import LESSONS, PIXELS, native_bytes, serve
 from site_test import ROOT, check_log, skip, start_browser
 
 STATUS = "return document.querySelector('.live .status').textContent"
@@ -100,9 +97,7 @@ def main() -> None:
     if not (site / "live/compiler/toolchain.js").exists() or not (site / "live/editor").exists():
         skip("the site has no editor with a compiler: npm was missing")
     lessons = json.loads((site / "live/compiler/lessons.json").read_text("utf-8"))
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(QuietServer, directory=site))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    address = f"http://127.0.0.1:{server.server_port}"
+    server, address = serve(site)
     browser.set_script_timeout(180)
     page = Run(browser, address)
     page.view("desk", "light")

@@ -122,6 +122,12 @@ class Lesson {
   }
 }
 
+/** The function of a program that ended by a trap, without its module's name; undefined where none is known. */
+function functionOf(error) {
+  const [, inChromium, inFirefox] = String(error.stack).match(/^ *at (.+) \(wasm:|^(?=.*wasm-function)([^@]+)@/m) ?? [];
+  return (inChromium ?? inFirefox)?.replace(/^\S+\.wasm\./, "");
+}
+
 /** What a control takes, in words. */
 function valuesOf(control) {
   if (control.kind === "flag") return "true or false";

@@ -56,9 +56,9 @@ function inWords(error) {
   if (error instanceof LessonError) return error.message;
   if (error instanceof WebAssembly.CompileError)
     return "This browser does not know all instructions of this program: lesson 13 needs SIMD of 128 bits.";
-  const [, name] = String(error.stack).match(/^ *at (.+) \(wasm:|^(?=.*wasm-function)([^@]+)@/m) ?? [];
+  const name = functionOf(error);
   if (name?.endsWith("abort") && !error.said) return "The program gave up, most likely since there was not enough memory.";
-  const where = name ? ` in ${name.replace(/^\S+\.wasm\./, "")}` : "";  // without the module's name
+  const where = name ? ` in ${name}` : "";
   if (/call stack|too much recursion/.test(error.message)) return `The program calls itself without end${where}.`;
   if (error instanceof RangeError || /bad_alloc|length_error/.test(error.said ?? ""))
     return "There is not enough memory for this picture. Fewer samples or a smaller depth map take less.";

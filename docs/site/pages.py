@@ -148,8 +148,8 @@ class Site:
     def live(self, page: Page, comment: str) -> str:
         """What a comment asks for where pages draw: a figure, or a link to a comparison.
 
-        `sandbox: IN WORDS` is a link to the sandbox. `figure: NAME` is docs/live/figures/NAME; `compare: OPTIONS | in words` are options of the
-        page's lesson; `sandbox: in words` comes with the editor.
+        `figure: NAME` is docs/live/figures/NAME; `compare: OPTIONS | in words` are options of the
+        page's lesson; `sandbox: in words` is a link to the sandbox, which comes with the editor.
         """
         if not self.is_live:
             return ""
@@ -403,7 +403,7 @@ def layout(code: list[Page], has_editor: bool) -> str:
     tabs = ['<tab type="mainpage" title="Start"/>\n', tab(GALLERY, GALLERY.kind)]
     for lesson, *parts in COURSE:
         tabs.append(tab(lesson, title(lesson), "".join(tab(part, part.kind) for part in parts)))
-    tabs += [tab(page, page.kind) for page in [*[SANDBOX] * has_editor, *OTHERS[1:]]]
+    tabs += [tab(page, page.kind) for page in ([SANDBOX] if has_editor else []) + OTHERS[1:]]
     tabs.append(
         '<tab type="usergroup" url="files.html" title="The code">'
         '<tab type="filelist" title="Files"/><tab type="classlist" title="Classes"/>\n'

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "06_phong/normals.hpp"
+
 namespace rasterbook {
 
 PhongAssets make_phong_assets(Scene scene, const TextureOptions& texture, bool all_effects) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "06_phong/effects.hpp"
-#include "06_phong/normals.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {

@@ -3,16 +3,16 @@
 
 #include <utility>
 
+#include "06_phong/assets.hpp"
+
 namespace rasterbook {
 
 ToonAssets make_toon_assets(Scene scene, const TextureOptions& texture,
                             const ToonVariant& shading) {
-    complete_normals(scene);
-    SurfaceTextures textures = load_surface_textures(scene, texture);
-    if (shading.all_effects) add_neutral_inputs(scene, textures);
-    auto effects = plan_effects(scene, textures, shading.all_effects);
-    HullNormals hull_normals = make_hull_normals(scene, shading.outline);
-    return {std::move(scene), std::move(textures), std::move(effects), std::move(hull_normals)};
+    PhongAssets made = make_phong_assets(std::move(scene), texture, shading.all_effects);
+    HullNormals hull_normals = make_hull_normals(made.scene, shading.outline);
+    return {std::move(made.scene), std::move(made.textures), std::move(made.effects),
+            std::move(hull_normals)};
 }
 
 }  // namespace rasterbook

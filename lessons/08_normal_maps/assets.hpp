@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "06_phong/effects.hpp"
-#include "06_phong/normals.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "common/model/mesh.hpp"
 

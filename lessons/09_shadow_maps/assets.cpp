@@ -3,19 +3,17 @@
 
 #include <utility>
 
+#include "08_normal_maps/assets.hpp"
+
 namespace rasterbook {
 
 ShadowAssets make_shadow_assets(Scene scene, const TextureOptions& texture, bool all_effects,
                                 const NormalMapVariant& normal_map) {
-    complete_normals(scene);
-    SurfaceTextures textures = load_surface_textures(scene, texture);
-    NormalMaps normal_maps = load_normal_maps(scene, texture, normal_map, all_effects);
-    make_tangents(scene, normal_maps, normal_map);
-    if (all_effects) add_neutral_inputs(scene, textures);
-    auto effects = plan_effects(scene, textures, normal_maps, all_effects);
-    const ShadowBounds bounds = shadow_bounds(scene);
-    return {std::move(scene), std::move(textures), std::move(normal_maps), std::move(effects),
-            bounds};
+    NormalMapAssets made =
+        make_normal_map_assets(std::move(scene), texture, all_effects, normal_map);
+    const ShadowBounds bounds = shadow_bounds(made.scene);
+    return {std::move(made.scene), std::move(made.textures), std::move(made.normal_maps),
+            std::move(made.effects), bounds};
 }
 
 }  // namespace rasterbook

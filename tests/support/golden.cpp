@@ -74,10 +74,7 @@ testing::AssertionResult is_golden(const std::string& golden, std::size_t may_ju
         std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_comparison.png");
     write_image(comparison, side_by_side(expected, actual));
     return testing::AssertionFailure()
-           << difference.differing << " pixels differ, the most by " << difference.greatest
-           << " of 255; up to " << difference.allowed << " may, by no more than "
-           << levels_that_may_differ << ", but for " << may_jump << " of them"
-           << diagnosis(actual, expected)
+           << difference.in_words(may_jump) << diagnosis(actual, expected)
            << "\nexpected | actual | difference: " << comparison.string() << if_it_is_right;
 }
 

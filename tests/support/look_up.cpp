@@ -10,20 +10,13 @@
 
 #include <gtest/gtest.h>
 
+#include "support/failure_words.hpp"
+
 namespace rasterbook::test {
 
 namespace {
 
 std::string place_of_this_test;
-
-/// "Eq. 2.4" for a test named "Eq2_4_BarycentricsOfTheWorkedExample", else nothing.
-std::string equation_in(const std::string& name) {
-    if (name.rfind("Eq", 0) != 0) return "";
-    const auto end = name.find('_', name.find('_') + 1);
-    std::string number = name.substr(2, end - 2);
-    number[number.find('_')] = '.';
-    return "Eq. " + number;
-}
 
 const std::filesystem::path root = std::filesystem::path(RASTERBOOK_ASSETS).parent_path();
 
@@ -35,17 +28,6 @@ std::string lesson_of(const std::filesystem::path& file) {
             stem.starts_with(name + '_'))
             return name;
     return stem;
-}
-
-/// Of a failing test, so many lines are shown of the first failure: what fails first explains most,
-/// and thousands of lines explain nothing.
-constexpr int most_lines = 32;
-
-std::string first_lines(const std::string& text) {
-    std::size_t end = 0;
-    for (int line = 0; line < most_lines && end != std::string::npos; ++line)
-        end = text.find('\n', end + (line > 0));
-    return end == std::string::npos ? text : text.substr(0, end) + "\n...";
 }
 
 /// The name of the test, where to read, and the first failure.

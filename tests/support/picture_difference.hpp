@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdlib>
+#include <string>
 
 #include "common/image/image.hpp"
 
@@ -41,6 +42,13 @@ struct PictureDifference {
     ///                  last bit decides on which side of a threshold a pixel lies.
     bool is_tolerable(std::size_t may_jump = 0) const {
         return differing <= allowed && jumps <= may_jump;
+    }
+
+    std::string in_words(std::size_t may_jump) const {
+        return std::to_string(differing) + " pixels differ, the most by " +
+               std::to_string(greatest) + " of 255; up to " + std::to_string(allowed) +
+               " may, by no more than " + std::to_string(levels_that_may_differ) + ", but for " +
+               std::to_string(may_jump) + " of them";
     }
 };
 

@@ -4,6 +4,7 @@ list(APPEND options -Itests -DGTEST_HAS_EXCEPTIONS=0 -DGTEST_HAS_PTHREAD=0 -DGTE
 compile_for_pages(of_tests docs/live/compiler/formula_tests.cpp tests/support/visibility.cpp)
 compile_for_pages(judge docs/live/compiler/judge.cpp tests/support/image_doctor.cpp tests/support/image_mistakes.cpp
                         tests/support/visibility_mistakes.cpp)
+# It includes <csignal>, from 1.15 on, and asks for no signal in a page.
 set(googletest ${live}/objects/gtest-all.o)
 cmake_path(GET GTEST_ALL PARENT_PATH sources_of_googletest)
 add_custom_command(OUTPUT ${googletest} DEPENDS ${GTEST_ALL} VERBATIM
@@ -19,13 +20,11 @@ file(GLOB parts ${CMAKE_CURRENT_LIST_DIR}/*)
 file(GLOB_RECURSE texts ${PROJECT_SOURCE_DIR}/common/*.hpp ${PROJECT_SOURCE_DIR}/lessons/*.?pp ${PROJECT_SOURCE_DIR}/lessons/*/README.md
                         ${PROJECT_SOURCE_DIR}/tests/*_test.cpp ${PROJECT_SOURCE_DIR}/tests/support/*.hpp)
 set(linked ${live}/objects/docs_live_compiler_formula_tests.cpp.o ${of_tests} ${googletest} ${common} ${scenes})
-foreach(lesson 06_phong 07_toon 08_normal_maps 09_shadow_maps)
-    list(APPEND linked ${apart_of_${lesson}})
-endforeach()
+list(APPEND linked ${apart_of_07_toon} ${apart_of_09_shadow_maps})  # with those of the lessons before
 list(JOIN linked "\n" names)
 file(GENERATE OUTPUT ${live}/linked.txt CONTENT "${names}\n")
-add_custom_command(OUTPUT ${scripts}/compiler/manifest.json DEPENDS ${parts} ${texts} ${linked} ${judge_wasm} ${CMAKE_CURRENT_SOURCE_DIR}/lesson.js VERBATIM
-    COMMAND ${PYTHON3} -B ${CMAKE_CURRENT_LIST_DIR}/pack.py ${NPM} ${CLANG_FOR_WASM} ${live}/compiler ${live}/linked.txt ${judge_wasm} ${scripts}/compiler
+add_custom_command(OUTPUT ${scripts}/compiler/manifest.json DEPENDS ${parts} npm.py ${texts} ${linked} ${judge_wasm} ${CMAKE_CURRENT_SOURCE_DIR}/lesson.js VERBATIM
+    COMMAND ${with_npm} ${CMAKE_CURRENT_LIST_DIR}/pack.py ${NPM} ${CLANG_FOR_WASM} ${live}/compiler ${live}/linked.txt ${judge_wasm} ${scripts}/compiler
     COMMENT "For pages: the compiler")
 list(APPEND made ${scripts}/compiler/manifest.json)
 set(options ${options_of_pages})

@@ -13,6 +13,7 @@
 #include "common/image/image_io.hpp"
 #include "common/model/load_budget.hpp"
 #include "common/model/model_file.hpp"
+#include "support/failure_words.hpp"
 #include "support/look_up.hpp"
 
 namespace rasterbook::test {
@@ -20,14 +21,6 @@ namespace rasterbook::test {
 namespace {
 
 std::string place_of_this_test;
-constexpr int most_lines = 32;
-
-std::string first_lines(const std::string& text) {
-    std::size_t end = 0;
-    for (int line = 0; line < most_lines && end != std::string::npos; ++line)
-        end = text.find('\n', end + (line > 0));
-    return end == std::string::npos ? text : text.substr(0, end) + "\n...";
-}
 
 class Printer : public testing::EmptyTestEventListener {
   public:
@@ -35,10 +28,7 @@ class Printer : public testing::EmptyTestEventListener {
 
   private:
     void OnTestStart(const testing::TestInfo& test) override {
-        const std::string name = test.name();
-        std::string number = name.substr(2, name.find('_', name.find('_') + 1) - 2);
-        number[number.find('_')] = '.';
-        place_of_this_test = "Eq. " + number;
+        place_of_this_test = equation_in(test.name());
         failures_ = 0;
         text_.str("");
         std::printf("\1running %s\n", test.name());

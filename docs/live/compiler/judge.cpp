@@ -43,12 +43,8 @@ EXPORTED(judge) const char* judge(std::size_t may_jump) {
     const test::PictureDifference difference = test::picture_difference(actual, expected);
     answer.clear();
     if (!difference.is_tolerable(may_jump))
-        answer = std::to_string(difference.differing) + " pixels differ, the most by " +
-                 std::to_string(difference.greatest) + " of 255; up to " +
-                 std::to_string(difference.allowed) + " may, by no more than " +
-                 std::to_string(test::levels_that_may_differ) + ", but for " +
-                 std::to_string(may_jump) +
-                 " of them\nThe picture: " + test::diagnose(actual, expected, {});
+        answer = difference.in_words(may_jump) +
+                 "\nThe picture: " + test::diagnose(actual, expected, {});
     return answer.c_str();
 }
 

@@ -18,6 +18,8 @@ import sys
 import tarfile
 from pathlib import Path
 
+from npm import install
+
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
 LESSONS = sorted(path.name for path in (ROOT / "lessons").glob("[01][0-9]_*"))[:11]
@@ -31,18 +33,6 @@ LIBRARIES = ("crt1-reactor.o", "crt1-command.o", "libc.a", "libc-printscan-long-
              "builtins")
 TO_WASM = ["--target=wasm32-wasi", "-std=c++20", "-fignore-exceptions", "-DGTEST_HAS_EXCEPTIONS=0",
            "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0"]
-
-
-def install(npm: str, folder: Path) -> bool:
-    folder.mkdir(parents=True, exist_ok=True)
-    for file in ("package.json", "package-lock.json"):
-        shutil.copy(HERE / file, folder)
-    command = [npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, encoding="utf-8")
-    if done.returncode != 0:
-        print(done.stderr.strip()[-2000:], file=sys.stderr)
-        print("The site is made without the editor: npm could not install its compiler.")
-    return done.returncode == 0
 
 
 def system_headers(clang: str) -> list[Path]:
@@ -172,7 +162,7 @@ def main() -> None:
     npm, clang = sys.argv[1:3]
     folder, linked, judge, out = map(Path, sys.argv[3:])
     shutil.rmtree(out, ignore_errors=True)
-    if not install(npm, folder):
+    if not install(npm, HERE, folder):
         return
     out.mkdir(parents=True)
     modules = folder / "node_modules"

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Draws pictures of tests with the reader's program, and says how they differ from the golden ones.
-// What it is loaded behind: lesson.js.
+// pack.py puts lesson.js behind it.
 
+import { readPicture } from "./read_picture.js";
 import { unpacked } from "./unpacked.js";
 import { ConsoleStdout, File, OpenFile, WASI } from "./wasi/index.js";
 
 let judge;  // the instance of judge.wasm
+const scenes = {};
 
-async function pixelsOf(blob) {
-  const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none", premultiplyAlpha: "none" });
-  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
-  context.drawImage(bitmap, 0, 0);
-  return context.getImageData(0, 0, bitmap.width, bitmap.height);
+/** A packed scene, from the script that pages load it with. */
+async function sceneOf(model) {
+  if (!scenes[model]) {
+    const answer = await fetch(new URL(`../${model.split("/").at(-1)}.js`, import.meta.url));
+    if (!answer.ok) throw new LessonError(`the scene ${model} cannot be fetched`);
+    const [, text] = (await answer.text()).match(/= "(.*)";/);
+    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    scenes[model] = new Uint8Array(await (await unpacked(new Blob([bytes]))).arrayBuffer());
+  }
+  return scenes[model];
 }
 
 /** Hands two pictures over to judge.cpp; a text comes back. */
@@ -43,20 +50,17 @@ function settingsOf(lesson, words) {
 }
 
 const tasks = {
-  draw: async ({ program, picture, scene, golden, judgeBlob }) => {
-    const module = await WebAssembly.compile(program);
-    const lesson = new Lesson(module);
+  /** Says how a picture differs from the golden one; nothing where it does not. */
+  draw: async ({ program, picture, judgeBlob }) => {
+    const lesson = new Lesson(await WebAssembly.compile(program));
     const words = [...picture.options];
-    const model = words.indexOf("--model");
-    if (model >= 0) words.splice(model, 2);
+    const at = words.indexOf("--model");
+    const model = at >= 0 ? words.splice(at, 2)[1] : lesson.model;
     lesson.set(settingsOf(lesson, words));
-    const { width, height, data } = await pixelsOf(golden);
-    lesson.take(await scene);
-    const own = lesson.draw(width, height);
-    return { text: await judged(judgeBlob, own, data, width, height, picture.mayJump) };
+    lesson.take(await sceneOf(model));
+    const { width, height, data } = await readPicture(new URL(`golden/${picture.golden}`, import.meta.url));
+    return { text: await judged(judgeBlob, lesson.draw(width, height), data, width, height, picture.mayJump) };
   },
-
-  model: async ({ program }) => ({ model: new Lesson(await WebAssembly.compile(program)).model }),
 
   /** Runs the tests of formulas; also what they have printed before they ended by a trap comes back. */
   run: async ({ program, lesson }) => {
@@ -81,9 +85,9 @@ const tasks = {
 };
 
 function inWords(error) {
-  if (error instanceof LessonError) return `${error.message}`;
-  const [, name] = String(error.stack).match(/^ *at (.+) \(wasm:|^(?=.*wasm-function)([^@]+)@/m) ?? [];
-  const where = name ? ` in ${name.replace(/^\S+\.wasm\./, "")}` : "";
+  if (error instanceof LessonError) return error.message;
+  const name = functionOf(error);
+  const where = name ? ` in ${name}` : "";
   return `the program ended${where}: ${error.said?.trim() || error.message}`;
 }
 

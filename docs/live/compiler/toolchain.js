@@ -131,7 +131,6 @@ export class Toolchain {
     this.compilers = [new Helper("compiler_worker.js", begin), new Helper("compiler_worker.js", begin)];
     this.drawing = new Helper("program_worker.js");
     this.testing = new Helper("program_worker.js");
-    this.scenes = {};
     for (const helper of this.compilers) helper.start();
   }
 
@@ -210,7 +209,7 @@ export class Toolchain {
       const picture = this.lessons[lesson].pictures[name];
       let text;
       try {
-        text = await this.drawn(lesson, picture);
+        ({ text } = await this.drawing.ask({ task: "draw", program: this.compiled.program, picture, judgeBlob: this.judgeBlob }, mostSeconds.draw));
       } catch (error) {
         if (error.name === "AbortError") throw error;
         text = error.message;
@@ -222,29 +221,6 @@ export class Toolchain {
       }
     }
     return { passed, first };
-  }
-
-  async drawn(lesson, picture) {
-    const { program } = this.compiled;
-    const { model } = await this.drawing.ask({ task: "model", program }, mostSeconds.draw);
-    const asked = picture.options.indexOf("--model");
-    const scene = await this.scene(asked >= 0 ? picture.options[asked + 1] : model.split("/").at(-1));
-    const golden = await (await fetch(at(`golden/${picture.golden}`))).blob();
-    const { text } = await this.drawing.ask({ task: "draw", program, picture, scene, golden, judgeBlob: this.judgeBlob }, mostSeconds.draw);
-    return text;
-  }
-
-  /** A packed scene, from the script that pages load it with. */
-  async scene(name) {
-    if (!this.scenes[name]) {
-      const answer = await fetch(at(`../${name}.js`)).catch(() => null);
-      if (!answer?.ok) throw new Error(`The scene ${name} cannot be fetched.`);
-      const [, text] = (await answer.text()).match(/= "(.*)";/);
-      const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-      const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-      this.scenes[name] = new Uint8Array(await new Response(stream).arrayBuffer());
-    }
-    return this.scenes[name];
   }
 
   async diagnose(lesson, own, expected, width, height) {

@@ -9,23 +9,19 @@ import subprocess
 import sys
 from pathlib import Path
 
+from npm import install
+
 HERE = Path(__file__).parent
 
 
 def main() -> None:
     npm, folder, out = sys.argv[1], *map(Path, sys.argv[2:])
     shutil.rmtree(out, ignore_errors=True)
-    folder.mkdir(parents=True, exist_ok=True)
-    for file in ("package.json", "package-lock.json"):
-        shutil.copy(HERE / file, folder)
-    install = [npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"]
-    installed = subprocess.run(install, cwd=folder, capture_output=True, encoding="utf-8")
-    if installed.returncode != 0:
-        print(installed.stderr.strip()[-2000:], file=sys.stderr)
-        print("The site is made without the editor: npm could not install what it takes.")
+    if not install(npm, HERE, folder):
         return
     sources = folder / "sources"  # what they import is looked for in the folders above them
     shutil.copytree(HERE, sources, dirs_exist_ok=True)
+    shutil.copy(HERE.parent / "compiler/read_picture.js", sources)
     options = ["--bundle", "--format=esm", "--minify", "--legal-comments=eof", "--log-level=warning"]
     esbuild = folder / "node_modules/esbuild/bin/esbuild"
     made = folder / "editor.js"

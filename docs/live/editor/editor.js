@@ -3,8 +3,9 @@
 // the same without tests. docs/live/live.js opens it, and draws with the program that is made here.
 
 import { CodeView } from "./code_view.js";
-import { comparisonOf, readPicture } from "./comparison.js";
+import { comparisonOf } from "./comparison.js";
 import { button, download, element } from "./elements.js";
+import { readPicture } from "./read_picture.js";  // of ../compiler
 import { Sandbox } from "./sandbox.js";
 import { foldersOf, forget, keep, kept, keptLessons, zipOf } from "./work.js";
 
