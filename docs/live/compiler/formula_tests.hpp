@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// GoogleTest's TEST for a page: only tests of the equations that are asked for are compiled. The
-/// others stay templates that nobody instantiates.
+/// Of a test file, a page compiles the tests of the equations that are asked for.
 #pragma once
 
 #include <string_view>
-
-#include <gtest/gtest.h>
 
 namespace rasterbook::test {
 
@@ -26,24 +23,6 @@ constexpr bool is_asked(std::string_view name) {
     return asked == "*" || asked.find(name.substr(0, end)) != std::string_view::npos;
 }
 
-template <bool is_asked, template <bool> class Test>
-bool added(const char* suite, const char* name, const char* file, int line) {
-    if constexpr (is_asked)
-        testing::RegisterTest(suite, name, nullptr, nullptr, file, line,
-                              []() -> testing::Test* { return new Test<true>; });
-    return is_asked;
-}
-
 }  // namespace rasterbook::test
 
-#undef TEST
-#define TEST(suite, name)                                                                  \
-    template <bool>                                                                        \
-    class suite##_##name##_Test : public testing::Test {                                   \
-        void TestBody() override;                                                          \
-    };                                                                                     \
-    [[maybe_unused]] const bool suite##_##name##_is_there =                                \
-        rasterbook::test::added<rasterbook::test::is_asked(#name), suite##_##name##_Test>( \
-            #suite, #name, __FILE__, __LINE__);                                            \
-    template <bool is_asked>                                                               \
-    void suite##_##name##_Test<is_asked>::TestBody()
+#include "support/asked_tests.hpp"
