@@ -19,13 +19,13 @@ bool added(const char* suite, const char* name, const char* file, int line) {
 }  // namespace rasterbook::test
 
 #undef TEST
-#define TEST(suite, name)                                                                  \
-    template <bool>                                                                        \
-    class suite##_##name##_Test : public testing::Test {                                   \
-        void TestBody() override;                                                          \
-    };                                                                                     \
-    [[maybe_unused]] const bool suite##_##name##_is_there =                                \
-        rasterbook::test::added<rasterbook::test::is_asked(#name), suite##_##name##_Test>( \
-            #suite, #name, __FILE__, __LINE__);                                            \
-    template <bool is_asked>                                                               \
-    void suite##_##name##_Test<is_asked>::TestBody()
+#define TEST(suite, name)                                                                        \
+    template <bool>                                                                              \
+    class suite##_##name##_Test : public testing::Test {                                         \
+        void TestBody() override;                                                                \
+    };                                                                                           \
+    [[maybe_unused]] const bool suite##_##name##_is_there =                                      \
+        rasterbook::test::added<IS_ASKED(#name), suite##_##name##_Test>(#suite, #name, __FILE__, \
+                                                                        __LINE__);               \
+    template <bool is_compiled>                                                                  \
+    void suite##_##name##_Test<is_compiled>::TestBody()

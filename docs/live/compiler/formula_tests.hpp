@@ -25,4 +25,5 @@ constexpr bool is_asked(std::string_view name) {
 
 }  // namespace rasterbook::test
 
+#define IS_ASKED(name) rasterbook::test::is_asked(name)
 #include "support/asked_tests.hpp"
