@@ -279,6 +279,7 @@ def check_runs(page: EditorPage) -> list[str]:
     page.open("lesson_01.html")
     page.write("// SLOW\n")
     page.button("Run").click()
+    page.until(lambda: page.outcome == "Compiling …")
     page.write("#error newer\n")
     page.run()
     if "1 error" not in page.outcome or page.script("return standIn.stops") != 1:

@@ -45,7 +45,7 @@ export class Toolchain {
         for (const severity of ["error", "warning"])
           if (code.includes(`#${severity}`)) messages.push({ file, line: i + 1, column: code.indexOf("#") + 2, severity, text: code.split(`#${severity} `)[1] ?? severity });
       });
-    await this.until(all.some(([, text]) => text.includes("SLOW")) ? 3000 : 50);
+    await this.until(all.some(([, text]) => text.includes("SLOW")) ? 60000 : 50);
     if (all.some(([, text]) => text.includes("NO TOOLCHAIN"))) throw new Error("There is not enough memory for the compiler.");
     const isWrong = messages.some(({ severity }) => severity === "error");
     return { messages, log: "", program: isWrong ? null : await programOf(lesson, files) };
