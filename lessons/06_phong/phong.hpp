@@ -65,7 +65,7 @@ using ReflectedLight = LightSum<float>;
 /// Adds one light: diffuse (Eq. 6.1), and as a highlight (Eq. 6.3). A surface that is turned away,
 /// N.L <= 0, gets nothing.
 ///
-/// @param visibility  0 to 1: how much of the light reaches the point.
+/// @param visibility  0 to 1: how much of the light reaches the point; 1 without shadows.
 /// @param highlight   PhongHighlight, or another that is called as it is.
 template <typename F, typename Highlight>
 void add_light(LightSum<F>& sum, const Light& light, const SurfacePoint<F>& point, F visibility,

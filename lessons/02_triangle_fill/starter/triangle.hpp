@@ -48,8 +48,8 @@ constexpr std::int64_t edge_function(ivec2 a, ivec2 b, ivec2 p) {
 ///               coordinate_limit in size, the triangle becomes one of no area, which covers
 ///               nothing.
 inline ScreenTriangle snap_triangle(vec2 a, vec2 b, vec2 c) {
-    // TODO, step 1: Eq. 2.8; twice the area by Eq. 2.2. Refuse what is not usable ("What is
-    // refused").
+    // TODO, step 1: Eq. 2.8; twice the area by Eq. 2.2. Reject what is not usable ("What
+    // is rejected").
     return {};
 }
 
@@ -94,7 +94,8 @@ struct EdgeWalk {
 ///                  value (Eq. 2.4), and the same whatever the part.
 template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
-    // TODO, step 1: emit the pixels of the bounding box at which no edge's value is negative.
+    // TODO, step 1: emit the pixels of the bounding box at which no edge's value is negative, with
+    // Barycentrics(0) for now.
     // TODO, step 2: with their barycentric coordinates (Eq. 2.4).
     // TODO, step 3: "All the steps in order" in the derivation.
 }

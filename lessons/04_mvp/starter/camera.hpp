@@ -46,9 +46,9 @@ inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
 /// @param bounds  Of the scene, world space. If it has no size, its radius counts as 1; if it is
 ///                empty, the same, around the origin.
 inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
-    // TODO, step 2: bounds.radius() is given, bounds.center() too, but for an empty box it would be
-    // NaN. The eye and the up direction by Eq. 4.6; Eq. 4.5; near and far as the text says after
-    // Eq. 4.8.
+    // TODO, step 2: the eye and the up direction by Eq. 4.6, around bounds.center(), or around the
+    // origin if the box is empty: its centre would be NaN. bounds.radius() works for any box. The
+    // view by Eq. 4.5; near and far as the text says after Eq. 4.8.
     return {vec3(0, 0, 1), mat4(1), 1, 1, 2};
 }
 

@@ -110,7 +110,7 @@ inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world
 /// @param position_clip  Inside the frustum, w > 0. A w of 0 gives NaN, which snap_triangle
 ///                       refuses.
 inline vec3 screen_from_clip(vec4 position_clip, ivec2 size) {
-    // TODO, step 2: divide by w; then Eq. 4.9 written out; viewport() would round otherwise.
+    // TODO, step 2: divide by w; then Eq. 4.9 written out; viewport() would round differently.
     return vec3(0);
 }
 

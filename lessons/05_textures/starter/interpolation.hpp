@@ -50,8 +50,9 @@ constexpr float min_inverse_w = 0x1p-80f;
 inline PerspectiveSetup perspective_setup(const ScreenTriangle& on_screen,
                                           const ClippedTriangle& clipped) {
     // TODO: the 1/w of Eq. 5.3, of which only the ratios count, none below min_inverse_w; the
-    // numerators; how fast they change (Eq. 2.5 over the area, in double); and whether the piece
-    // is the whole triangle: its barycentrics are (1, 0, 0), (0, 1, 0) and (0, 0, 1).
+    // numerators; and whether the piece is the whole triangle: its barycentrics are (1, 0, 0),
+    // (0, 1, 0) and (0, 0, 1). In step 3, how fast they change (Eq. 2.5 over the area, times
+    // `subpixels`, in double).
     return {};
 }
 
@@ -68,8 +69,8 @@ inline PerspectiveSetup perspective_setup(const ProjectedTriangle& projected) {
 ///                   that was cut, taking its vertices' coordinates as they are.
 template <typename F>
 PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup, Vec3<F> on_screen) {
-    // TODO: Eq. 5.2 and 5.3, and 5.7 for the derivatives. First turn the setup's vectors into
-    // Vec3<F>. In a whole triangle the numerators are just inverse_w times on_screen.
+    // TODO: Eq. 5.2 and 5.3, and in step 3 Eq. 5.7 for the derivatives. First turn the setup's
+    // vectors into Vec3<F>. In a whole triangle the numerators are just inverse_w times on_screen.
     return {on_screen, Vec3<F>(F(0.0f)), Vec3<F>(F(0.0f))};
 }
 

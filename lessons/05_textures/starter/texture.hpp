@@ -65,7 +65,8 @@ inline vec4 sample_nearest(const TextureLevel& level, vec2 position) {
 ///
 /// @param position  0 to 1.
 inline vec4 sample_bilinear(const TextureLevel& level, vec2 position) {
-    // TODO: Eq. 5.6, counted from the border's first texel.
+    // TODO: Eq. 5.6, counted from the border's first texel; column and row at most level.size (see
+    // Robust, "More than 8 million columns").
     return vec4(0);
 }
 
@@ -138,7 +139,7 @@ inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
 
 /// An image's colours decoded from sRGB (Eq. 5.11); alpha is not encoded.
 inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
-    // TODO: Eq. 5.11 in float, which common/math/color.hpp has; alpha is not encoded.
+    // TODO: Eq. 5.11 by linear_from_srgb(), in float; alpha is only divided by 255.
     return Image<vec4>(picture.size());
 }
 

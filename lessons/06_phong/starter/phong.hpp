@@ -49,7 +49,7 @@ struct PhongHighlight {
     /// @return  0 to 1. What lies behind the surface is not asked here but by add_light().
     template <typename F>
     F operator()(const SurfacePoint<F>& point, Vec3<F> toward_light) const {
-        // TODO: Eq. 6.3 by power() and select().
+        // TODO: the power of Eq. 6.3 by power(), and by select() 0 where it is below min_highlight.
         return F(0.0f);
     }
 };
@@ -65,7 +65,7 @@ using ReflectedLight = LightSum<float>;
 /// Adds one light: diffuse (Eq. 6.1), and as a highlight (Eq. 6.3). A surface that is turned away,
 /// N.L <= 0, gets nothing.
 ///
-/// @param visibility  0 to 1: how much of the light reaches the point.
+/// @param visibility  0 to 1: how much of the light reaches the point; 1 without shadows.
 /// @param highlight   PhongHighlight, or another that is called as it is.
 template <typename F, typename Highlight>
 void add_light(LightSum<F>& sum, const Light& light, const SurfacePoint<F>& point, F visibility,
@@ -129,7 +129,7 @@ Vec3<F> unlit(const FragmentColor<F>& color) {
 /// @param light     0 to 10.
 template <typename F>
 Vec3<F> phong(const FragmentColor<F>& color, vec3 ambient, const LightSum<F>& light) {
-    // TODO: Eq. 6.5. Until then, the surface's own colour.
+    // TODO: step 1 the diffuse term of Eq. 6.5, step 2 the others. Until then, its own colour.
     return unlit(color);
 }
 

@@ -35,11 +35,11 @@ constexpr vec3 ink(0.006f, 0.005f, 0.009f);  ///< The colour of outlines; linear
 ///
 /// @return  Of length 1; 0 where there is none, as on a sheet with two sides.
 inline std::vector<vec3> hull_normals(const Mesh& mesh) {
-    // TODO: Eq. 7.8: with face_normal and vertex_angle_radians, sum over the faces around each
-    // index, in the order of the mesh. Then add up the sums of equal positions, in the order of
-    // their indices, and scale to length 1, with unit_or(sum, vec3(0)). To find equal positions,
-    // sort the indices by the bits of position + 0.0f (std::bit_cast): so -0 equals 0, and NaN has
-    // its place, too.
+    // TODO: Eq. 7.8: with face_normal and vertex_angle_radians of lesson 06, sum over the faces
+    // around each index, in the order of the mesh. Then add up the sums of equal positions, in the
+    // order of their indices, and scale to length 1, with unit_or(sum, vec3(0)). To find equal
+    // positions, sort the indices by the bits of position + 0.0f (std::bit_cast): so -0 equals 0,
+    // and NaN has its place, too.
     return std::vector<vec3>(mesh.positions.size(), vec3(0));
 }
 
@@ -132,12 +132,12 @@ template <typename CounterPolicy>
 void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
                 float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,
                 CounterPolicy& counters) {
-    // TODO: for each pixel Eq. 7.14, with the neighbours `reach` = width_px / 2, rounded up, pixels
-    // away; at the picture's border all of it, also the threshold, for the nearest pixel that has
-    // neighbours on all sides. Take the root for depth with std::hypot: a square may vanish or
-    // overflow. Count Counter::outline_tests for each pixel (also if `reach` is 0) and
-    // Counter::outline_pixels for each one inked. In a picture at most 2 * reach pixels wide or
-    // high, do nothing and count nothing.
+    // TODO: for each pixel Eq. 7.14, of the numbers in depth.depths(), with the neighbours `reach`
+    // = width_px / 2, rounded up, pixels away; at the picture's border all of it, also the
+    // threshold, for the nearest pixel that has neighbours on all sides. Take the root for depth
+    // with std::hypot: a square may vanish or overflow. Count Counter::outline_tests for each pixel
+    // (also if `reach` is 0) and Counter::outline_pixels for each one inked. In a picture at most 2
+    // * reach pixels wide or high, do nothing and count nothing.
 }
 
 }  // namespace rasterbook

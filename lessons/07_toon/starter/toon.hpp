@@ -89,7 +89,7 @@ inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const Reflecte
 /// @return  0 to 1, but for rounding; 0 for NaN, and for normals that point away, as interpolated
 ///          ones may at a silhouette.
 inline float facing_ratio(vec3 normal, vec3 toward_eye) {
-    // TODO: the ratio of Eq. 7.6; NaN as in brightness().
+    // TODO: the ratio of Eq. 7.6; NaN counts as 0: std::max(0.0f, ...).
     return 1;
 }
 

@@ -42,9 +42,10 @@ struct UvDirections {
 ///          that are 0 or less than 2^29 times each other.
 inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
                                   const std::array<vec2, 3>& uvs) {
-    // TODO: Eq. 8.3. Convert to double first, dvec3(positions[1]) and so on: products of floats may
-    // overflow or vanish. normalize_or() with dvec3(0) scales to length 1. Robust: the determinant
-    // by difference_of_products(); where it is 0 or not finite, {}. The handedness is Eq. 8.4.
+    // TODO: step 2: Eq. 8.3. Convert to double first, dvec3(positions[1]) and so on: products of
+    // floats may overflow or vanish. normalize_or() with dvec3(0) scales to length 1. Robust: the
+    // determinant by difference_of_products(); where it is 0 or not finite, {}. Step 3: the
+    // handedness, Eq. 8.4.
     return {};
 }
 
@@ -134,7 +135,8 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
     const auto position = [&](std::size_t i) {
         return mesh.positions[triangle.vertices[i].position];
     };
-    // TODO: uv_directions() as seen from this vertex, as if it were the first one.
+    // TODO: uv_directions() as seen from this vertex, as if it were the first one. It gives the
+    // tangent, and the handedness in place of 1.
     const int handedness = 1;
     const std::uint32_t normal = triangle.vertices[vertex].normal;
     const vec3 p = position(vertex), n = mesh.normals[normal];

@@ -60,7 +60,7 @@ struct ShadowMap {
               DepthBuffer memory)
         : size(texels),
           clip_from_world(clip),
-          texels_from_world(1),  // TODO: step 1: Eq. 9.6, viewport<double>() and clip
+          texels_from_world(1),  // TODO: step 1: Eq. 9.6 by viewport<double>()
           plane_from_world(1),   // TODO: step 2: (T^-1)^T of Eq. 9.8, in double
           is_perspective(perspective),
           depths(std::move(memory)) {
@@ -106,10 +106,10 @@ struct ShadowMap {
 template <typename Casts, typename CounterPolicy>
 void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
     if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
-    // TODO: step 1: as lesson 04 draws a mesh, with transform(), clip_triangle() and project(), but
-    // only what casts is drawn, front and back faces alike, and only depths, in a picture of
-    // map.size x map.size. Its texel (0, 0) is (max_pcf_radius, max_pcf_radius) of map.depths.
-    // Count Counter::shadow_fragments.
+    // TODO: step 1: as for_each_visible_triangle() of lesson 04, with transform(), clip_triangle()
+    // and project(), then fill_triangle() and test_and_write(). But only what casts is drawn, front
+    // and back faces alike, and only depths, in a picture of map.size x map.size. Its texel (0, 0)
+    // is (max_pcf_radius, max_pcf_radius) of map.depths. Count Counter::shadow_fragments.
 }
 
 /// What keeps a lit surface from shadowing itself.
@@ -148,12 +148,12 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
         result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
     if (bias == Bias::none || bias == Bias::constant) return result;
 
-    // TODO: step 2: n by normalize_or(), 0 if the triangle has no area. The plane as the map sees
-    // it, Eq. 9.8; if dot(n, outward) < 0, change the signs of plane and n. Unless plane.z < 0,
-    // return a bias of 2 and nothing else. The same unless sum = |z_x| + |z_y| is <= max_slope.
-    // (Ask it this way round: a comparison with NaN is false.) Else Eq. 9.9 and depth_quanta for
-    // Bias::slope and Bias::plane; for Bias::plane, z_x and z_y as well, in result.slope. Leave
-    // Bias::normal for later.
+    // TODO: step 2: n by normalize_or() of the cross product of two sides, in double; 0 if the
+    // triangle has no area. The plane as the map sees it, Eq. 9.8; if dot(n, outward) < 0, change
+    // the signs of plane and n. Unless plane.z < 0, return a bias of 2 and nothing else. The same
+    // unless sum = |z_x| + |z_y| is <= max_slope. (Ask it this way round: a comparison with NaN is
+    // false.) Else Eq. 9.9 and depth_quanta for Bias::slope and Bias::plane; for Bias::plane, z_x
+    // and z_y as well, in result.slope. Leave Bias::normal for later.
     //
     // Step 5: Robust derives it from "The last two per cent of the bias" to "Off the surface".
     // Bias::slope, Eq. 9.10:

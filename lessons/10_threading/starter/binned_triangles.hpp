@@ -37,8 +37,9 @@ class TriangleBatch {
         const auto for_each_tile = [&](const ProjectedTriangle& ready, auto&& take) {
             tiling.for_each_in(ready.on_screen, take);
         };
-        // TODO: count, add up, and write from the last triangle to the first. What would be in more
-        // than max_lists lists goes into large_ instead.
+        // TODO: count the triangles of each list in begin_, add up, and fill indices_ from the last
+        // triangle to the first; for_each_tile(triangle, take) calls take(tile). What would be in
+        // more than max_lists lists goes into large_ instead.
     }
 
     /// Indices into `triangles` of those in a tile's list, ascending.

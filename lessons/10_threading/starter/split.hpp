@@ -78,8 +78,8 @@ class Tiling {
     Tiling(Split split, ivec2 size, std::size_t workers, int tile_size)
         : split_(split), size_(size), tile_size_(tile_size) {
         assert(workers >= 1 && tile_size >= 1);
-        // TODO: how many columns and rows of tiles there are: step 1, Eq. 10.3 and 10.4; step 2,
-        // Eq. 10.5.
+        // TODO: how many columns and rows of tiles there are: step 1, one column, and a row for
+        // each worker; step 2, Eq. 10.5.
     }
 
     ivec2 size() const { return size_; }
@@ -89,7 +89,7 @@ class Tiling {
 
     /// @param tile  From 0 to count() - 1.
     Tile operator[](std::size_t tile) const {
-        // TODO: step 1, Eq. 10.3 and 10.4; step 2, Eq. 10.5.
+        // TODO: step 1, Eq. 10.3, and Eq. 10.4 by row_step; step 2, Eq. 10.5.
         return {{ivec2(0), size_ - 1}};
     }
 
@@ -107,7 +107,7 @@ class Tiling {
     /// Calls take(tile) once for each tile that has a pixel in the box.
     template <typename Take>
     void for_each_in(const PixelBox& box, Take&& take) const {
-        // TODO: step 4, Eq. 10.6, the box cut to the picture.
+        // TODO: step 4, Eq. 10.6, the box cut to the picture; rows as the text says behind it.
     }
 
   private:

@@ -34,7 +34,8 @@ class ThreadPool {
     /// @throws std::system_error  When the system does not give that many; none is left running.
     explicit ThreadPool(int threads) {
         assert(threads >= 1 && "the caller is a worker, too");
-        // TODO: one less than `threads`, each of which runs work() with its number.
+        // TODO: one less than `threads`, numbered from 1: each is a std::jthread, whose function
+        // takes a std::stop_token and calls work() with it and its number.
     }
 
     /// How many work, the caller among them.
@@ -71,7 +72,8 @@ class ThreadPool {
     void work(const std::stop_token& stop, std::size_t worker) {
         // TODO: wait for a job that this worker has not been in, take tasks, and again, until
         // `stop`. has_job_.wait(lock, stop, condition) gives false once the pool is to end and
-        // there is no job.
+        // there is no job. While it is in the job, busy_ counts it; the last one to leave notifies
+        // is_done_.
     }
 
     std::mutex mutex_;

@@ -22,7 +22,7 @@ namespace rasterbook {
 template <typename F>
 auto passes_alpha_test(F opacity, float cutoff) {
     // TODO: Eq. 11.7.
-    return opacity == opacity;  // true
+    return opacity == opacity;  // true, but for NaN
 }
 
 /// A colour over what lies behind it (Eq. 11.8): exactly itself with an opacity of 1, exactly what

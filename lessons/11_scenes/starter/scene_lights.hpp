@@ -47,7 +47,7 @@ inline Light light_of(const SceneLight& from, float scene_radius) {
 /// @param bounds  Of the scene, world space.
 /// @return  > 0, at most 1.
 inline float exposure_of(std::span<const SceneLight> lights, const Bounds& bounds) {
-    // TODO
+    // TODO: Eq. 11.12, in double.
     return 1;
 }
 

@@ -39,8 +39,8 @@ class BarycentricPlanes {
     explicit BarycentricPlanes(const ScreenTriangle& triangle)
         : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
         // TODO: step 2: for each vertex the plane of the edge function opposite to it (Eq. 12.2).
-        // EdgeWalk has its value in a pixel, here ivec2(0), and its steps. As in fill_triangle(),
-        // `winding` makes the inside positive.
+        // EdgeWalk has its value in a pixel, here ivec2(0), and its steps. As in fill_triangle(), a
+        // winding of 1 or -1, the sign of twice_area, makes the inside positive.
     }
 
     /// Calls take(pixel, Barycentrics) for each pixel of a run: the same bits that fill_triangle()

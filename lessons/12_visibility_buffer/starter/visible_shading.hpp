@@ -58,9 +58,9 @@ template <typename Maps, typename CounterPolicy>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
              TileVisibility& visible, CounterPolicy& counters) {
     // TODO: step 1: an id by visible.add(), and the triangle's pixels by fill_tile(). Count each as
-    // a Counter::fragments_tested. Where the depth test is passed, the pixel's id is the triangle's
-    // (Eq. 12.1). A material with Effect::mask has holes: there, for_each_nearer_fragment() visits
-    // what is left of the triangle, and it counts.
+    // a Counter::fragments_tested. Where frame.depth.test_and_write() passes, the pixel's id is
+    // the triangle's (Eq. 12.1). A material with Effect::mask has holes: there,
+    // for_each_nearer_fragment() visits what is left of the triangle, and it counts.
 }
 
 /// Draws the colours of the pixels in which a triangle is visible.
@@ -68,8 +68,8 @@ template <Permutation with, typename Maps, typename CounterPolicy>
 void shade_pixels(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                   std::span<const PixelRun> runs, CounterPolicy& counters) {
     // TODO: step 2: triangle_inputs(), once. Then for each pixel of the runs the barycentric
-    // coordinates by BarycentricPlanes, made perspective-correct, and shaded(). Count each pixel as
-    // one of Counter::fragments_shaded.
+    // coordinates by BarycentricPlanes, made perspective-correct, and shaded(), which gives its
+    // frame.color. Count each pixel as one of Counter::fragments_shaded.
 }
 
 /// A transparent fragment to be shaded.
@@ -102,31 +102,23 @@ class VisibleShaders {
                                 std::span<FragmentToShade>, CounterPolicy&);
     };
 
-    using OfPermutations = std::array<Shader, all_permutations.size()>;
-
-    /// @param shaders  Of each permutation.
-    explicit VisibleShaders(const ScenePlan& plan, const OfPermutations& shaders = one_by_one) {
+    explicit VisibleShaders(const ScenePlan& plan) {
         for (const MaterialPlan& material : plan.materials)
-            of_material_.push_back(shaders[permutation_of(material)]);
+            of_material_.push_back(table[permutation_of(material)]);
     }
 
     const Shader& operator[](std::size_t material) const { return of_material_[material]; }
 
-    /// A pixel after the other.
-    static const OfPermutations one_by_one;
-
   private:
+    template <std::size_t... i>
+    static constexpr std::array<Shader, sizeof...(i)> compiled(std::index_sequence<i...>) {
+        return {Shader{&rasterbook::shade_pixels<all_permutations[i], Maps, CounterPolicy>,
+                       &rasterbook::shade_fragments<all_permutations[i], Maps, CounterPolicy>}...};
+    }
+    static constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
+
     std::vector<Shader> of_material_;
 };
-
-template <typename Maps, typename CounterPolicy>
-constexpr typename VisibleShaders<Maps, CounterPolicy>::OfPermutations
-    VisibleShaders<Maps, CounterPolicy>::one_by_one =
-        []<std::size_t... i>(std::index_sequence<i...>) {
-            return OfPermutations{
-                Shader{&rasterbook::shade_pixels<all_permutations[i], Maps, CounterPolicy>,
-                       &rasterbook::shade_fragments<all_permutations[i], Maps, CounterPolicy>}...};
-        }(std::make_index_sequence<all_permutations.size()>());
 
 /// Draws the colours of all pixels in which a triangle is visible, each once: Eq. 12.5 says what
 /// that saves. Then the tile has no triangles any more.

@@ -138,8 +138,9 @@ class PixelBatch {
     void add(const PixelRun& run) {
         // TODO: step 1: fill_up() gives columns and rows to all empty lanes: the first one of them
         // is lane count_. Of the run's pixels, as many count as the batch has room for. Once it is
-        // full: N neighbours get their colours from store(), any others from shade_and_scatter().
-        // Both empty the batch; the rest of the run goes into the next one.
+        // full, it is shaded: store() writes what shade() returns if the N pixels are neighbours;
+        // else shade_and_scatter() does all of it. Both empty the batch; the rest of the run goes
+        // into the next one.
     }
 
     /// Shades what is left. The lanes that are left over repeat the last pixel.
@@ -166,8 +167,8 @@ class PixelBatch {
         // its inputs.setup, of which perspective_correct() makes coordinates for all lanes.
         // select() puts them into at_ from lane first_ on, so where first_lanes<F>(first_) does not
         // hold. inputs_.set() does so with the triangle's inputs; it takes frame_.normal_map.frame
-        // and the number slot_, too. Where is_in_all_lanes_ holds, they are there from the batch
-        // before. Say whether they are in all lanes now. The next triangle's pixels begin at
+        // and the number slot_, too. If is_in_all_lanes_, they are there from the batch before.
+        // After this, they are in all lanes if first_ is 0. The next triangle's pixels begin at
         // count_.
     }
 

@@ -200,8 +200,9 @@ inline Floats<N> to_floats(Ints<N> x) {
 /// std::floor of each number, to the bit (Eq. 13.3). From 2^23 on, all numbers are whole.
 template <int N>
 inline Floats<N> floor(Floats<N> x) {
-    // TODO: step 1: Eq. 13.3, by truncated() and to_floats(). x itself where it is whole, so that
-    // -0 stays -0, and where it is 2^23 or more in size or NaN: give truncated() a 0 there.
+    // TODO: step 1: Eq. 13.3, by truncated() and to_floats(). Return x itself where it is
+    // whole, so that -0 stays -0; and where it is NaN, or 2^23 or more in size: truncated() gets a
+    // 0 there.
     return x;
 }
 
