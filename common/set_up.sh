@@ -118,6 +118,26 @@ quietly() {
 # Prints the lines "$1: ..." of the comment in the README of lesson $2.
 marks_of() { sed -n "s/^$1: //p" "lessons/$2/README.md"; }
 
+# Prints the lesson that lesson $1 goes on from: the one in its README's line "builds on: ", or the one before it; of the first
+# one, nothing.
+lesson_before() {
+    local before folder
+    before=$(marks_of "builds on" "$1")
+    [ -n "$before" ] || for folder in lessons/[0-9][0-9]_*/; do
+        folder=$(basename "$folder")
+        [ "$folder" != "$1" ] || break
+        before=$folder
+    done
+    echo "$before"
+}
+
+# Prints the main.cpp that lesson $1 begins with: that of the lesson before, with its own name and number.
+main_to_begin_with() {
+    local before
+    before=$(lesson_before "$1")
+    sed "s/\"$before\"/\"$1\"/; s|^/// Lesson ${before%%_*}|/// Lesson ${1%%_*}|" "lessons/$before/main.cpp"
+}
+
 # Prints one line of the steps of lesson $2, by its number $1: EQUATIONS | OPTIONS | PICTURES | TITLE.
 step_of() {
     local line=

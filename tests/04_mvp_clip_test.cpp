@@ -592,7 +592,7 @@ TEST(Mvp, EachVisibleTriangleIsVisitedInTheScenesOrder) {
     for (int i = 0; i < parts; ++i) expected.push_back({&last, &last.triangles[0], is_back});
     expected.push_back({&last, &last.triangles[1], false});
     EXPECT_TRUE(both == expected);
-    std::erase_if(both, &Visited::is_back_facing);
+    std::erase_if(both, [](const Visited& one) { return one.is_back_facing; });
     EXPECT_TRUE(fronts == both);
     for (const Counters& counters : {culled, all}) {
         EXPECT_EQ(count(counters, Counter::meshes_in), 3u);

@@ -230,6 +230,8 @@ def check_loop(page: EditorPage, build: Path) -> list[str]:
         problems.append("does not count what passes")
     if not page.one(".failure").text.startswith("FAILED Lines.PictureOfTheLesson"):
         problems.append("does not show the first failure")
+    if not page.one(".failure a").get_attribute("href").endswith("/derivation_01.html#eq_1_3"):
+        problems.append("does not lead to the equation that is to be read")
     page.until(lambda: page.all(".looks"))
     sizes = [(canvas.get_property("width"), canvas.get_property("height")) for canvas in page.all("figure canvas")]
     words = page.one(".comparison").text
@@ -261,10 +263,12 @@ def check_loop(page: EditorPage, build: Path) -> list[str]:
 
     page.write("int done;\n")
     page.run()
+    if "Step 1 is done" not in page.outcome or "main.cpp is still" not in page.outcome:
+        problems.append(f"of a main.cpp that is left as it was it says '{page.outcome}'")
     page.all(".tabs button")[1].click()
     page.write("int main() {}\n")
     page.run()
-    if "Step 1 is done" not in page.outcome or page.all(".messages li"):
+    if not re.fullmatch(r"Step 1 is done; compiled and tested in [\d.]+ s\.", page.outcome) or page.all(".messages li"):
         problems.append(f"of what is right it says '{page.outcome}'")
     page.button("Go on to step 2").click()
     page.wait()

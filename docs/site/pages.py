@@ -8,6 +8,7 @@ BUILD_FOLDER/site_pages, and BUILD_FOLDER/site what Doxygen does not bring itsel
 """
 
 import html
+import json
 import os
 import re
 import shutil
@@ -99,6 +100,8 @@ class Site:
         self.has_editor = is_editor and all(
             (scripts / part).exists() for part in ("editor/editor.js", "compiler/manifest.json")
         )
+        written = scripts / "compiler/lessons.json"
+        self.written = set(json.loads(written.read_text("utf-8"))) if self.has_editor else set()
         self.kept = build / "webp"  # pictures that were converted before
         self.to_webp: dict[Path, Path] = {}
         self.pages, self.site = build / "site_pages", build / "site"
@@ -182,6 +185,19 @@ class Site:
         with ThreadPoolExecutor() as pool:
             list(pool.map(lambda pair: convert(*pair), self.to_webp.items()))
 
+    def without_a_command_line(self, number: str, text: str) -> str:
+        """A lesson's text that says where its page has what the command line has."""
+        diff = f"`./lessons/run --diff {number}`"
+        text = text.replace(diff, f"[{diff}](changes_{number}.html)")
+        if not any(lesson.startswith(number) for lesson in self.written):
+            return text
+        heading = "## Write it yourself\n"
+        note = (
+            "Here, the button **Write it yourself** below the picture opens these files in an editor, "
+            "with the same steps and tests. On the command line:\n"
+        )
+        return text.replace(heading, f"{heading}\n{note}")
+
     def write(self, name: str, text: str) -> None:
         (self.pages / f"{name}.md").write_text(text, encoding="utf-8")
 
@@ -236,6 +252,8 @@ class Site:
             return found[0]
 
         text = TOKENS.sub(convert_token, text).partition("\n")[2]
+        if page.name.startswith("lesson_"):
+            text = self.without_a_command_line(page.name[-2:], text)
         text = EMPHASIS_WITH_FORMULA.sub(
             lambda found: "<{0}>{1}</{0}>".format("b" if found[1] == "**" else "em", found[2]), text
         )
@@ -443,7 +461,7 @@ def main() -> None:
             name = title(page) if page.text else f"What lesson {LESSONS[lesson][:2]} changes"
             text = site.convert(page) if page.text else changes(lesson)
             if site.is_live and page == pages[0]:
-                text = with_live_picture(LESSONS[lesson], text, site.has_editor)
+                text = with_live_picture(LESSONS[lesson], text, LESSONS[lesson] in site.written)
             text = f"{steps(lesson, page)}\n{text}{neighbours(lesson, page)}"
             site.write(page.name, f"# {name} {{#{page.name}}}\n{text}")
     site.convert_pictures()

@@ -42,10 +42,11 @@ std::filesystem::path actual_file_of(const std::string& golden) {
 
 /// Compares the picture in actual_file_of(golden) with the golden one.
 ///
+/// @param drawn      How, if not by default: "with --light spot, ".
 /// @param diagnosis  Called as diagnosis(actual, expected): what to say of pictures that differ.
 template <typename Diagnosis>
 testing::AssertionResult is_golden(const std::string& golden, std::size_t may_jump,
-                                   const Diagnosis& diagnosis) {
+                                   const std::string& drawn, const Diagnosis& diagnosis) {
     const std::filesystem::path expected_file =
         std::filesystem::path(RASTERBOOK_GOLDEN) / (golden + ".png");
     const std::filesystem::path actual_file = actual_file_of(golden);
@@ -74,7 +75,7 @@ testing::AssertionResult is_golden(const std::string& golden, std::size_t may_ju
         std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_comparison.png");
     write_image(comparison, side_by_side(expected, actual));
     return testing::AssertionFailure()
-           << difference.in_words(may_jump) << diagnosis(actual, expected)
+           << drawn << difference.in_words(may_jump) << diagnosis(actual, expected)
            << "\nexpected | actual | difference: " << comparison.string() << if_it_is_right;
 }
 
@@ -91,7 +92,11 @@ testing::AssertionResult equals_golden(const std::string& lesson, const std::str
         return testing::AssertionFailure() << lesson << " failed: " << run.err;
     if (const char* const folder = std::getenv("RASTERBOOK_KEEP_PICTURES"))
         std::filesystem::copy(actual_file_of(golden), folder);
-    return is_golden(golden, may_jump, [&](const auto& actual, const auto& expected) {
+    std::string drawn;
+    for (const std::string& argument : arguments)
+        drawn += (drawn.empty() ? "with " : " ") + argument;
+    if (!drawn.empty()) drawn += ", ";
+    return is_golden(golden, may_jump, drawn, [&](const auto& actual, const auto& expected) {
         return "\nThe picture: " +
                diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()));
     });

@@ -62,7 +62,7 @@ class FailurePrinter : public testing::EmptyTestEventListener {
     }
 
     void OnTestEnd(const testing::TestInfo& test) override {
-        if (failures_ > 1) text_ << "(" << failures_ - 1 << " more failures in this test)\n";
+        if (failures_ > 1) text_ << "(further failures in this test: " << failures_ - 1 << ")\n";
         if (report_.empty()) {
             std::cout << text_.str() << std::flush;
             return;

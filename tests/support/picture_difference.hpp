@@ -45,10 +45,12 @@ struct PictureDifference {
     }
 
     std::string in_words(std::size_t may_jump) const {
-        return std::to_string(differing) + " pixels differ, the most by " +
-               std::to_string(greatest) + " of 255; up to " + std::to_string(allowed) +
-               " may, by no more than " + std::to_string(levels_that_may_differ) + ", but for " +
-               std::to_string(may_jump) + " of them";
+        const std::string rounding = std::to_string(allowed) + " pixels may differ by " +
+                                     std::to_string(levels_that_may_differ) + ", from rounding";
+        const std::string tones =
+            may_jump > 0 ? ", and " + std::to_string(may_jump) + " of them by any amount" : "";
+        return std::to_string(differing) + " pixels differ, by up to " + std::to_string(greatest) +
+               " of 255 (" + rounding + tones + ")";
     }
 };
 

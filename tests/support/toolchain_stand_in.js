@@ -57,7 +57,7 @@ export class Toolchain {
     const isDone = !Object.values(files).some((text) => text.includes("TODO"));
     const tiers = [{ name: "formulas", passed: isDone ? 9 : 5, total: 9 }, { name: "pictures", passed: isDone ? 1 : 0, total: 1 }];
     const first = isDone ? null : {
-      text: "FAILED Lines.PictureOfTheLesson\ntests/01_bresenham_lines_test.cpp:112: 1,234 pixels differ; the first is pixel 10, 20: yours 0 0 0, expected 12 13 14",
+      text: "FAILED Lines.PictureOfTheLesson\nTo read: docs/derivations/01_bresenham_lines.md, Eq. 1.3\ntests/01_bresenham_lines_test.cpp:112: 1,234 pixels differ; the first is pixel 10, 20: yours 0 0 0, expected 12 13 14",
       picture: { name: "PictureOfTheLesson", options: ["--paint", "barycentric"], golden: `${lesson}.png` },
     };
     return { messages: [], log: "", tiers, first };

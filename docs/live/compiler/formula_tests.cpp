@@ -44,7 +44,7 @@ class Printer : public testing::EmptyTestEventListener {
     }
 
     void OnTestEnd(const testing::TestInfo& test) override {
-        if (failures_ > 1) text_ << "(" << failures_ - 1 << " more failures in this test)\n";
+        if (failures_ > 1) text_ << "(further failures in this test: " << failures_ - 1 << ")\n";
         if (failures_ == 0)
             std::printf("\1passed %s\n", test.name());
         else

@@ -217,7 +217,8 @@ export class Toolchain {
       if (text === "") ++passed;
       else {
         const { suite, place, options, golden } = picture;
-        first ??= { text: `FAILED ${suite}.${name}\n${place}: ${text}`, picture: { name, options, golden } };
+        const drawn = options.length > 0 ? `with ${options.join(" ")}, ` : "";
+        first ??= { text: `FAILED ${suite}.${name}\n${place}: ${drawn}${text}`, picture: { name, options, golden } };
       }
     }
     return { passed, first };

@@ -303,7 +303,8 @@ class Editor {
     const warned = warnings > 0 ? ` with ${counted(warnings, "warning")}` : "";
     if (!program) {
       const errors = messages.filter(({ severity }) => severity === "error").length;
-      return this.say(`It does not compile${errors > 0 ? `: ${counted(errors, "error")}` : ""}${warned}.`, "wrong");
+      const whose = this.hasDrawn ? "" : " The picture is still the course's.";
+      return this.say(`It does not compile${errors > 0 ? `: ${counted(errors, "error")}` : ""}${warned}.${whose}`, "wrong");
     }
     const options = this.optionsToDraw();
     this.isNewStep = false;
@@ -373,16 +374,20 @@ class Editor {
     }));
     const number = this.start.name.slice(0, 2);
     const what = this.step > 0 ? `Step ${this.step}` : `Lesson ${number}`;
+    const isUntouched = this.files["main.cpp"] === this.start.files["main.cpp"] && this.files["main.cpp"] !== this.start.solution["main.cpp"];
     if (isAll && tiers.length > 0) {
       const next = this.step > 0 && this.step < this.steps.length ? `Go on to step ${this.step + 1}` : this.step > 0 ? "Test the whole lesson" : "";
-      this.say(`${what} is done; ${how}.${next ? "" : ` The hard cases are for ./tests/run --mine ${number}.`}`, "right");
+      this.say(`${what} is done; ${how}.`, "right");
+      if (isUntouched) this.status.append(" But main.cpp is still that of the lesson before: see ", element("a", { href: "#what-changes-in-maincpp", textContent: "what changes in it" }), ".");
+      if (!next) this.status.append(" The hard cases are tested on the command line: ", element("code", { textContent: `./tests/run --mine ${number}` }));
       this.onward.textContent = next;
       this.onward.hidden = next === "";
     } else if (tiers.length === 0) {
-      this.say(`Compiled. Tests of ${this.step > 0 ? "this step" : "this lesson"} need what a browser has not: ./tests/run --mine ${number} runs them.`);
+      this.say(`Compiled. Tests of ${this.step > 0 ? "this step" : "this lesson"} need what a browser has not: `);
+      this.status.append(element("code", { textContent: `./tests/run --mine ${number}` }), " runs them.");
     } else this.say(`${what} is not done yet; ${how}.`, "wrong");
     this.failure.hidden = !first;
-    if (first) this.failure.textContent = first.text;
+    if (first) this.failure.replaceChildren(...withLink(first.text));
   }
 
   async compare({ name, options, golden }, isOld) {
@@ -395,6 +400,16 @@ class Editor {
     const looks = await this.toolchain.diagnose(this.start.compiled, own.data, expected.data, expected.width, expected.height);
     if (!isOld() && looks) box.append(element("p", { className: "looks", textContent: looks }));
   }
+}
+
+/** A failure's text, in which the equation to read is a link to it. */
+function withLink(text) {
+  const found = text.match(/^To read: (docs\/derivations\/(\d\d)_\w+\.md, .*?(\d+)\.(\d+).*)$/m);
+  if (!found) return [text];
+  const [line, place, lesson, chapter, equation] = found;
+  const begin = found.index + line.length - place.length;
+  const link = element("a", { href: `derivation_${lesson}.html#eq_${chapter}_${equation}`, textContent: place });
+  return [text.slice(0, begin), link, text.slice(begin + place.length)];
 }
 
 const counted = (count, one, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
