@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The lights of lessons 06 to 08, and the ambient light of all. Introduced in lesson 06.
+/// The lights of lessons 06 to 08, and the ambient light that later ones share. Introduced in
+/// lesson 06.
 #pragma once
 
 #include <algorithm>

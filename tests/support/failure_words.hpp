@@ -27,4 +27,12 @@ inline std::string first_lines(const std::string& text) {
     return end == std::string::npos ? text : text.substr(0, end) + "\n...";
 }
 
+/// What is said of a test's failures but for the first, which is shown.
+///
+/// @param failures  All of them.
+inline std::string further_failures(int failures) {
+    if (failures <= 1) return "";
+    return "(further failures in this test: " + std::to_string(failures - 1) + ")\n";
+}
+
 }  // namespace rasterbook::test

@@ -62,7 +62,7 @@ class FailurePrinter : public testing::EmptyTestEventListener {
     }
 
     void OnTestEnd(const testing::TestInfo& test) override {
-        if (failures_ > 1) text_ << "(further failures in this test: " << failures_ - 1 << ")\n";
+        text_ << further_failures(failures_);
         if (report_.empty()) {
             std::cout << text_.str() << std::flush;
             return;

@@ -44,7 +44,7 @@ class Printer : public testing::EmptyTestEventListener {
     }
 
     void OnTestEnd(const testing::TestInfo& test) override {
-        if (failures_ > 1) text_ << "(further failures in this test: " << failures_ - 1 << ")\n";
+        text_ << further_failures(failures_);
         if (failures_ == 0)
             std::printf("\1passed %s\n", test.name());
         else

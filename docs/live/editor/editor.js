@@ -378,7 +378,7 @@ class Editor {
     if (isAll && tiers.length > 0) {
       const next = this.step > 0 && this.step < this.steps.length ? `Go on to step ${this.step + 1}` : this.step > 0 ? "Test the whole lesson" : "";
       this.say(`${what} is done; ${how}.`, "right");
-      if (isUntouched) this.status.append(" But main.cpp is still that of the lesson before: see ", element("a", { href: "#what-changes-in-maincpp", textContent: "what changes in it" }), ".");
+      if (isUntouched) this.status.append(` But main.cpp is still lesson ${this.start.before.slice(0, 2)}'s: see `, element("a", { href: "#what-changes-in-maincpp", textContent: "what changes in it" }), ".");
       if (!next) this.status.append(" The hard cases are tested on the command line: ", element("code", { textContent: `./tests/run --mine ${number}` }));
       this.onward.textContent = next;
       this.onward.hidden = next === "";

@@ -22,8 +22,9 @@ namespace rasterbook {
 
 /// The direction out of a triangle's front, length 1; up for a triangle of no area.
 inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle) {
-    // TODO: the cross product of two sides, by normalize_or(); in double, since products of floats
-    // may overflow or vanish. A vertex is at mesh.positions[triangle.vertices[i].position].
+    // TODO: the cross product of two sides, scaled by normalize_or(); in double, since products
+    // of floats may overflow or vanish. A vertex is at
+    // mesh.positions[triangle.vertices[i].position].
     return {0, 1, 0};
 }
 

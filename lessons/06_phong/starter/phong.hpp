@@ -129,7 +129,8 @@ Vec3<F> unlit(const FragmentColor<F>& color) {
 /// @param light     0 to 10.
 template <typename F>
 Vec3<F> phong(const FragmentColor<F>& color, vec3 ambient, const LightSum<F>& light) {
-    // TODO: step 1 the diffuse term of Eq. 6.5, step 2 the others. Until then, its own colour.
+    // TODO: step 1, the diffuse term of Eq. 6.5; step 2, the others. Until then, the surface's own
+    // colour.
     return unlit(color);
 }
 

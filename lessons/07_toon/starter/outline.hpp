@@ -136,8 +136,8 @@ void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Came
     // = width_px / 2, rounded up, pixels away; at the picture's border all of it, also the
     // threshold, for the nearest pixel that has neighbours on all sides. Take the root for depth
     // with std::hypot: a square may vanish or overflow. Count Counter::outline_tests for each pixel
-    // (also if `reach` is 0) and Counter::outline_pixels for each one inked. In a picture at most 2
-    // * reach pixels wide or high, do nothing and count nothing.
+    // (also if `reach` is 0) and Counter::outline_pixels for each one inked. In a picture of at
+    // most twice `reach` pixels in width or height, do nothing and count nothing.
 }
 
 }  // namespace rasterbook

@@ -143,9 +143,9 @@ inline DepthRange depth_range(double nearest_caster, double farthest) {
 /// @return  Of count 0 when in front of the light and in its cone no receiver lies behind a caster.
 inline LightViews spotlight_views(const Light& light, const Bounds& casters,
                                   const Bounds& receivers, int size) {
-    // TODO: step 4: P V, by perspective(), with 2 acos(cos_none), and looking(); depth_range()
-    // takes no notice yet of what it is given. Step 5: Eq. 9.4, where {} is returned if there can
-    // be no shadow:
+    // TODO: step 4: P V, by perspective(), of the angle 2 acos(cos_none), and looking();
+    // depth_range() takes no notice yet of what it is given. Step 5: Eq. 9.4, where {} is returned
+    // if there can be no shadow:
     // 1. Both boxes in the light's view, by box_in(). {} if one is not usable.
     // 2. A box reaches from -high.z to -low.z in front of the light. The map's farthest is the
     //    lesser of the two far ends. {} unless it is > 0 and the nearest caster is not farther.

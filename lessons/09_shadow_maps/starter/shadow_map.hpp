@@ -60,7 +60,7 @@ struct ShadowMap {
               DepthBuffer memory)
         : size(texels),
           clip_from_world(clip),
-          texels_from_world(1),  // TODO: step 1: Eq. 9.6 by viewport<double>()
+          texels_from_world(1),  // TODO: step 1: Eq. 9.6, viewport<double>() times clip
           plane_from_world(1),   // TODO: step 2: (T^-1)^T of Eq. 9.8, in double
           is_perspective(perspective),
           depths(std::move(memory)) {
