@@ -382,7 +382,8 @@ def changed(code: dict[str, str], diff: str) -> None:
 
 
 def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bool = False) -> None:
-    for answer in answers():
+    # What all lessons include is changed last: all of them are compiled again for it.
+    for answer in sorted(answers(), key=lambda answer: "--- common/" in answer.diff):
         if of_lesson and answer.name.split("_")[0] != of_lesson.zfill(2):
             continue
         if number and answer.name.split("_")[1] != number:

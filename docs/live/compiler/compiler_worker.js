@@ -8,7 +8,7 @@ import { ConsoleStdout, Directory, File, OpenFile, PreopenDirectory, WASI } from
 const options = ["--target=wasm32-wasi", "-std=c++20", "-ffp-contract=off", "-fno-math-errno", "-fignore-exceptions", "-Wall", "-Wextra",
   "-Wno-psabi", "-Wno-unused-parameter", "-Wno-missing-field-initializers", "-fno-color-diagnostics",
   "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
-  '-DRASTERBOOK_ASSETS=""', '-DRASTERBOOK_LESSONS=""', '-DRASTERBOOK_GOLDEN=""', '-DRASTERBOOK_TEST_DATA=""', '-DRASTERBOOK_GENERATE_ASSETS=""',
+  '-DRASTERBOOK_ASSETS=""', '-DRASTERBOOK_LESSONS=""', '-DRASTERBOOK_GOLDEN=""', '-DRASTERBOOK_TEST_DATA=""',
   "-nostdinc", "-nostdinc++", "-I/docs/live/without_threads", "-I/mine", "-I/", "-I/lessons", "-I/tests"];
 
 let compiler;  // WebAssembly.Module
