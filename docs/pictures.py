@@ -303,7 +303,7 @@ def copy_code(tree: Path) -> None:
     # Optimised enough to draw, and quickly built; a mistake may break what an assertion expects.
     subprocess.run(
         ["cmake", "-S", tree, "-B", tree / "build", "-G", "Ninja", "-D", "BUILD_TESTING=OFF",
-         "-D", "CMAKE_BUILD_TYPE=Debug", "-D", "CMAKE_CXX_FLAGS=-O1 -DNDEBUG -w"],
+         "-D", "CMAKE_BUILD_TYPE=", "-D", "CMAKE_CXX_FLAGS=-O1 -DNDEBUG -w"],
         check=True,
         stdout=subprocess.DEVNULL,
     )  # fmt: skip
