@@ -65,7 +65,7 @@ choose_preset() {
 # Builds the targets in build/$preset; a build folder of another place, as in a moved clone, starts anew.
 build() {
     case $preset in
-        mine | mine_debug | mine_fast) (preset=release; build common) || return ;;  # they link what no reader changes
+        mine | mine_debug | mine_fast) preset=release build common || return ;;  # they link what no reader changes
     esac
     local home fresh=() log
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
