@@ -7,6 +7,7 @@ where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED is set.
 """
 
 import json
+import re
 import sys
 import time
 from pathlib import Path
@@ -16,6 +17,8 @@ from live_test import LESSONS, PIXELS, native_bytes, serve
 from site_test import ROOT, check_log, skip, start_browser
 
 STATUS = "return document.querySelector('.live .status').textContent"
+FAILURE = "return document.querySelector('.failure').textContent"
+FIRST_MESSAGE = "return document.querySelector('.messages li')?.textContent ?? ''"
 PUT = "localStorage[`rasterbook ${arguments[0]}`] = arguments[1]"
 EVERYTHING = "#include <vector>\nint main() { std::vector<char> all; for (;;) all.resize(all.size() + (1 << 28), 1); }\n"
 # What stands in place of lesson 02's main.cpp, and a part of what is to be said.
@@ -26,6 +29,7 @@ WRONG = {
     "int main() { for (volatile int i = 0;;) i = i + 1; }\n": "did not end within",
     "volatile int n = 1;\nint deeper(int i) { return deeper(i + n) + n; }\nint main() { return deeper(1); }\n": "",
     EVERYTHING: "",
+    "#include <memory>\n#include <vector>\nint main() { std::vector<std::unique_ptr<int>> all(1); auto more = all; }\n": "main.cpp:3:",
 }
 
 
@@ -37,15 +41,18 @@ class Run(EditorPage):
         self.until(lambda: self.script("return document.querySelector('.live').dataset.run") == "done", 180)
         return time.monotonic() - begun
 
+    @property
+    def failure(self) -> str:
+        return self.script(FAILURE)
+
 
 def check_lesson(page: Run, build: Path, lesson: str) -> list[str]:
     problems = []
     page.open(f"lesson_{lesson[:2]}.html")
     first = page.timed_run()
-    failure = page.script("return document.querySelector('.failure').textContent")
-    is_failing = "is not done yet" in page.outcome and failure.startswith("FAILED ")
+    is_failing = "is not done yet" in page.outcome and page.failure.startswith("FAILED ")
     if not is_failing and "runs them" not in page.outcome:  # no test of lesson 10's first step can run in a page
-        problems.append(f"the starter: {page.outcome} {failure[:200]}")
+        problems.append(f"the starter: {page.outcome} {page.failure[:200]}")
     again = []
     for i in range(2):
         page.write(f"{page.written}\n// edit {i}\n")
@@ -55,8 +62,7 @@ def check_lesson(page: Run, build: Path, lesson: str) -> list[str]:
     solved = page.timed_run()
     page.wait()
     if "is done" not in page.outcome:
-        failure = page.script("return document.querySelector('.failure').textContent")
-        problems.append(f"the course's files: {page.outcome} {failure[:300]}")
+        problems.append(f"the course's files: {page.outcome} {page.failure[:300]}")
     elif page.script(PIXELS) != native_bytes(build, lesson):
         problems.append(f"draws other bytes than the program: {page.script(STATUS)}")
     times = ", ".join(f"{seconds:.1f}" for seconds in (first, *again, solved))
@@ -80,7 +86,7 @@ def check_wrong(page: Run) -> list[str]:
         page.timed_run()
         time.sleep(1)
         page.wait()
-        said = f"{page.outcome} {page.script(STATUS)} {page.script('return document.querySelector(`.failure`).textContent')}"
+        said = f"{page.outcome} {page.script(STATUS)} {page.failure} {page.script(FIRST_MESSAGE)}"
         print(f"{text[:50]!r}: {said[:300]}", flush=True)
         if not said.strip() or sentence not in said:
             problems.append(f"of {text[:60]!r} it says {said[:300]}")
@@ -88,6 +94,12 @@ def check_wrong(page: Run) -> list[str]:
         page.timed_run()
         if "is not done yet" not in page.outcome:
             problems.append(f"after {text[:60]!r}: {page.outcome}")
+    page.all(".tabs button")[0].click()
+    begin = "inline ScreenTriangle snap_triangle(vec2 a, vec2 b, vec2 c) {\n"
+    page.write(solution("02_triangle_fill")["triangle.hpp"].replace(begin, begin + "for (volatile int i = 0;;) i = i + 1;\n"))
+    page.timed_run()
+    if not re.search(r"^FAILED Eq2_\d+_\w+\nEq2_\d+_\w+ did not end within 30 seconds$", page.failure) or " 0 of" in page.one(".tiers").text:
+        problems.append(f"of a test that does not end it says {page.one('.tiers').text}: {page.failure}")
     return problems
 
 

@@ -140,11 +140,21 @@ async function precompile(level, headers) {
   precompiled[level] = text;
 }
 
-/** What clang says, for each place; paths as the reader knows them. */
+/** What clang says, for each place; paths as the reader knows them. An error in the course's code is put where the reader's leads to it. */
 function messagesOf(text, lesson) {
   const mine = (path) => path.replace(/^\/?mine\//, "").replace(`${lesson}/`, "").replace(/^\//, "");
-  return [...text.matchAll(/^(.+?):(\d+):(\d+): (?:fatal )?(error|warning|note): (.*)$/gm)].map(([, file, line, column, severity, words]) => (
-    { file: mine(file), line: +line, column: +column, severity, text: words }));
+  const messages = [...text.matchAll(/^(.+?):(\d+):(\d+): (?:fatal )?(error|warning|note): (.*)$/gm)].map(([, file, line, column, severity, words]) => (
+    { place: { file: mine(file), line: +line, column: +column }, isOwn: /^\/?mine\//.test(file), severity, text: words }));
+  let first;  // the error or warning that notes belong to
+  for (const message of messages) {
+    if (message.severity !== "note") first = message;
+    else if (first && message.isOwn && !first.isOwn) {
+      [first.place, message.place] = [message.place, first.place];
+      first.isOwn = true;
+      message.text = `This ${first.severity} is here.`;
+    }
+  }
+  return messages.map(({ place, severity, text }) => ({ ...place, severity, text }));
 }
 
 const mostLog = 6000;

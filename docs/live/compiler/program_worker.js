@@ -62,12 +62,16 @@ const tasks = {
     return { text: await judged(judgeBlob, lesson.draw(width, height), data, width, height, picture.mayJump) };
   },
 
-  /** Runs the tests of formulas; also what they have printed before they ended by a trap comes back. */
-  run: async ({ program, lesson }) => {
+  /** Runs the tests of formulas; what they print is told at once, as they may never end, and comes back also when they end by a trap. */
+  run: async ({ id, program, lesson }) => {
     let text = "", said = "";
     const files = [
       new OpenFile(new File([])),
-      new ConsoleStdout((bytes) => (text += new TextDecoder().decode(bytes))),
+      new ConsoleStdout((bytes) => {
+        const more = new TextDecoder().decode(bytes);
+        text += more;
+        postMessage({ id, more });
+      }),
       new ConsoleStdout((bytes) => (said += new TextDecoder().decode(bytes))),
     ];
     const wasi = new WASI(["tests", lesson], [], files, { debug: false });

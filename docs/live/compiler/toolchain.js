@@ -10,7 +10,7 @@
 // with one named "AbortError".
 
 const at = (path) => new URL(path, import.meta.url);
-const mostSeconds = { draw: 60, run: 60 };  // for a picture of a test, or all tests of formulas
+const mostSeconds = { draw: 60, test: 30 };  // for a picture of a test, or a test of a formula
 const mostCompileSeconds = 120;
 
 const objectOf = (source) => `${source.replaceAll("/", "_")}.o`;
@@ -27,8 +27,10 @@ class Helper {
 
   start() {
     this.worker = new Worker(at(this.script), { type: "module" });
-    this.worker.onmessage = ({ data: { id, error, ...answer } }) => {
-      const { resolve, reject, timer } = this.asked.get(id);
+    this.worker.onmessage = ({ data: { id, error, more, ...answer } }) => {
+      const asked = this.asked.get(id);
+      if (more !== undefined) return asked.goOn(more);
+      const { resolve, reject, timer } = asked;
       this.asked.delete(id);
       clearTimeout(timer);
       if (error === undefined) resolve(answer);
@@ -38,11 +40,18 @@ class Helper {
     this.ready = this.begin ? this.send(this.begin) : Promise.resolve();
   }
 
+  /** Whatever it says before its answer gives it `seconds` more; if it ends without one, the error has all that as `said`. */
   send(message, seconds = null) {
     return new Promise((resolve, reject) => {
       const id = ++this.count;
-      const timer = seconds && setTimeout(() => this.end(new Error(`did not end within ${seconds} seconds`)), 1000 * seconds);
-      this.asked.set(id, { resolve, reject, timer });
+      const asked = { resolve, reject, said: "" };
+      asked.goOn = (more) => {
+        asked.said += more;
+        clearTimeout(asked.timer);
+        asked.timer = seconds && setTimeout(() => this.end(new Error(`did not end within ${seconds} seconds`)), 1000 * seconds);
+      };
+      asked.goOn("");
+      this.asked.set(id, asked);
       this.worker.postMessage({ id, ...message });
     });
   }
@@ -57,9 +66,9 @@ class Helper {
   end(error) {
     this.worker?.terminate();
     this.worker = null;
-    for (const { reject, timer } of this.asked.values()) {
+    for (const { reject, timer, said } of this.asked.values()) {
       clearTimeout(timer);
-      reject(error);
+      reject(Object.assign(error, { said }));
     }
     this.asked.clear();
   }
@@ -194,11 +203,11 @@ export class Toolchain {
     if (!linked.program) return { messages: linkMessages(linked.log), log: linked.log };
     let text, ended = "";
     try {
-      ({ text, ended } = await this.testing.ask({ task: "run", program: linked.program, lesson }, mostSeconds.run));
+      ({ text, ended } = await this.testing.ask({ task: "run", program: linked.program, lesson }, mostSeconds.test));
     } catch (error) {
       if (error.name === "AbortError") throw error;
       ended = error.message;
-      text = "";
+      text = error.said ?? "";
     }
     return outcome(text, ended);
   }
