@@ -38,7 +38,7 @@ class Run(EditorPage):
         """How many seconds it takes until all is shown."""
         begun = time.monotonic()
         self.button("Run").click()
-        self.until(lambda: self.script("return document.querySelector('.live').dataset.run") == "done", 180)
+        self.until(lambda: self.script("return document.querySelector('.live').dataset.run") == "done", 600)
         return time.monotonic() - begun
 
     @property
