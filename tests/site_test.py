@@ -25,6 +25,7 @@ WIDTHS = {"desk": (1280, 900), "phone": (390, 844)}
 
 # What a page says is wrong with itself.
 INSPECTION = r"""return (async isText => {
+await new Promise(requestAnimationFrame);  // before it, the page hears of another scheme
 for (const image of document.images) image.loading = "eager";
 await Promise.allSettled([document.fonts.ready, ...[...document.images].map(i => i.decode())]);
 const problems = [];

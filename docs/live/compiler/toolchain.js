@@ -11,7 +11,7 @@
 
 const at = (path) => new URL(path, import.meta.url);
 const mostSeconds = { draw: 60, test: 30 };  // for a picture of a test, or a test of a formula
-const mostCompileSeconds = 120;
+const mostCompileSeconds = 300;
 
 const objectOf = (source) => `${source.replaceAll("/", "_")}.o`;
 const shared = ["docs/live/live_app.cpp", "common/app/knobs.cpp", "common/probe/pixel_report.cpp"].map(objectOf);
