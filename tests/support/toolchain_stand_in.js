@@ -17,6 +17,7 @@ async function programOf(lesson, files) {
 export class Toolchain {
   constructor() {
     window.standIn = { runs: 0, stops: 0 };
+    this.waiting = new Set();
   }
 
   async load(progress) {
@@ -30,7 +31,7 @@ export class Toolchain {
 
   until(ms) {
     return new Promise((resolve, reject) => {
-      this.reject = () => reject(Object.assign(new Error("Stopped."), { name: "AbortError" }));
+      this.waiting.add(() => reject(Object.assign(new Error("Stopped."), { name: "AbortError" })));
       setTimeout(resolve, ms);
     });
   }
@@ -70,6 +71,7 @@ export class Toolchain {
 
   stop() {
     ++window.standIn.stops;
-    this.reject?.();
+    for (const reject of this.waiting) reject();
+    this.waiting.clear();
   }
 }

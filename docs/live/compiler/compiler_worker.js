@@ -63,13 +63,19 @@ function joined(parts) {
   return all;
 }
 
+const commands = new Map();  // what the driver makes of its words
+
 /** Runs clang as its driver would run it, but in the same program. */
 function clang(level, args) {
-  const driver = run(["clang++", level, ...options, ...searchPath, ...args, "-###"]);
-  const line = driver.text.split("\n").find((line) => line.startsWith(' "'));
-  if (driver.status !== 0 || !line) return driver;
-  const words = [...line.matchAll(/"((?:[^"\\]|\\.)*)"/g)].map(([, word]) => word.replace(/\\(.)/g, "$1"));
-  return run(words[0] === "" ? words.slice(1) : words);
+  const key = [level, ...args].join("\n");
+  if (!commands.has(key)) {
+    const driver = run(["clang++", level, ...options, ...searchPath, ...args, "-###"]);
+    const line = driver.text.split("\n").find((line) => line.startsWith(' "'));
+    if (driver.status !== 0 || !line) return driver;
+    const words = [...line.matchAll(/"((?:[^"\\]|\\.)*)"/g)].map(([, word]) => word.replace(/\\(.)/g, "$1"));
+    commands.set(key, words[0] === "" ? words.slice(1) : words);
+  }
+  return run(commands.get(key));
 }
 
 // --- What includes what
@@ -134,8 +140,8 @@ async function precompile(level, headers) {
       level, ["-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", `/unit/precompiled${level}.hpp`, "-o", "-"]);
     if (status !== 0) throw new Error(`The course's headers do not compile: ${said.slice(0, 500)}`);
     put(file, bytes);
-    // Packed it takes a quarter of 30 MB; a full disk is no reason to stop.
-    cache?.put(url, new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream("gzip")))).catch(() => {});
+    // The other worker takes it from there. Packed it is a quarter of 30 MB; a full disk is no reason to stop.
+    await cache?.put(url, new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream("gzip")))).catch(() => {});
   }
   precompiled[level] = text;
 }
@@ -185,31 +191,32 @@ const tasks = {
     return {};
   },
 
+  /** Precompiles what some files include; says `which` sources depend on the reader's files. */
+  precompile: async ({ lesson, files, level, like, sources }) => {
+    const { headers, depends } = headersOf(like, putOwn(lesson, files));
+    await precompile(level, headers);
+    return { which: sources.filter(depends) };
+  },
+
   /**
-   * Compiles sources as one.
+   * Compiles sources as one, after precompile().
    *
    * @param {string} level    Of optimisation: "-O0" or "-O1".
    * @param {string[]} like   Files that include what is worth to be precompiled.
-   * @param {boolean} only    Only those that depend on the reader's files; `which` says which these
-   *                          are, and `object` is null where there is none.
    * @param {string[]} extra  Options of clang.
    */
-  compile: async ({ lesson, files, level, sources, like, only, extra = [] }) => {
-    const own = putOwn(lesson, files);
-    const { headers, depends } = headersOf(like, own);
-    const which = sources.filter((source) => !only || depends(source));
-    if (which.length === 0) return { object: null, which, messages: [], log: "" };
-    await precompile(level, headers);
+  compile: async ({ lesson, files, level, sources, like, extra = [] }) => {
+    await precompile(level, headersOf(like, putOwn(lesson, files)).headers);
     const place = (source) => {
       const mine = source.replace(/^lessons\//, "mine/");
       return get(mine) ? mine : source;
     };
-    put("unit/unit.cpp", which.map((source) => `#include "/${place(source)}"\n`).join(""));
+    put("unit/unit.cpp", sources.map((source) => `#include "/${place(source)}"\n`).join(""));
     const { status, bytes, text } = clang(level, ["-include-pch", `/precompiled${level}.pch`, ...extra, "-c", "/unit/unit.cpp", "-o", "-"]);
     const log = text
       .replace(/^In file included from \/unit\/unit\.cpp:\d+:\n/gm, "")
       .replace(/^\d+ (?:error|warning)s?.* generated\.\n/gm, "");
-    return { object: status === 0 ? bytes : null, which, messages: messagesOf(log, lesson), log: shortened(log) };
+    return { object: status === 0 ? bytes : null, messages: messagesOf(log, lesson), log: shortened(log) };
   },
 
   /** Links objects, the compiled ones and those of the pack, into a program. */
@@ -225,10 +232,13 @@ const tasks = {
   },
 };
 
-onmessage = async ({ data }) => {
+async function answer(data) {
   try {
     postMessage({ id: data.id, ...(await tasks[data.task](data)) });
   } catch (error) {
     postMessage({ id: data.id, error: /memory/i.test(error.message) ? "There is not enough memory for the compiler." : error.message });
   }
-};
+}
+
+let last = Promise.resolve();
+onmessage = ({ data }) => (last = last.then(() => answer(data)));  // one at a time

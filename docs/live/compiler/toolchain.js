@@ -78,6 +78,20 @@ class Helper {
   }
 }
 
+/** Keeps the answer to what was asked last; where there was none, it is asked again. */
+class Latest {
+  answer(question, find) {
+    if (this.question !== question) {
+      this.question = question;
+      this.found = find();
+      this.found.catch(() => {
+        if (this.question === question) this.question = null;
+      });
+    }
+    return this.found;
+  }
+}
+
 /** Fetches a file, or takes it from what the browser has kept of this version. */
 async function fetched(name, version, progress) {
   const cache = await globalThis.caches?.open("rasterbook compiler").catch(() => null);
@@ -110,6 +124,9 @@ async function forgetOthers(version) {
 }
 
 export class Toolchain {
+  compiled = new Latest();
+  tests = new Latest();
+
   async load(progress) {
     this.loading ??= this.fetchAll(progress).catch((error) => {
       this.loading = null;
@@ -143,26 +160,33 @@ export class Toolchain {
     for (const helper of this.compilers) helper.start();
   }
 
-  async compile(lesson, files) {
+  compile(lesson, files) {
+    return this.compiled.answer(JSON.stringify([lesson, files]), () => this.compileAnew(lesson, files));
+  }
+
+  async compileAnew(lesson, files) {
     const isLesson = lesson in this.lessons;
     const main = isLesson ? `lessons/${lesson}/main.cpp` : `lessons/sandbox/main.cpp`;
     const { before, apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
     const like = isLesson ? [main, ...(before ? [`lessons/${before}/main.cpp`] : [])] : ["lessons/05_textures/main.cpp"];
-    const own = { lesson, files, level: "-O0" };  // a picture is to come soon
-    const [ofMain, ofApart] = await Promise.all([
-      this.compilers[0].ask({ task: "compile", ...own, sources: [main], like }, mostCompileSeconds),
-      // The lesson's other sources; those that none of the reader's headers is in are compiled already.
-      this.compilers[1].ask({ task: "compile", ...own, sources: apart, like: apart, only: true }, mostCompileSeconds),
-    ]);
-    const messages = [...ofMain.messages];
-    if (!ofMain.object) return { messages, log: ofMain.log, program: null };
-    if (ofApart.which.length > 0 && !ofApart.object) return { messages: ofApart.messages, log: ofApart.log, program: null };
+    const own = { lesson, files, level: "-O0", like: [...like, ...apart] };  // a picture is to come soon
+    const compile = (compiler, sources) => this.compilers[compiler].ask({ task: "compile", ...own, sources }, mostCompileSeconds);
+    // What is precompiled takes longest when it is first asked for: one does it for both, while the other does so for the tests.
+    this.precompiled = this.compilers[0].ask({ task: "precompile", ...own, sources: apart }, mostCompileSeconds);
+    const { which } = await this.precompiled;  // the others are compiled already
+    const parts = [compile(0, [main]), ...(which.length > 0 ? [compile(1, which)] : [])];
+    const all = Promise.all(parts);
+    all.catch(() => {});  // nobody waits for it where main.cpp does not compile
+    const { messages, log: said, object } = await parts[0];
+    if (!object) return { messages, log: said, program: null };
+    const compiled = await all;
+    const wrong = compiled.find((part) => !part.object);
+    if (wrong) return { messages: wrong.messages, log: wrong.log, program: null };
     const { program, log } = await this.compilers[0].ask({
-      task: "link", compiled: [ofMain.object, ...(ofApart.object ? [ofApart.object] : [])],
-      names: [...shared, ...this.apartOf(lesson).filter((source) => !ofApart.which.includes(source)).map(objectOf)],
+      task: "link", compiled: compiled.map((part) => part.object),
+      names: [...shared, ...this.apartOf(lesson).filter((source) => !which.includes(source)).map(objectOf)],
       start: ["/objects/crt1-reactor.o", "--entry", "_initialize"],
     }, mostCompileSeconds);
-    this.compiled = { lesson, files: JSON.stringify(files), program };
     return { messages: program ? messages : linkMessages(log), log, program };
   }
 
@@ -173,37 +197,31 @@ export class Toolchain {
     return [...new Set([...apart, ...(before ? this.apartOf(before) : [])])];
   }
 
+  /** Asked together with compile(), it uses the other core. */
   async test(lesson, files, step) {
-    if (this.compiled?.lesson !== lesson || this.compiled.files !== JSON.stringify(files)) await this.compile(lesson, files);
+    const compiled = this.compile(lesson, files);
     const { steps } = this.lessons[lesson];
     const done = step ? steps.slice(0, step) : steps;
     const isAll = !step || step === steps.length;
     const equations = isAll ? "*" : done.flatMap(({ equations }) => equations.flatMap(numbersIn)).join(" ");
     const known = this.lessons[lesson].pictures;
     const names = step ? done.at(-1).pictures.filter((name) => name in known) : Object.keys(known);
-    const [formulas, pictures] = await Promise.all([this.formulas(lesson, files, equations), this.pictures(lesson, names)]);
+    const [formulas, pictures] = await Promise.all([this.formulas(lesson, files, equations, compiled), this.pictures(lesson, names, compiled)]);
     if (formulas.messages) return { messages: formulas.messages, log: formulas.log, tiers: [], first: null };
     const tiers = [{ name: "formulas", passed: formulas.passed, total: formulas.total }];
     if (names.length > 0) tiers.push({ name: "pictures", passed: pictures.passed, total: names.length });
     return { messages: [], log: "", tiers: tiers.filter(({ total }) => total > 0), first: formulas.first ?? pictures.first };
   }
 
-  async formulas(lesson, files, equations) {
+  async formulas(lesson, files, equations, compiled) {
     if (equations === "" || this.lessons[lesson].tests.length === 0) return { passed: 0, total: 0, first: null };
-    const { object, messages, log } = await this.compilers[1].ask({
-      task: "compile", lesson, files, level: "-O1",  // they take longer to run than to be compiled
-      sources: this.lessons[lesson].tests, like: ["docs/live/compiler/formula_tests.hpp", ...this.lessons[lesson].tests],
-      extra: [`-DASKED_EQUATIONS="${equations}"`, "-include", "/docs/live/compiler/formula_tests.hpp"],
-    }, mostCompileSeconds);
-    if (!object) return { messages: messages.length > 0 ? messages : [errorOf(log)], log };
-    const apart = this.apartOf(lesson).map(objectOf);
-    const names = ["docs_live_compiler_formula_tests.cpp.o", "gtest-all.o", "tests_support_visibility.cpp.o", ...shared, ...apart];
-    const linked = await this.compilers[1].ask(
-      { task: "link", compiled: [object], names, start: ["/objects/crt1-command.o"] }, mostCompileSeconds);
-    if (!linked.program) return { messages: linkMessages(linked.log), log: linked.log };
+    const { "main.cpp": _, ...headers } = files;  // the tests do not include it
+    const tests = await this.tests.answer(JSON.stringify([lesson, headers, equations]), () => this.compileTests(lesson, headers, equations));
+    if (!tests.program) return tests;
+    if (!(await compiled).program) return { passed: 0, total: 0, first: null };
     let text, ended = "";
     try {
-      ({ text, ended } = await this.testing.ask({ task: "run", program: linked.program, lesson }, mostSeconds.test));
+      ({ text, ended } = await this.testing.ask({ task: "run", program: tests.program, lesson }, mostSeconds.test));
     } catch (error) {
       if (error.name === "AbortError") throw error;
       ended = error.message;
@@ -212,13 +230,31 @@ export class Toolchain {
     return outcome(text, ended);
   }
 
-  async pictures(lesson, names) {
+  async compileTests(lesson, files, equations) {
+    const sources = this.lessons[lesson].tests;
+    const own = { lesson, files, level: "-O1", like: ["docs/live/compiler/formula_tests.hpp", ...sources], sources };  // they take longer to run than to be compiled
+    await Promise.all([this.compilers[1].ask({ task: "precompile", ...own }, mostCompileSeconds), this.precompiled]);
+    // The lesson's sources come first, for the picture.
+    const { object, messages, log } = await this.compilers[1].ask({
+      task: "compile", ...own, extra: [`-DASKED_EQUATIONS="${equations}"`, "-include", "/docs/live/compiler/formula_tests.hpp"],
+    }, mostCompileSeconds);
+    if (!object) return { messages: messages.length > 0 ? messages : [errorOf(log)], log };
+    const apart = this.apartOf(lesson).map(objectOf);
+    const names = ["docs_live_compiler_formula_tests.cpp.o", "gtest-all.o", "tests_support_visibility.cpp.o", ...shared, ...apart];
+    const linked = await this.compilers[1].ask(
+      { task: "link", compiled: [object], names, start: ["/objects/crt1-command.o"] }, mostCompileSeconds);
+    return linked.program ? linked : { messages: linkMessages(linked.log), log: linked.log };
+  }
+
+  async pictures(lesson, names, compiled) {
     let passed = 0, first = null;
+    const { program } = await compiled;
+    if (!program) return { passed, first };
     for (const name of names) {
       const picture = this.lessons[lesson].pictures[name];
       let text;
       try {
-        ({ text } = await this.drawing.ask({ task: "draw", program: this.compiled.program, picture, judgeBlob: this.judgeBlob }, mostSeconds.draw));
+        ({ text } = await this.drawing.ask({ task: "draw", program, picture, judgeBlob: this.judgeBlob }, mostSeconds.draw));
       } catch (error) {
         if (error.name === "AbortError") throw error;
         text = error.message;

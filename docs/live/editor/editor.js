@@ -296,7 +296,11 @@ class Editor {
     await this.getToolchain(isOld);
     if (isOld()) return;
     this.say("Compiling …");
-    const { messages, log, program } = await this.toolchain.compile(this.start.compiled, { ...this.files });
+    const asked = [this.start.compiled, { ...this.files }];
+    const compiled = this.toolchain.compile(...asked);
+    const tests = this.sandbox ? null : this.toolchain.test(...asked, this.step || null);
+    tests?.catch(() => {});  // nobody may wait for them
+    const { messages, log, program } = await compiled;
     if (isOld()) return;
     this.show(messages, log, program);
     const warnings = messages.filter(({ severity }) => severity === "warning").length;
@@ -312,7 +316,7 @@ class Editor {
     if (isOld()) return;
     if (this.sandbox) return this.say(`Compiled${warned} in ${seconds()}.`, "right");
     this.say(`Compiled${warned} in ${seconds()}. Testing …`);
-    const { tiers, first, ...tested } = await this.toolchain.test(this.start.compiled, { ...this.files }, this.step || null);
+    const { tiers, first, ...tested } = await tests;
     if (isOld()) return;
     if (tested.messages?.length > 0 && tiers.length === 0) {  // main.cpp compiles, but the tests' view of a header does not
       this.show(tested.messages, tested.log, null);
