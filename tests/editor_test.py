@@ -114,7 +114,7 @@ class EditorPage:
     def until(self, true, seconds: float = 60) -> None:
         from selenium.webdriver.support.ui import WebDriverWait
 
-        WebDriverWait(self.browser, seconds, 0.02).until(lambda _: true())
+        WebDriverWait(self.browser, seconds, 0.05).until(lambda _: true())
 
     def view(self, width: str, scheme: str) -> None:
         columns, rows = SIZES[width]
