@@ -382,8 +382,12 @@ def changed(code: dict[str, str], diff: str) -> None:
 
 
 def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bool = False) -> None:
-    # What all lessons include is changed last: all of them are compiled again for it.
-    for answer in sorted(answers(), key=lambda answer: "--- common/" in answer.diff):
+    # What an answer changes is compiled again for it, and once more for the next that does not: so those that change the
+    # same follow each other, and what all lessons include is changed last.
+    def order(answer: Answer) -> tuple[bool, str, list[str]]:
+        return "--- common/" in answer.diff, answer.lesson, sorted(re.findall(r"^--- .*", answer.diff, flags=re.MULTILINE))
+
+    for answer in sorted(answers(), key=order):
         if of_lesson and answer.name.split("_")[0] != of_lesson.zfill(2):
             continue
         if number and answer.name.split("_")[1] != number:
