@@ -24,8 +24,10 @@ CODE = r"files|annotated|(triangle|image|lesson__app)_8hpp(_source)?|classraster
 WIDTHS = {"desk": (1280, 900), "phone": (390, 844)}
 
 # What a page says is wrong with itself.
-INSPECTION = r"""return (async isText => {
-await new Promise(requestAnimationFrame);  // before it, the page hears of another scheme
+INSPECTION = r"""return (async (isText, isDark) => {
+const isAsAsked = () => matchMedia("(prefers-color-scheme: dark)").matches === isDark &&
+  document.documentElement.classList.contains("dark-mode") === isDark;
+for (let i = 0; i < 500 && !isAsAsked(); ++i) await new Promise((done) => setTimeout(done, 20));  // the page has to hear of it
 for (const image of document.images) image.loading = "eager";
 await Promise.allSettled([document.fonts.ready, ...[...document.images].map(i => i.decode())]);
 const problems = [];
@@ -113,7 +115,7 @@ def check_view(browser, page: Path, width: str, scheme: str) -> list[str]:
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
     if scheme == "light":
         browser.get(page.as_uri())
-    seen = browser.execute_script(INSPECTION, bool(re.fullmatch(TEXTS, page.stem)))
+    seen = browser.execute_script(INSPECTION, bool(re.fullmatch(TEXTS, page.stem)), scheme == "dark")
     problems = seen["problems"]
     if (seen["ground"] < 200) != (scheme == "dark"):
         problems.append("has the wrong background")
