@@ -370,6 +370,7 @@ def main() -> None:
     folder = places["from the folder"]
     columns, rows = WIDTHS["desk"]
     browser.set_window_size(columns, rows)
+    browser.set_script_timeout(120)  # for WAIT
     page = LivePage(browser)
     problems = []
     try:

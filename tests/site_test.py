@@ -203,9 +203,7 @@ def start_browser(site: Path):
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    browser = webdriver.Chrome(options=options, service=Service(driver))
-    browser.set_script_timeout(600)  # what waits for a page does so in the page
-    return browser
+    return webdriver.Chrome(options=options, service=Service(driver))
 
 
 def main() -> None:

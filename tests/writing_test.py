@@ -114,6 +114,7 @@ def main() -> None:
         skip("the site has no editor with a compiler: npm was missing")
     lessons = json.loads((site / "live/compiler/lessons.json").read_text("utf-8"))
     server, address = serve(site)
+    browser.set_script_timeout(600)  # for UNTIL_DONE
     page = Run(browser, address)
     page.view("desk", "light")
     problems = []
