@@ -1,6 +1,6 @@
 # The compiler of the site's pages, in BUILD/live/scripts/compiler; a part of ../CMakeLists.txt.
 set(options_of_pages ${options})
-list(APPEND options -Itests -DGTEST_HAS_EXCEPTIONS=0 -DGTEST_HAS_PTHREAD=0 -DGTEST_HAS_STREAM_REDIRECTION=0)
+list(APPEND options -I${PROJECT_SOURCE_DIR}/tests -DGTEST_HAS_EXCEPTIONS=0 -DGTEST_HAS_PTHREAD=0 -DGTEST_HAS_STREAM_REDIRECTION=0)
 compile_for_pages(of_tests docs/live/compiler/formula_tests.cpp tests/support/visibility.cpp)
 compile_for_pages(judge docs/live/compiler/judge.cpp tests/support/image_doctor.cpp tests/support/image_mistakes.cpp
                         tests/support/visibility_mistakes.cpp)
@@ -9,7 +9,6 @@ set(googletest ${live}/objects/gtest-all.o)
 cmake_path(GET GTEST_ALL PARENT_PATH sources_of_googletest)
 add_custom_command(OUTPUT ${googletest} DEPENDS ${GTEST_ALL} VERBATIM
     COMMAND ${CLANG_FOR_WASM} ${options} -w -D_WASI_EMULATED_SIGNAL -I${sources_of_googletest}/.. -I${sources_of_googletest}/../include -c ${GTEST_ALL} -o ${googletest}
-    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     COMMENT "For pages: GoogleTest")
 set(judge_wasm ${live}/objects/judge.wasm)
 list(FILTER of_tests INCLUDE REGEX visibility)
