@@ -10,7 +10,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -123,35 +125,49 @@ Mask<N> mask_of_bits(std::uint32_t bits) {
     return mask;
 }
 
-/// For EXPECT_TRUE: a wide result has in each lane what the plain computation gives for this lane.
-///
-/// @param expected  Called as expected(lane).
-template <int N, typename Expected>
-testing::AssertionResult has_in_lanes(const Floats<N>& actual, Expected&& expected) {
-    for (int i = 0; i < N; ++i)
-        if (const float x = expected(i); !agree(actual.lanes[i], x))
+/// What has_in_lanes() says of the lanes' numbers: compiled once, not for each width and function.
+inline testing::AssertionResult have_the_same(std::span<const float> actual,
+                                              std::span<const float> expected) {
+    for (std::size_t i = 0; i < actual.size(); ++i)
+        if (!agree(actual[i], expected[i]))
             return testing::AssertionFailure()
-                   << "lane " << i << " of " << N << " has " << in_words(actual.lanes[i])
-                   << ", expected " << in_words(x) << apart(actual.lanes[i], x);
+                   << "lane " << i << " of " << actual.size() << " has " << in_words(actual[i])
+                   << ", expected " << in_words(expected[i]) << apart(actual[i], expected[i]);
     return testing::AssertionSuccess();
 }
-template <int N, typename Expected>
-testing::AssertionResult has_in_lanes(const Ints<N>& actual, Expected&& expected) {
-    for (int i = 0; i < N; ++i)
-        if (const int x = expected(i); actual.lanes[i] != x)
-            return testing::AssertionFailure() << "lane " << i << " of " << N << " has "
-                                               << actual.lanes[i] << ", expected " << x;
+inline testing::AssertionResult have_the_same(std::span<const int> actual,
+                                              std::span<const int> expected) {
+    for (std::size_t i = 0; i < actual.size(); ++i)
+        if (actual[i] != expected[i])
+            return testing::AssertionFailure() << "lane " << i << " of " << actual.size() << " has "
+                                               << actual[i] << ", expected " << expected[i];
     return testing::AssertionSuccess();
 }
 /// A mask is all ones where it holds, else all zeros.
-template <int N, typename Expected>
-testing::AssertionResult has_in_lanes(const Mask<N>& actual, Expected&& expected) {
-    for (int i = 0; i < N; ++i)
-        if (const bool x = expected(i); actual.lanes[i] != (x ? -1 : 0))
+inline testing::AssertionResult have_the_same(std::span<const int> actual,
+                                              std::span<const bool> expected) {
+    for (std::size_t i = 0; i < actual.size(); ++i)
+        if (actual[i] != (expected[i] ? -1 : 0))
             return testing::AssertionFailure()
-                   << "lane " << i << " of " << N << " has the bits of " << actual.lanes[i]
-                   << ", expected those of " << (x ? "-1 (it holds)" : "0 (it does not hold)");
+                   << "lane " << i << " of " << actual.size() << " has the bits of " << actual[i]
+                   << ", expected those of "
+                   << (expected[i] ? "-1 (it holds)" : "0 (it does not hold)");
     return testing::AssertionSuccess();
+}
+
+/// For EXPECT_TRUE: a wide result (Floats, Ints or a Mask) has in each lane what the plain
+/// computation gives for this lane.
+///
+/// @param expected  Called as expected(lane).
+template <template <int> typename Wide, int N, typename Expected>
+testing::AssertionResult has_in_lanes(const Wide<N>& actual, const Expected& expected) {
+    std::array<std::decay_t<decltype(actual.lanes[0])>, std::size_t(N)> lanes;
+    std::array<decltype(actual[0]), std::size_t(N)> lanes_expected;
+    for (int i = 0; i < N; ++i) {
+        lanes[std::size_t(i)] = actual.lanes[i];
+        lanes_expected[std::size_t(i)] = expected(i);
+    }
+    return have_the_same(lanes, lanes_expected);
 }
 
 /// "(2.5, -0)"
