@@ -10,7 +10,6 @@ leaves so much. Exits with 77 where something is missing, or with 1 if RASTERBOO
 import functools
 import hashlib
 import http.server
-import os
 import re
 import subprocess
 import sys
@@ -18,7 +17,7 @@ import tempfile
 import threading
 from pathlib import Path
 
-from site_test import ROOT, WIDTHS, check_log, skip, start_browser
+from site_test import ROOT, WIDTHS, check_log, is_turn_of, skip, start_browser
 
 LESSONS = sorted(folder.name for folder in (ROOT / "lessons").iterdir() if folder.is_dir())
 
@@ -361,11 +360,6 @@ def serve(site: Path, handler: type = QuietServer) -> tuple[http.server.Threadin
     return server, f"http://127.0.0.1:{server.server_port}"
 
 
-def is_turn_of(lesson: str) -> bool:
-    turn = os.environ.get("RASTERBOOK_TURN")
-    return not turn or int(lesson[:2]) % 3 == int(turn)
-
-
 def main() -> None:
     site, build = (Path(argument).resolve() for argument in sys.argv[1:])
     browser = start_browser(site)
@@ -386,9 +380,9 @@ def main() -> None:
             for place, address in places.items():
                 found = check_bytes(page, address, lesson, expected)
                 problems += [f"{lesson}, {place}: {problem}" for problem in found]
-            if is_turn_of(lesson):
+            if is_turn_of(int(lesson[:2])):
                 problems += [f"{lesson}: {problem}" for problem in check_controls(page, folder, lesson, build)]
-            if is_turn_of(lesson) and lesson != "01_bresenham_lines":
+            if is_turn_of(int(lesson[:2])) and lesson != "01_bresenham_lines":
                 found = check_probe(page, folder, lesson, build, site)
                 problems += [f"{lesson}: {problem}" for problem in found]
             problems += check_log(browser, lesson, (folder, places["from a server"]))
