@@ -43,6 +43,7 @@ namespace {
 constexpr int random_numbers = 100'000;
 constexpr float nan_ = std::numeric_limits<float>::quiet_NaN();
 
+/// Apart from compare(), which is compiled for each function and width.
 void expect_success(const testing::AssertionResult& result, const char* name,
                     std::span<const float> a, std::span<const float> b) {
     EXPECT_TRUE(result) << name << " of a = " << list_of(a) << " and b = " << list_of(b);

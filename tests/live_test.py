@@ -4,7 +4,7 @@ Every lesson's page is opened from the folder and from a server and has to draw 
 program draws; every control has to change the picture as the option does, or to say why not; a
 probed pixel has to have the program's reasons; what goes wrong has to end in a sentence. If
 RASTERBOOK_TURN is 0, 1 or 2, controls and pixels are tried in the lessons whose number divided by 3
-leaves so much. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED is set.
+has this remainder. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED is set.
 """
 
 import functools
@@ -381,9 +381,9 @@ def main() -> None:
                 found = check_bytes(page, address, lesson, expected)
                 problems += [f"{lesson}, {place}: {problem}" for problem in found]
             if is_turn_of(int(lesson[:2])):
-                problems += [f"{lesson}: {problem}" for problem in check_controls(page, folder, lesson, build)]
-            if is_turn_of(int(lesson[:2])) and lesson != "01_bresenham_lines":
-                found = check_probe(page, folder, lesson, build, site)
+                found = check_controls(page, folder, lesson, build)
+                if lesson != "01_bresenham_lines":
+                    found += check_probe(page, folder, lesson, build, site)
                 problems += [f"{lesson}: {problem}" for problem in found]
             problems += check_log(browser, lesson, (folder, places["from a server"]))
         problems += check_click(page, folder) + check_keys(page, folder) + check_quality(page, folder, build)
