@@ -148,7 +148,7 @@ class SceneProbe {
             for (const Mesh* mesh : pass.meshes) {
                 const std::vector<vec4> positions = transform(clip_from_world, mesh->positions);
                 for (const Triangle& triangle : mesh->triangles)
-                    if (pass.takes(assets.plan, triangle.material))
+                    if (pass.takes(assets.plan.materials[triangle.material]))
                         for (const ClippedTriangle& clipped :
                              clip_triangle(vertices_of(triangle, positions)))
                             (pass.is_blended ? blended_ : opaque_)

@@ -81,8 +81,7 @@ struct Pass {
     Culling culling;
     std::vector<const Mesh*> meshes{};
 
-    bool takes(const ScenePlan& scene_plan, std::size_t material) const {
-        const MaterialPlan& plan = scene_plan.materials[material];
+    bool takes(const MaterialPlan& plan) const {
         return plan[Effect::blend] == is_blended && plan.is_glass == is_glass &&
                plan.two_sided == (culling == Culling::none);
     }
@@ -111,7 +110,8 @@ BinnedPasses bin_passes(Pool& pool, const SceneAssets& assets, std::span<const M
         (pass.is_blended ? binned.blended : binned.opaque)
             .emplace_back(
                 pool, assets.scene, pass.meshes, clip_from_world, tiling, pass.culling,
-                [&](std::size_t material) { return pass.takes(assets.plan, material); }, counters);
+                [&](std::size_t material) { return pass.takes(assets.plan.materials[material]); },
+                counters);
     return binned;
 }
 

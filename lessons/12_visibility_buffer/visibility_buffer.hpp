@@ -79,6 +79,7 @@ class TileVisibility {
     void begin(const Tile& tile) {
         tile_ = tile;
         width_ = tile.box.last.x - tile.box.first.x + 1;
+        pitch_ = (width_ + padding_ + tile.row_step - 1) / tile.row_step;
         clear();
     }
 
@@ -135,8 +136,7 @@ class TileVisibility {
     /// Of a pixel in ids_, which has only the tile's own rows.
     std::size_t index(ivec2 pixel) const {
         const ivec2 from_first = pixel - tile_.box.first;
-        const int row = tile_.row_step == 1 ? from_first.y : from_first.y / tile_.row_step;
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + padding_) +
+        return static_cast<std::size_t>(from_first.y) * static_cast<std::size_t>(pitch_) +
                static_cast<std::size_t>(from_first.x);
     }
 
@@ -157,6 +157,7 @@ class TileVisibility {
     int padding_;
     Tile tile_{};
     int width_ = 0;
+    int pitch_ = 0;  ///< From a row of the picture to the next; the tile's own are row_step apart.
     std::vector<TriangleId> ids_;
     std::vector<const ProjectedTriangle*> triangles_;
     std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.

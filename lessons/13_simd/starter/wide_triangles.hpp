@@ -143,16 +143,16 @@ class TileDepths {
         : first_(tile.box.first),
           row_step_(tile.row_step),
           width_(tile.box.last.x - tile.box.first.x + 1),
-          depths_(static_cast<std::size_t>((tile.box.last.y - first_.y) / row_step_ + 1) *
-                      static_cast<std::size_t>(width_ + padding),
+          pitch_((width_ + padding + row_step_ - 1) / row_step_),
+          depths_(static_cast<std::size_t>(tile.box.last.y - first_.y + row_step_) *
+                      static_cast<std::size_t>(pitch_),
                   DepthBuffer::cleared) {}
 
     /// Those from a pixel to the end of its row.
     float* from(ivec2 pixel) {
-        const int from_first = pixel.y - first_.y;
-        const int row = row_step_ == 1 ? from_first : from_first / row_step_;
-        return &depths_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + padding) +
-                        static_cast<std::size_t>(pixel.x - first_.x)];
+        const ivec2 from_first = pixel - first_;
+        return &depths_[static_cast<std::size_t>(from_first.y) * static_cast<std::size_t>(pitch_) +
+                        static_cast<std::size_t>(from_first.x)];
     }
 
     /// The depth test for as many pixels of a row as F has numbers.
@@ -195,6 +195,7 @@ class TileDepths {
   private:
     ivec2 first_;
     int row_step_, width_;
+    int pitch_;  ///< From a row of the picture to the next; the tile's own are row_step_ apart.
     std::vector<float> depths_;
 };
 
