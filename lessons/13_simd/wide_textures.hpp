@@ -92,21 +92,34 @@ glm::vec<4, Floats<N>> channels_of(const std::array<Vector<float, N>, 4>& texels
             Floats<N>(shuffled<N>(ab23, cd23, last_halves))};
 }
 
-/// As sample_bilinear() (Eq. 5.6).
-///
+/// Of each of N positions: the upper left one of the four texels around it, as its place behind the
+/// level's first one, and the shares of those to its right and below it.
+template <int N>
+struct TexelsAround {
+    Ints<N> upper_left;
+    Floats<N> share_x, share_y;
+};
+
 /// @param x,y  Positions in the texture, 0 to 1.
 template <int N>
-glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
+TexelsAround<N> texels_around(const TextureLevel& level, Floats<N> x, Floats<N> y) {
     using F = Floats<N>;
     const F from_first_x = x * F(static_cast<float>(level.size.x)) + F(0.5f);
     const F from_first_y = y * F(static_cast<float>(level.size.y)) + F(0.5f);
     const Ints<N> column = min(truncated(from_first_x), Ints<N>(level.size.x));
     const Ints<N> row = min(truncated(from_first_y), Ints<N>(level.size.y));
-    const F share_x = from_first_x - to_floats(column), share_y = from_first_y - to_floats(row);
-    const int pitch = level.texels.size().x;
+    return {row * Ints<N>(level.texels.size().x) + column, from_first_x - to_floats(column),
+            from_first_y - to_floats(row)};
+}
+
+/// As sample_bilinear() (Eq. 5.6).
+///
+/// @param x,y  Positions in the texture, 0 to 1.
+template <int N>
+glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
+    const auto [at, share_x, share_y] = texels_around(level, x, y);
     const auto* const upper = reinterpret_cast<const float*>(level.texels.pixels().data());
-    const float* const lower = upper + 4 * static_cast<std::ptrdiff_t>(pitch);
-    const Ints<N> at = row * Ints<N>(pitch) + column;
+    const float* const lower = upper + 4 * static_cast<std::ptrdiff_t>(level.texels.size().x);
     const auto mean = [&]<int k>(std::integral_constant<int, k>) {  // of pixels k, k + 4, ...
         const auto own = [](int i) constexpr { return i / 4 * 4 + k; };
         const auto across = shuffled<N>(share_x.lanes, share_x.lanes, own);
@@ -119,6 +132,17 @@ glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, F
     return channels_of<N>(
         {mean(std::integral_constant<int, 0>()), mean(std::integral_constant<int, 1>()),
          mean(std::integral_constant<int, 2>()), mean(std::integral_constant<int, 3>())});
+}
+
+/// Asks memory for the texels that sample_bilinear() would read, and does not wait for them.
+template <int N>
+void prefetch_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
+    const Ints<N> at = texels_around(level, x, y).upper_left;
+    const vec4* const upper = level.texels.pixels().data();
+    for (int i = 0; i < N; i += 2) {  // a cache line mostly has the texels of two pixels
+        __builtin_prefetch(upper + at[i]);
+        __builtin_prefetch(upper + at[i] + level.texels.size().x);
+    }
 }
 
 /// As sample_nearest().
@@ -155,12 +179,22 @@ template <int N>
     const F x = wrapped(uv.here.x, texture.wrap);
     const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], x, y);
-    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], x, y);
+    // The pixels that come next are mostly the N to the right.
+    const F x_ahead = clamp(x + F(N) * uv.ddx.x, F(0.0f), F(1.0f));
+    const F y_ahead = clamp(y - F(N) * uv.ddx.y, F(0.0f), F(1.0f));
+    if (filter == Filter::bilinear) {
+        prefetch_bilinear(texture.levels[0], x_ahead, y_ahead);
+        return sample_bilinear(texture.levels[0], x, y);
+    }
     const F last(static_cast<float>(texture.levels.size() - 1));
     const F found = level_of_detail<N>(uv.ddx, uv.ddy, texture.levels[0].size);
     const F level = select(last < found, last, found);
     const Ints<N> finer = truncated(level);
     const F share = level - to_floats(finer);
+    const auto of_lane_0 = static_cast<std::size_t>(finer[0]);
+    prefetch_bilinear(texture.levels[of_lane_0], x_ahead, y_ahead);
+    if (of_lane_0 + 1 < texture.levels.size())
+        prefetch_bilinear(texture.levels[of_lane_0 + 1], x_ahead, y_ahead);
     glm::vec<4, F> color(F(0.0f));
     // All pixels between the same two levels together: mostly there are no others.
     for (Mask<N> left = first_lanes<F>(N); any_of(left);) {

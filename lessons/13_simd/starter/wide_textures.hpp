@@ -92,16 +92,47 @@ glm::vec<4, Floats<N>> channels_of(const std::array<Vector<float, N>, 4>& texels
             Floats<N>(shuffled<N>(ab23, cd23, last_halves))};
 }
 
+/// Of each of N positions: the upper left one of the four texels around it, as its place behind the
+/// level's first one, and the shares of those to its right and below it.
+template <int N>
+struct TexelsAround {
+    Ints<N> upper_left;
+    Floats<N> share_x, share_y;
+};
+
+/// @param x,y  Positions in the texture, 0 to 1.
+template <int N>
+TexelsAround<N> texels_around(const TextureLevel& level, Floats<N> x, Floats<N> y) {
+    using F = Floats<N>;
+    const F from_first_x = x * F(static_cast<float>(level.size.x)) + F(0.5f);
+    const F from_first_y = y * F(static_cast<float>(level.size.y)) + F(0.5f);
+    const Ints<N> column = min(truncated(from_first_x), Ints<N>(level.size.x));
+    const Ints<N> row = min(truncated(from_first_y), Ints<N>(level.size.y));
+    return {row * Ints<N>(level.texels.size().x) + column, from_first_x - to_floats(column),
+            from_first_y - to_floats(row)};
+}
+
 /// As sample_bilinear() (Eq. 5.6).
 ///
 /// @param x,y  Positions in the texture, 0 to 1.
 template <int N>
 glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
-    // TODO: step 3: as in lesson 05, the positions of all N pixels at once. Then, for k = 0 to 3,
-    // the mean of the four texels of pixels k, k + 4 ... in one vector: read_texels<k>() reads
-    // them, and shuffled() gives each texel its pixel's shares, four times. channels_of() makes
-    // channels of the four means.
+    // TODO: step 3: texels_around() finds the texels of all N pixels. For k = 0 to 3, the mean of
+    // the four texels of pixels k, k + 4 ... in one vector: read_texels<k>() reads them, and
+    // shuffled() gives each texel its pixel's shares, four times. channels_of() makes channels of
+    // the four means.
     return glm::vec<4, Floats<N>>(Floats<N>(1.0f));
+}
+
+/// Asks memory for the texels that sample_bilinear() would read, and does not wait for them.
+template <int N>
+void prefetch_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
+    const Ints<N> at = texels_around(level, x, y).upper_left;
+    const vec4* const upper = level.texels.pixels().data();
+    for (int i = 0; i < N; i += 2) {  // a cache line mostly has the texels of two pixels
+        __builtin_prefetch(upper + at[i]);
+        __builtin_prefetch(upper + at[i] + level.texels.size().x);
+    }
 }
 
 /// As sample_nearest().
@@ -138,10 +169,17 @@ template <int N>
     const F x = wrapped(uv.here.x, texture.wrap);
     const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], x, y);
-    if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], x, y);
+    // The pixels that come next are mostly the N to the right.
+    const F x_ahead = clamp(x + F(N) * uv.ddx.x, F(0.0f), F(1.0f));
+    const F y_ahead = clamp(y - F(N) * uv.ddx.y, F(0.0f), F(1.0f));
+    if (filter == Filter::bilinear) {
+        prefetch_bilinear(texture.levels[0], x_ahead, y_ahead);
+        return sample_bilinear(texture.levels[0], x, y);
+    }
     // TODO: step 3: as sample_trilinear(). The finer level is another one in each lane: take all
     // lanes between the same two levels together, by a mask, until none is left. The coarser level
-    // has to be there only where some lane's share of it is not 0.
+    // has to be there only where some lane's share of it is not 0. Last of all, it may be faster to
+    // prefetch both levels of lane 0.
     return glm::vec<4, F>(F(1.0f));
 }
 
