@@ -144,20 +144,10 @@ class TileDepths {
 
     /// Cleared.
     explicit TileDepths(const Tile& tile)
-        : first_(tile.box.first),
-          row_step_(tile.row_step),
-          width_(tile.box.last.x - tile.box.first.x + 1),
-          pitch_((width_ + padding + row_step_ - 1) / row_step_),
-          depths_(static_cast<std::size_t>(tile.box.last.y - first_.y + row_step_) *
-                      static_cast<std::size_t>(pitch_),
-                  DepthBuffer::cleared) {}
+        : layout_(tile, padding), depths_(layout_.places(), DepthBuffer::cleared) {}
 
     /// Those from a pixel to the end of its row.
-    float* from(ivec2 pixel) {
-        const ivec2 from_first = pixel - first_;
-        return &depths_[static_cast<std::size_t>(from_first.y) * static_cast<std::size_t>(pitch_) +
-                        static_cast<std::size_t>(from_first.x)];
-    }
+    float* from(ivec2 pixel) { return &depths_[layout_[pixel]]; }
 
     /// The depth test for as many pixels of a row as F has numbers.
     ///
@@ -179,26 +169,26 @@ class TileDepths {
             return depth == decltype(depth)(DepthBuffer::cleared);
         };
         const auto is_covered = [&](auto depth) { return !is_empty(depth); };
-        for (int y = tile.box.first.y; y <= tile.box.last.y; y += row_step_) {
-            const float* const depths = from({first_.x, y});
-            for (int x = 0, end = 0; x < width_; x = end) {
-                x = first_where<F>(depths, x, width_, is_empty);
-                end = first_where<F>(depths, x, width_, is_covered);
-                if (end > x) take(PixelRun{{first_.x + x, y}, end - x});
+        const auto [first, last] = tile.box;
+        for (int y = first.y; y <= last.y; y += tile.row_step) {
+            const float* const depths = from({first.x, y});
+            for (int x = 0, end = 0; x < layout_.width(); x = end) {
+                x = first_where<F>(depths, x, layout_.width(), is_empty);
+                end = first_where<F>(depths, x, layout_.width(), is_covered);
+                if (end > x) take(PixelRun{{first.x + x, y}, end - x});
             }
         }
     }
 
     /// Writes them into an image, at the tile's place moved by `offset`.
     void copy_to(Image<float>& image, const Tile& tile, ivec2 offset) {
-        for (int y = tile.box.first.y; y <= tile.box.last.y; y += row_step_)
-            std::copy_n(from({first_.x, y}), width_, &image[ivec2(first_.x, y) + offset]);
+        const auto [first, last] = tile.box;
+        for (int y = first.y; y <= last.y; y += tile.row_step)
+            std::copy_n(from({first.x, y}), layout_.width(), &image[ivec2(first.x, y) + offset]);
     }
 
   private:
-    ivec2 first_;
-    int row_step_, width_;
-    int pitch_;  ///< From a row of the picture to the next; the tile's own are row_step_ apart.
+    TileLayout layout_;
     std::vector<float> depths_;
 };
 

@@ -58,6 +58,34 @@ class BarycentricPlanes {
     float per_area_;
 };
 
+/// Where the pixels of a tile are kept: row by row.
+class TileLayout {
+  public:
+    /// @param padding  So many places behind each row may be written, and mean nothing.
+    explicit TileLayout(const Tile& tile, int padding = 0)
+        : first_(tile.box.first),
+          width_(tile.box.last.x - first_.x + 1),
+          pitch_((width_ + padding + tile.row_step - 1) / tile.row_step),
+          places_(static_cast<std::size_t>(tile.box.last.y - first_.y + tile.row_step) *
+                  static_cast<std::size_t>(pitch_)) {}
+
+    std::size_t places() const { return places_; }
+    int width() const { return width_; }  ///< Of the tile, in pixels.
+
+    /// The place of one of the tile's pixels.
+    std::size_t operator[](ivec2 pixel) const {
+        const ivec2 from_first = pixel - first_;
+        return static_cast<std::size_t>(from_first.y) * static_cast<std::size_t>(pitch_) +
+               static_cast<std::size_t>(from_first.x);
+    }
+
+  private:
+    ivec2 first_;
+    int width_;
+    int pitch_;  ///< From a row of the picture to the next; the tile's own are row_step apart.
+    std::size_t places_;
+};
+
 /// The triangles of a tile in drawing order, and for each of its pixels the one that is nearest so
 /// far.
 class TileVisibility {
@@ -72,8 +100,7 @@ class TileVisibility {
     /// Begins a tile: there is no triangle in it yet.
     void begin(const Tile& tile) {
         tile_ = tile;
-        width_ = tile.box.last.x - tile.box.first.x + 1;
-        pitch_ = (width_ + padding_ + tile.row_step - 1) / tile.row_step;
+        layout_ = TileLayout(tile, padding_);
         clear();
     }
 
@@ -91,11 +118,12 @@ class TileVisibility {
 
     /// The triangle is nearer in this pixel than all before it (Eq. 12.1).
     void write(ivec2 pixel, TriangleId id) {
-        // TODO: step 1: the pixel's id is this one from now on. index() says where it is kept.
+        // TODO: step 1: the pixel's id is this one from now on. layout_[pixel] says where it is
+        // kept.
     }
 
     /// The ids from a pixel to the end of its row.
-    TriangleId* ids_from(ivec2 pixel) { return &ids_[index(pixel)]; }
+    TriangleId* ids_from(ivec2 pixel) { return &ids_[layout_[pixel]]; }
 
     /// Visits each triangle that is visible in a pixel, in drawing order, with its pixels row by
     /// row (Eq. 12.3). Then the tile has no triangles any more.
@@ -113,16 +141,7 @@ class TileVisibility {
   private:
     void clear() {
         triangles_.clear();
-        ids_.assign(index({tile_.box.first.x, tile_.box.last.y}) +
-                        static_cast<std::size_t>(width_ + padding_),
-                    no_triangle);
-    }
-
-    /// Of a pixel in ids_, which has only the tile's own rows.
-    std::size_t index(ivec2 pixel) const {
-        const ivec2 from_first = pixel - tile_.box.first;
-        return static_cast<std::size_t>(from_first.y) * static_cast<std::size_t>(pitch_) +
-               static_cast<std::size_t>(from_first.x);
+        ids_.assign(layout_.places(), no_triangle);
     }
 
     /// Calls take(run, id) for all pixels of the tile in which there is a triangle.
@@ -130,9 +149,9 @@ class TileVisibility {
     void for_each_run(Take&& take) const {
         const auto [first, last] = tile_.box;
         for (int y = first.y; y <= last.y; y += tile_.row_step) {
-            const TriangleId* const ids = &ids_[index({first.x, y})];
-            for (int x = 0, end = 0; x < width_; x = end) {
-                while (end < width_ && ids[end] == ids[x]) ++end;
+            const TriangleId* const ids = &ids_[layout_[{first.x, y}]];
+            for (int x = 0, end = 0; x < layout_.width(); x = end) {
+                while (end < layout_.width() && ids[end] == ids[x]) ++end;
                 if (ids[x] != no_triangle) take(PixelRun{{first.x + x, y}, end - x}, ids[x]);
             }
         }
@@ -141,8 +160,7 @@ class TileVisibility {
     std::size_t max_ids_;
     int padding_;
     Tile tile_{};
-    int width_ = 0;
-    int pitch_ = 0;  ///< From a row of the picture to the next; the tile's own are row_step apart.
+    TileLayout layout_{tile_};
     std::vector<TriangleId> ids_;
     std::vector<const ProjectedTriangle*> triangles_;
     std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
