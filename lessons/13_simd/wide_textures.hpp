@@ -92,12 +92,11 @@ glm::vec<4, Floats<N>> channels_of(const std::array<Vector<float, N>, 4>& texels
             Floats<N>(shuffled<N>(ab23, cd23, last_halves))};
 }
 
-/// Of each of N positions: the upper left one of the four texels around it, as its place behind the
-/// level's first one, and the shares of those to its right and below it.
+/// The four texels around each of N positions.
 template <int N>
 struct TexelsAround {
-    Ints<N> upper_left;
-    Floats<N> share_x, share_y;
+    Ints<N> upper_left;          ///< Of the four, its place behind the level's first texel.
+    Floats<N> share_x, share_y;  ///< Of the right ones and of the lower ones, 0 to 1.
 };
 
 /// @param x,y  Positions in the texture, 0 to 1.
@@ -134,12 +133,12 @@ glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, F
          mean(std::integral_constant<int, 2>()), mean(std::integral_constant<int, 3>())});
 }
 
-/// Asks memory for the texels that sample_bilinear() would read, and does not wait for them.
+/// Asks memory for most of the texels that sample_bilinear() would read, and waits for none.
 template <int N>
 void prefetch_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
     const Ints<N> at = texels_around(level, x, y).upper_left;
     const vec4* const upper = level.texels.pixels().data();
-    for (int i = 0; i < N; i += 2) {  // a cache line mostly has the texels of two pixels
+    for (int i = 0; i < N; i += 2) {  // a cache line has four texels of a row
         __builtin_prefetch(upper + at[i]);
         __builtin_prefetch(upper + at[i] + level.texels.size().x);
     }
@@ -170,8 +169,8 @@ Floats<N> level_of_detail(const glm::vec<2, Floats<N>>& ddx, const glm::vec<2, F
                   F(0.0f));
 }
 
-/// As sample(). A vector that is passed to a function goes through memory, so that may take longer
-/// than the function itself. `flatten` inlines all that is called here, and below it.
+/// As sample(). Structs of vectors are passed to functions through memory, and that may take longer
+/// than the function itself. `flatten` inlines all that is called here, and all that those call.
 template <int N>
 [[gnu::flatten]] glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
                                                const TextureCoordinates<Floats<N>>& uv) {
@@ -179,7 +178,7 @@ template <int N>
     const F x = wrapped(uv.here.x, texture.wrap);
     const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], x, y);
-    // The pixels that come next are mostly the N to the right.
+    // The pixels that come next are mostly the N to the right. Clamped, as both become an index.
     const F x_ahead = clamp(x + F(N) * uv.ddx.x, F(0.0f), F(1.0f));
     const F y_ahead = clamp(y - F(N) * uv.ddx.y, F(0.0f), F(1.0f));
     if (filter == Filter::bilinear) {
@@ -191,7 +190,7 @@ template <int N>
     const F level = select(last < found, last, found);
     const Ints<N> finer = truncated(level);
     const F share = level - to_floats(finer);
-    const auto of_lane_0 = static_cast<std::size_t>(finer[0]);
+    const auto of_lane_0 = static_cast<std::size_t>(finer[0]);  // and of most others
     prefetch_bilinear(texture.levels[of_lane_0], x_ahead, y_ahead);
     if (of_lane_0 + 1 < texture.levels.size())
         prefetch_bilinear(texture.levels[of_lane_0 + 1], x_ahead, y_ahead);

@@ -61,7 +61,7 @@ class BarycentricPlanes {
 /// Where the pixels of a tile are kept: row by row.
 class TileLayout {
   public:
-    /// @param padding  So many places behind each row may be written, and mean nothing.
+    /// @param padding  At least so many places behind each row may be written, and mean nothing.
     explicit TileLayout(const Tile& tile, int padding = 0)
         : first_(tile.box.first),
           width_(tile.box.last.x - first_.x + 1),
@@ -72,7 +72,7 @@ class TileLayout {
     std::size_t places() const { return places_; }
     int width() const { return width_; }  ///< Of the tile, in pixels.
 
-    /// The place of one of the tile's pixels.
+    /// The place of a pixel in one of the tile's own rows.
     std::size_t operator[](ivec2 pixel) const {
         const ivec2 from_first = pixel - first_;
         return static_cast<std::size_t>(from_first.y) * static_cast<std::size_t>(pitch_) +
@@ -82,7 +82,7 @@ class TileLayout {
   private:
     ivec2 first_;
     int width_;
-    int pitch_;  ///< From a row of the picture to the next; the tile's own are row_step apart.
+    int pitch_;  ///< From a row of the picture to the next. Only each row_step-th is the tile's.
     std::size_t places_;
 };
 
@@ -91,7 +91,7 @@ class TileLayout {
 class TileVisibility {
   public:
     /// @param max_ids  So many triangles can be told apart: 1 to no_triangle.
-    /// @param padding  So many ids behind each row may be written, and are not read.
+    /// @param padding  So many ids behind each row may be written, and mean nothing.
     explicit TileVisibility(std::size_t max_ids, int padding = 0)
         : max_ids_(max_ids), padding_(padding) {
         assert(max_ids >= 1 && max_ids <= no_triangle);
