@@ -538,6 +538,10 @@ TEST(SceneFiles, HardCase_ThePlanIsExplained) {
           "  toon_fragments: 0\n", "  shadow_passes: 2\n",
           "  shadow maps: ", "  triangles: ", "  picture: "})
         EXPECT_NE(run.out.find(line), std::string::npos) << line << "\n" << run.out;
+    const ProcessResult of_glass =
+        run_program("11_scenes", {"--model", "workshop.glb", "--explain", "--size", "64x36",
+                                  "--shadow-size", "64", "--out", file});
+    EXPECT_NE(of_glass.out.find("mask (no holes)"), std::string::npos) << of_glass.out;
 }
 
 TEST(SceneFiles, HardCase_QualitySetsWhatNoOtherOptionSets) {

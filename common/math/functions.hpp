@@ -2,8 +2,8 @@
 /// @file
 /// Functions of a number type F: float, or a struct of several floats, each of which takes the same
 /// steps and so gets the same bits. What F has to bring: arithmetic, comparisons that give a mask,
-/// and for that mask `select`, `all_of`, `&` and `|`; sqrt, floor, float_parts and two_to_the.
-/// What is called for each pixel is `inline`: g++ leaves it a call else, and that takes longer.
+/// and for that mask `select`, `all_of`, `any_of`, `&` and `|`; sqrt, floor, float_parts and
+/// two_to_the. What is called for each pixel is `inline`: else g++ calls it, and that takes longer.
 #pragma once
 
 #include <bit>
@@ -126,9 +126,8 @@ inline F log2(F x) {
 /// x to the power of y.
 ///
 /// @param x,y  x from 0 to 1; y >= 0 and finite. A subnormal x counts as 0.
-/// @return     Within 2 + 2.2 y |log2 x| ulp (Eq. 6.10), or 0 where that is below 2^-126; at most
-/// 1; exactly 1
-///             for y = 0 and for x = 1.
+/// @return     Within 2 + 2.2 y |log2 x| ulp (Eq. 6.10), or 0 where that is about 2^-126
+///             or less; at most 1; exactly 1 for y = 0 and for x = 1.
 template <typename F>
 inline F power(F x, F y) {
     return select(y == F(0.0f), F(1.0f), exp2(y * log2(x)));

@@ -29,7 +29,7 @@ struct FloatRow {
 };
 
 /// The row in fixed point: whole numbers of 2^-fraction_bits rows. Only the slope is rounded, so
-/// the row drifts by at most half of that a step.
+/// the row drifts by at most half a unit in each step.
 template <int fraction_bits>
 struct FixedRow {
     std::int64_t row, rows_a_step;
@@ -49,8 +49,8 @@ struct FixedRow {
     void step() { row += rows_a_step; }
 };
 
-/// Walks the steps of draw_line with another row. Since rows are not exact here, each pixel is
-/// asked whether it is inside.
+/// Walks the steps of draw_line, with the row that Row computes. Since rows are not exact here,
+/// each pixel is asked whether it is inside.
 ///
 /// @param visit  Called as visit(row, plot_inside), where plot_inside(minor, coverage) plots.
 template <typename Row, typename Visit, std::invocable<ivec2, float> Plot>

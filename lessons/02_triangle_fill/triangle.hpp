@@ -102,7 +102,7 @@ struct EdgeWalk {
 ///
 /// @param triangle  A triangle of no area visits nothing.
 /// @param first     The part's upper left pixel, from 0 on.
-/// @param last      Its lower right one, below 2^22. Before `first` there is nothing to visit.
+/// @param last      Its lower right one, below 2^22. If it lies before `first`, nothing is visited.
 /// @param emit      Called as emit(ivec2 pixel, Barycentrics), row by row, once for each pixel,
 ///                  with the coordinates of its centre: >= 0, each within 2 ulp of its exact value
 ///                  (Eq. 2.4), and the same whatever the part.
@@ -117,7 +117,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
     if (first_pixel.x > last_pixel.x) return;
 
     const int winding = triangle.twice_area > 0 ? 1 : -1;
-    // Opposite to its vertex, an edge's value is the vertex's share of the area (Eq. 2.3).
+    // Opposite to its vertex, an edge's value is the vertex's share of twice the area (Eq. 2.3).
     EdgeWalk edge_a(b, c, winding, first_pixel);
     EdgeWalk edge_b(c, a, winding, first_pixel);
     EdgeWalk edge_c(a, b, winding, first_pixel);

@@ -32,7 +32,7 @@ struct FillVariant {
                      "What edge functions are computed in; vertices are snapped for the first two");
         knobs.choice("--subpixel-bits", subpixel_bits,
                      {{"0", 0}, {"2", 2}, {"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
-                     "Vertices are snapped to pixels divided by 2 so many times");
+                     "Vertices are snapped to 1/2^N of a pixel");
     }
 };
 

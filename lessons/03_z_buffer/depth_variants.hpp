@@ -35,8 +35,8 @@ struct DepthVariant {
              {"reversed-ndc", DepthFormat::reversed_ndc},
              {"unorm16", DepthFormat::unorm16},
              {"unorm24", DepthFormat::unorm24}},
-            "What a depth is kept as; reversed floats are 0 at the far end, and reversed-ndc comes "
-            "to it from -1 to 1");
+            "What a depth is kept as; reversed floats are 0 at the far end, and reversed-ndc first "
+            "computes a depth from -1 to 1");
         knobs.choice("--range", range,
                      {{"1", 1.0f}, {"100", 100.0f}, {"10000", 10'000.0f}, {"1000000", 1e6f}},
                      "Squeeze the model into the farthest part of the depths, one N-th of them, as "

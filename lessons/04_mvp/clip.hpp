@@ -41,7 +41,7 @@ constexpr float plane_distance(int plane, vec4 position_clip) {
 /// @param a_by,b_by  The plane_distance of each; one of them is negative.
 inline ClippedVertex crossing(const ClippedVertex& a, float a_by, const ClippedVertex& b,
                               float b_by) {
-    // Eq. 4.12: products of what is large or tiny would leave the range of float.
+    // Eq. 4.12, not 4.11, whose products of coordinates and distances might overflow or vanish.
     const float whole = a_by - b_by, share_of_a = -b_by / whole, share_of_b = a_by / whole;
     return {share_of_a * a.position_clip + share_of_b * b.position_clip,
             share_of_a * a.barycentrics + share_of_b * b.barycentrics};

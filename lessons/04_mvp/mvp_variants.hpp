@@ -219,8 +219,8 @@ void for_each_visible_triangle(const MvpVariant& variant, const Instance& instan
 ///
 /// @see Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997
 struct HomogeneousTriangle {
-    std::array<dvec3, 3> planes;  ///< Opposite to each vertex; inside > 0 if the triangle is front.
-    double volume;                ///< Of the vertices' (x, y, w): > 0 where seen counter-clockwise.
+    std::array<dvec3, 3> planes;  ///< Opposite to each vertex; inside > 0 if it faces front.
+    double volume;  ///< Six times, of the eye and the vertices' (x, y, w); > 0: front.
 
     explicit HomogeneousTriangle(const ClippedTriangle& triangle) {
         std::array<dvec3, 3> xyw;
@@ -237,8 +237,8 @@ struct HomogeneousTriangle {
 };
 
 /// Visits the pixels of a picture whose rays meet a triangle that is seen counter-clockwise,
-/// between the near and the far plane. A centre on a side belongs to a left or a top side's
-/// triangle.
+/// between the near and the far plane. A centre on a side belongs to the triangle of which this is
+/// a left or a top side.
 ///
 /// @param emit  Called as emit(ivec2 pixel, float depth).
 template <std::invocable<ivec2, float> Emit>

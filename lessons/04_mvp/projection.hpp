@@ -22,7 +22,7 @@ struct ProjectedTriangle {
     ClippedTriangle clipped;   ///< Clip space, and barycentric coordinates in the whole one.
     ScreenTriangle on_screen;
     TriangleDepth depth;
-    bool is_back_facing;
+    bool is_back_facing;  ///< Or of no area.
 };
 
 /// Divides by w, and snaps to the screen's grid (Eq. 4.9 and 2.8).

@@ -40,9 +40,9 @@ struct PerspectiveSetup {
     bool is_whole;  ///< Nothing was clipped off: the numerators are a diagonal matrix.
 };
 
-/// Robust: a vertex whose w is more than 2^80 times the least one counts as that far away. On the
-/// side between two such vertices all numerators would become 0, and there is a division by their
-/// sum.
+/// Robust: a vertex whose w is more than 2^80 times the least one counts as 2^80 times as far.
+/// Else, on the side between two such vertices, all numerators might become 0, or so small that
+/// their sum has no finite reciprocal.
 constexpr float min_inverse_w = 0x1p-80f;
 
 /// @param clipped  A piece with a w of 0, or without area, has no fragments: what is returned for
@@ -62,7 +62,7 @@ inline PerspectiveSetup perspective_setup(const ScreenTriangle& on_screen,
     for (std::size_t i = 0; i < 3; ++i)
         setup.numerators[i] = setup.inverse_w[static_cast<int>(i)] * clipped[i].barycentrics;
 
-    // How barycentric coordinates change on the screen: Eq. 2.5 over the area, as in Eq. 2.4.
+    // How barycentric coordinates change on the screen: Eq. 2.5 over twice the area, as in Eq. 2.4.
     const dvec2 a(on_screen.vertices[0]), b(on_screen.vertices[1]), c(on_screen.vertices[2]);
     const double per_area = subpixels / static_cast<double>(on_screen.twice_area);
     setup.numerators_ddx =

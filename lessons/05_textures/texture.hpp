@@ -68,7 +68,7 @@ inline vec4 sample_nearest(const TextureLevel& level, vec2 position) {
 /// @param position  0 to 1.
 inline vec4 sample_bilinear(const TextureLevel& level, vec2 position) {
     const vec2 from_first_center = position * vec2(level.size) + 0.5f;   // the border's first texel
-    const ivec2 first = glm::min(ivec2(from_first_center), level.size);  // beyond 2^23 + 0.5 rounds
+    const ivec2 first = glm::min(ivec2(from_first_center), level.size);  // above 2^23, + 0.5 rounds
     const vec2 share = from_first_center - vec2(first);
     const vec4* const upper = &level.texels[first];
     const vec4* const lower = upper + level.texels.size().x;

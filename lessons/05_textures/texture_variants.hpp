@@ -22,7 +22,7 @@ enum class Decoding { srgb, ignored };
 /// How textures are read, in this lesson and all later ones.
 struct TextureOptions {
     Filter filter = Filter::trilinear;
-    Wrap wrap = Wrap::repeat;  ///< Of maps that do not ask for -clamp.
+    Wrap wrap = Wrap::repeat;  ///< Of maps that ask for none themselves.
     Decoding decoding = Decoding::srgb;
     bool keep_going = false;  ///< An image that cannot be read is replaced.
 

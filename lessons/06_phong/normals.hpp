@@ -68,7 +68,7 @@ class SmoothNormals {
                     begin_[i] + merge(std::span(around_).subspan(begin_[i], end_[i] - begin_[i]));
     }
 
-    /// The mean of the normals of the faces around a position, weighted by their angles there.
+    /// The sum of the normals of the faces around a position, each times its angle there.
     ///
     /// @param position        Index into the mesh's positions. One that the file has twice is two
     ///                        positions, whose faces do not meet.

@@ -81,9 +81,9 @@ struct ShadingVariant : LightOptions {
     }
 };
 
-/// x * x * ... as often as `exponent` says, rounded to a whole number.
+/// x * x * ... as often as `exponent` says, rounded to a whole number, at most 1e6.
 ///
-/// @return  Within `exponent` half ulps of the power, relative to it, where it is not subnormal.
+/// @return  Within exponent * 2^-24 of the power, relative to it, where it is not subnormal.
 inline float power_by_squarings(float x, float exponent) {
     auto bits = static_cast<unsigned>(std::clamp(exponent, 0.0f, 1e6f) + 0.5f);
     float result = bits & 1 ? x : 1.0f;
@@ -94,7 +94,7 @@ inline float power_by_squarings(float x, float exponent) {
     return result;
 }
 
-/// A curve that looks like a power: also 0 at 0 and 1 at 1, and as steep there.
+/// A curve that looks like a power: also 0 at 0 and 1 at 1, and as steep at 1.
 ///
 /// @return  For an exponent of 1 and above at least the power, and at most .204 more.
 /// @see Schlick, "A fast alternative to Phong's specular model", Graphics Gems IV, 1994

@@ -22,7 +22,7 @@ template <typename F>
 struct SurfaceInputs {
     const Material& material;
     EffectMask effects;
-    const Texture *texture, *specular_texture;            ///< Null where the material names none.
+    const Texture *texture, *specular_texture;            ///< Null where none was read.
     SurfaceColor own_color;                               ///< Of the material alone.
     std::array<glm::vec<2, F>, 3> uvs{}, specular_uvs{};  ///< Only of what is read.
     std::array<Vec3<F>, 3> positions_world;

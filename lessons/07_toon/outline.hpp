@@ -33,7 +33,7 @@ constexpr vec3 ink(0.006f, 0.005f, 0.009f);  ///< The colour of outlines; linear
 /// Equal positions get the same direction, also where the file has one for each face; so the hull
 /// has no gap at a crease.
 ///
-/// @return  Of length 1; 0 where there is none, as on a sheet with two sides.
+/// @return  Of length 1; 0 where there is none, as on a sheet with faces for both sides.
 inline std::vector<vec3> hull_normals(const Mesh& mesh) {
     std::vector<vec3> sums(mesh.positions.size(), vec3(0));
     for (const Triangle& triangle : mesh.triangles)
@@ -116,10 +116,10 @@ void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera&
 
 /// From where on a change counts as an edge.
 ///
-/// No crease of a box, a common prism or a regular solid has exactly that of normals, however it
-/// runs over the picture: otherwise rounding would decide what is inked there (Eq. 7.14).
+/// No crease of a box, a common prism or a regular solid changes the normals by exactly as much,
+/// however it runs over the picture: otherwise rounding would decide what is inked (Eq. 7.14).
 struct EdgeThresholds {
-    float depth = 0.02f;    ///< In units of the distance to what is seen.
+    float depth = 0.02f;    ///< A jump, as a share of the distance.
     float normals = 0.45f;  ///< Of unit vectors: along a row or column, a turn of 26 degrees.
 };
 
@@ -134,7 +134,8 @@ inline float inverse_w(float depth, const Camera& camera) {
 /// The second difference along x or y; the rows beside count half (Eq. 7.12). It is 0 for a plane,
 /// however steep; the first difference would grow with the slope.
 ///
-/// @param at     Called as at(ivec2 offset), in steps from -1 to 1.
+/// @param at     Called as at(ivec2 offset): each component is -1, 0 or 1; 0, 0 is the pixel
+/// itself.
 /// @param along  (1, 0) or (0, 1).
 template <typename At>
 float second_difference(At&& at, ivec2 along) {
@@ -159,7 +160,7 @@ vec3 sobel(At&& at, ivec2 along) {
 ///
 /// @param normals   Of what is seen, length 1; 0 where nothing is.
 /// @param width_px  Of lines along rows and columns, rounded up to an even number; slanted ones are
-///                  0.71 to 1.41 times as wide. 0: each pixel is asked, and none inked. In a
+///                  up to 1.41 times as wide, or thinner. 0: each pixel is asked, none inked. In a
 ///                  picture that is at most that even number of pixels wide or high, none is
 ///                  asked.
 template <typename CounterPolicy>

@@ -40,9 +40,10 @@ struct ToonVariant : LightOptions {
                       {"edges", Outline::edges}},
                      "Outlines by the facing ratio, an inverted hull, or edge detection in depth "
                      "and normals");
-        knobs.number("--outline-width", outline_width_px, 0, 64,
-                     "Of hull and edges, in pixels; of edges, rounded up to an even number");
-        knobs.number("--facing", min_facing, 0, 1, "The facing ratio below which outline is");
+        knobs.number(
+            "--outline-width", outline_width_px, 0, 64,
+            "Of hull and edges, in pixels; of edges, rounded up to an even number of samples");
+        knobs.number("--facing", min_facing, 0, 1, "The facing ratio below which there is ink");
         LightOptions::declare(knobs);
     }
 };
@@ -60,7 +61,7 @@ inline float smoothly_quantised(float brightness, float change, int tones) {
     const double from = brightness - double{change} / 2, to = brightness + double{change} / 2;
     if (!(from < to) || tones == 1) return quantised(brightness, tones);  // also for NaN
     if (to <= 0 || from >= 1) return from >= 1 ? 1.0f : 0.0f;
-    if (std::isinf(change)) return 0.5f;  // as far on both sides of all tones
+    if (std::isinf(change)) return 0.5f;  // it reaches as far below all tones as above
     return static_cast<float>(std::clamp((area(to) - area(from)) / (to - from), 0.0, 1.0));
 }
 
@@ -125,7 +126,7 @@ void add_to_outline(const ToonVariant& variant, const TriangleSurface& surface, 
 /// Draws inverted hulls, or detects edges, when all else is drawn.
 ///
 /// @param normals           Of what is visible, from add_to_outline().
-/// @param samples_per_side  Of the picture in a pixel of that which is written.
+/// @param samples_per_side  So many of this picture's pixels are in a row of a written pixel.
 template <typename CounterPolicy>
 void draw_outlines(const ToonVariant& variant, const Scene& scene, const HullNormals& hull_normals,
                    const Camera& camera, int samples_per_side, const Image<vec3>& normals,

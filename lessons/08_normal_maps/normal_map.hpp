@@ -76,8 +76,8 @@ Vec3<F> with_z(glm::vec<2, F> xy) {
     return {xy, sqrt(max(F(1.0f) - glm::dot(xy, xy), F(0.0f)))};
 }
 
-/// A sample of a normal map, in the directions in which the texture coordinates grow. It is shorter
-/// than 1 where different normals are interpolated.
+/// A sample of a normal map, in the directions in which the texture coordinates grow. Where
+/// different unit normals are interpolated, it is shorter than 1; of heights, its z is 1.
 template <typename F>
 Vec3<F> sample_normal(const Texture& texture, Filter filter, const TextureCoordinates<F>& uv) {
     Vec3<F> normal(sample(texture, filter, uv));

@@ -35,8 +35,8 @@ enum class Channels { xyz, xy };
 
 constexpr int bits_of_file = 0;  ///< For NormalMapVariant::bits: as the file has them.
 
-/// What a component's values in a file are: UNORM, 0 to 1, of which each normal map is made but
-/// where its maker says otherwise (Eq. 8.1); or SNORM, -1 to 1, stored with the middle value added.
+/// How a file stores a component: UNORM, 0 to 1 (Eq. 8.1), unless the map's maker says otherwise;
+/// or SNORM, -1 to 1, with the middle value added.
 enum class NormalFormat { unorm, snorm };
 
 /// A component of a normal, -1 to 1, of a SNORM value with the middle one added. That one, 128 of 8

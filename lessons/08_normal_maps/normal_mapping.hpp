@@ -21,9 +21,9 @@
 
 namespace rasterbook {
 
-/// The normal maps of a scene: for each material.
+/// The normal maps of a scene: one for each material.
 struct NormalMaps {
-    MaterialTextures textures;     ///< `norm`, or else `map_Bump`; null for what is not lit.
+    MaterialTextures textures;     ///< `norm`, or else `map_Bump`; null: none.
     std::vector<MapSpace> spaces;  ///< Of its normals.
 };
 
@@ -93,7 +93,7 @@ struct NormalMapInputs {
     F side{1};                  ///< -1 as seen from behind: a bump in front is a dent there.
     float bump_multiplier = 1;  ///< -bm
     std::array<glm::vec<2, F>, 3> uvs{};
-    std::array<Vec3<F>, 3> tangents{};  ///< Of the vertices, or three times that of the face.
+    std::array<Vec3<F>, 3> tangents{};  ///< Of the vertices; or of the face, the same for all.
     F handedness{1};
     TangentBasis<F> face{};  ///< For FrameOf::face: as Eq. 8.3 finds it.
 };

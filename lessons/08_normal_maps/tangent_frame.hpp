@@ -77,7 +77,7 @@ Vec3<F> any_orthogonal(Vec3<F> n) {
     return unit_or(across(axis, n), axis);
 }
 
-/// The TBN basis: three directions at right angles, each of length 1.
+/// The TBN basis: orthonormal, unless a variant leaves it as it is.
 template <typename F>
 struct TangentBasis {
     Vec3<F> tangent, bitangent, normal;
@@ -106,8 +106,8 @@ Vec3<F> unit_orthogonal(Vec3<F> tangent, Vec3<F> normal) {
     const auto is_usable =
         (left_squared > F(mostly) * squared) & (left_squared > F(1e-30f)) & (squared < F(1e30f));
     if (all_of(is_usable)) return unit;
-    // Robust: roundings of the whole tangent count more in the little that is left. Take away
-    // theirs, too.
+    // Robust: where little is left, it is mostly rounding error, and may lean along the normal.
+    // Scale it, and take that component away once more.
     const Vec3<F> little = across(unit_or(tangent, normal), normal);
     const Vec3<F> less = unit_or(across(unit_or(little, normal), normal), normal);
     const auto is_something = glm::dot(little, little) > F(hardly_any);
@@ -135,7 +135,7 @@ struct TangentShare {
     std::array<std::int64_t, 3> share;
 };
 
-/// A triangle's share at one of its vertices: its angle there, along its tangent (Eq. 8.6), in
+/// A triangle's share at one of its vertices: its angle there times its tangent (Eq. 8.6), in
 /// whole numbers of 2^-40. Which vertex of the triangle comes first in the file does not change a
 /// bit.
 ///

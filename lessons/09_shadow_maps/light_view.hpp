@@ -82,8 +82,8 @@ inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers
     return region;
 }
 
-/// Texels by which each map reaches beyond what it is for, on each side: the shadow test
-/// of a point near the border lies inside. One more than the largest PCF kernel takes.
+/// By so many texels, each map reaches on each side beyond its box or face: so all taps of a point
+/// near the border lie in the map. One more than the largest PCF kernel takes.
 constexpr int margin_texels = 4;
 
 /// By how much the margin makes a map wider (Eq. 9.5).

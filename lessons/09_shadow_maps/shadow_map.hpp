@@ -124,10 +124,10 @@ enum class Bias { none, constant, slope, plane, normal };
 /// What a shadow test has to know of the triangle on which a shadow falls. A table in Robust, "Five
 /// biases and what they return", says which Bias sets which field.
 struct Receiver {
-    vec2 slope{0};         ///< Depth from a texel to its right and its lower neighbour (Eq. 9.11).
-    float bias = 0;        ///< Taken off the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
-    float bias_per_w = 0;  ///< To be divided by the moved point's w, and added to the bias.
-    vec3 offset{0};        ///< World space: moves the point (Eq. 9.12).
+    vec2 slope{0};           ///< Change of depth to the right and to the lower texel (Eq. 9.11).
+    float bias = 0;          ///< Taken off the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
+    float bias_per_w = 0;    ///< To be divided by the moved point's w, and added to the bias.
+    vec3 offset{0};          ///< World space: moves the point (Eq. 9.12).
     vec3 offset_times_w{0};  ///< To be multiplied by w of the point not yet moved, and added.
 };
 
@@ -195,7 +195,7 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
 struct PcfKernel {
     bool is_in_map = false;  ///< Else the point is lit.
     ivec2 middle{0};         ///< The texel in which the point lies.
-    float depth = 0;         ///< The surface's at this texel's centre, less the bias.
+    float depth = 0;         ///< That a texel in the middle is compared with: less the bias.
     vec2 slope{0};           ///< As in Receiver.
 };
 

@@ -25,8 +25,9 @@ struct ShadowVariant {
                       {"plane", Bias::plane},
                       {"normal", Bias::normal}},
                      "What keeps lit surfaces from shadowing themselves");
-        knobs.choice("--pcf", pcf, {{"1", 1}, {"3", 3}, {"5", 5}, {"7", 7}},
-                     "A shadow's edge is the mean of so many texels squared");
+        knobs.choice(
+            "--pcf", pcf, {{"1", 1}, {"3", 3}, {"5", 5}, {"7", 7}},
+            "Taps along each side of a shadow test's square: a shadow's edge is their mean");
     }
 };
 

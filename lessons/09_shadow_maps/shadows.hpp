@@ -200,7 +200,7 @@ constexpr float full_cosine = 0.1f;
 /// No map is asked where the surface is turned away from the light.
 ///
 /// @param l       The light's number.
-/// @param normal  The surface's own, no map's; of any length.
+/// @param normal  The surface's own, not a normal map's; of any length.
 /// @param before  Called as before(map, kernel) before the taps are read: the map's number, counted
 ///                through all lights, and a kernel that is in the map.
 template <typename CounterPolicy, typename Before>

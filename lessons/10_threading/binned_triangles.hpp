@@ -83,8 +83,8 @@ class TriangleBatch {
     std::vector<std::uint32_t> large_;  ///< Indices of the large triangles, ascending.
 };
 
-/// A batch has at most so many triangles or positions, until there are max_batches: a task for far
-/// fewer is not worth it.
+/// A batch has at most so many triangles or positions; beyond max_batches of these, batches grow. A
+/// task for far fewer is not worth it.
 constexpr std::size_t batch_size = 256;
 /// More than this many batches would take memory for their lists, and hardly share out the work
 /// better.
@@ -128,7 +128,7 @@ class BinnedTriangles {
     /// Transforms, clips and bins them.
     ///
     /// Counts as the earlier lessons do: triangles_in each one that is taken, and
-    /// triangles_culled_by_facing each piece that is not kept.
+    /// triangles_culled_by_facing each piece that is culled for the side that it shows.
     ///
     /// @param pool       Has size() and run() as ThreadPool does.
     /// @param culling    Whether pieces seen from behind are left out.

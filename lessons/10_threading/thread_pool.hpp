@@ -50,7 +50,7 @@ class ThreadPool {
     /// @param task   Called as task(i, worker) for i from 0 to tasks - 1, each once, by several
     ///               threads at once, in no fixed order. Of the calls by one worker, numbered from
     ///               0, the caller, to size() - 1, only one runs at a time. When one throws, no
-    ///               other is begun; when all that run have ended, run() throws what the first one
+    ///               other is taken; when all that were have ended, run() throws what the first one
     ///               threw, and the pool can be used as before.
     ///
     /// Not to be called by two threads at once, nor by a task.
@@ -76,7 +76,7 @@ class ThreadPool {
   private:
     void take_tasks(Job& job, std::size_t worker) {
         try {
-            // Only the count itself has to be whole: the mutex orders all else before and after.
+            // The count alone has to be atomic: the mutex orders all other memory.
             for (std::size_t i; (i = job.next.fetch_add(1, std::memory_order_relaxed)) < job.tasks;)
                 job.call(job.task, i, worker);
         } catch (...) {

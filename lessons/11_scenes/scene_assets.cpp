@@ -98,7 +98,7 @@ ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
         plan.set(Effect::outline, has_outline(material), "not asked for");
         const bool is_masked = material.alpha == AlphaMode::mask;
         plan.is_glass = !is_masked && (material.alpha == AlphaMode::blend || material.opacity < 1);
-        plan.set(Effect::mask, is_masked, "opaque");
+        plan.set(Effect::mask, is_masked, plan.is_glass ? "no holes" : "opaque");
         plan.set(Effect::blend, plan.is_glass || inputs.all_effects,
                  is_masked ? "holes only" : "opaque");
     }

@@ -72,8 +72,8 @@ std::vector<const Mesh*> seen_meshes(const Scene& scene, std::span<const Mesh> o
     return meshes;
 }
 
-/// Triangles that are drawn together: those of materials that are opaque, or are glass, and that
-/// are seen from both sides or from the front alone.
+/// Triangles that are drawn together: all opaque, or all glass; all seen from both sides, or all
+/// from the front alone.
 struct Pass {
     bool is_blended;  ///< They become transparent: glass, and with all effects forced the others,
                       ///< too.

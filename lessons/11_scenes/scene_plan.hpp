@@ -26,12 +26,12 @@ struct MaterialPlan {
     EffectMask effects;
     std::array<std::string, effect_count> why_not;
     bool is_seen = false;   ///< A triangle has it.
-    bool is_glass = false;  ///< It is blended, whatever is forced.
+    bool is_glass = false;  ///< Blended, also without --all-effects.
     bool two_sided = false;
 
     bool operator[](Effect effect) const { return effects[effect]; }
 
-    /// @param reason  For which it does not run, if so.
+    /// @param reason  Why it does not run; of no meaning if it does.
     void set(Effect effect, bool is_on, std::string reason) {
         effects.set(effect, is_on);
         why_not[static_cast<std::size_t>(effect)] = is_on ? std::string() : std::move(reason);
@@ -52,9 +52,9 @@ struct ScenePlan {
 /// What a plan depends on beside the scene itself.
 struct PlanInputs {
     bool has_lights;   ///< There is any light.
-    bool has_shadows;  ///< A light casts shadows: there are a caster and a receiver.
+    bool has_shadows;  ///< There are a caster and a receiver.
     bool normal_maps;  ///< They are read at all.
-    bool two_sided;    ///< All materials are seen from behind.
+    bool two_sided;    ///< All materials are seen from behind, too.
     bool all_effects;  ///< Each effect runs that can be given inputs which change nothing.
 };
 

@@ -33,7 +33,7 @@ class ShadowMapParts {
           casters_(std::move(casters)),
           states_(std::make_unique<std::atomic<State>[]>(tiling.count())) {}
 
-    /// Draws those parts that the taps around a texel lie in, unless they are drawn (Eq. 12.6).
+    /// Draws those parts that the taps around a texel lie in, if they are not drawn yet (Eq. 12.6).
     /// What lies around the map belongs to the parts at its border.
     ///
     /// @param middle  A texel of the map.

@@ -60,7 +60,7 @@ class HeatMap {
 };
 
 /// The first shadow map: the nearest texel is white, what no pixel asked for is blue, and each part
-/// has a darker upper and left border. Black where there is no map.
+/// has an upper and a left border. Black: texels without a caster, or no map at all.
 inline Image<vec3> picture_of(const ShadowMapsOnDemand& on_demand, ivec2 size) {
     Image<vec3> picture(size, vec3(0));
     if (on_demand.parts().empty()) return picture;

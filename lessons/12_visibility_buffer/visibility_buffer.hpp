@@ -20,7 +20,7 @@
 
 namespace rasterbook {
 
-/// A triangle's place in the list of its tile, in drawing order.
+/// A triangle's number among the opaque ones of its tile, in drawing order.
 using TriangleId = std::uint32_t;
 
 constexpr TriangleId no_triangle = std::numeric_limits<TriangleId>::max();
@@ -110,19 +110,19 @@ class TileVisibility {
         clear();
     }
 
-    /// Whether no other triangle can be told apart from those that are there.
+    /// Whether all ids are taken.
     bool is_full() const { return triangles_.size() == max_ids_; }
 
-    /// The id of the next triangle.
+    /// Adds a triangle, and returns its id.
     ///
-    /// @param projected  Has to be there until take_visible() is called.
+    /// @param projected  Has to outlive the next take_visible().
     TriangleId add(const ProjectedTriangle& projected) {
         assert(!is_full() && "its id would be another triangle's");
         triangles_.push_back(&projected);
         return static_cast<TriangleId>(triangles_.size() - 1);
     }
 
-    /// The triangle is nearer in this pixel than all before it (Eq. 12.1).
+    /// Notes that a triangle is the nearest in this pixel so far (Eq. 12.1).
     void write(ivec2 pixel, TriangleId id) { ids_[layout_[pixel]] = id; }
 
     /// The ids from a pixel to the end of its row.
@@ -179,7 +179,8 @@ class TileVisibility {
     std::vector<const ProjectedTriangle*> triangles_;
     std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
     std::vector<PixelRun> runs_;                          ///< Triangle by triangle.
-    std::vector<std::size_t> end_;                        ///< Of each triangle's in runs_.
+    std::vector<std::size_t>
+        end_;  ///< Of each triangle's runs in runs_; before they are put there, their begin.
 };
 
 }  // namespace rasterbook

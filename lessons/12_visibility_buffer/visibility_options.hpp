@@ -14,7 +14,7 @@ namespace rasterbook {
 /// What the picture shows.
 enum class Show {
     picture,
-    ids,         ///< Each triangle in a colour of its own.
+    ids,         ///< Neighbouring triangles in different colours.
     shading,     ///< How often each pixel was shaded.
     shadow_map,  ///< The first shadow map, and which of its parts were drawn.
 };

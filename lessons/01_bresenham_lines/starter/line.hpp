@@ -25,7 +25,7 @@ struct LineSteps {
     std::int64_t major_start, minor_start;  ///< The pixel of step 0.
     std::int64_t major_length;              ///< The number of the last step, 0 .. 2^32 - 1.
     std::int64_t minor_length;              ///< Change along the minor axis, 0 .. major_length.
-    int minor_direction;                    ///< -1, or +1, also for a level line.
+    int minor_direction;                    ///< -1 or +1; +1 for a level line.
     bool steep;                             ///< The major axis is y; rows are then columns.
     bool swapped;                           ///< Step 0 is the line's second end.
 

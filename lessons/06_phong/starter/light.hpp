@@ -19,7 +19,7 @@ struct Light {
     vec3 color;            ///< Linear; what arrives from a directional light, or at a point light.
     vec3 direction_world;  ///< Length 1: towards a directional light; where a spotlight shines.
     vec3 position_world{0};   ///< Of a point light or spotlight.
-    float half_distance = 1;  ///< Of a point light: where half of it arrives; >= FLT_MIN, world.
+    float half_distance = 1;  ///< Where half arrives, world space; not directional; >= FLT_MIN.
     float cos_full = 1;       ///< Cosine of the angle up to which a spotlight shines fully.
     float cos_none = 0;       ///< Of the angle from which on it does not shine, < cos_full.
 };
@@ -42,7 +42,7 @@ F distance_attenuation(Vec3<F> in_half_distances) {
 
 /// A spotlight's attenuation in a direction: 0 to 1 (Eq. 6.7).
 ///
-/// @param cosine  Of the angle to where it shines.
+/// @param cosine  Of the angle between where it shines and the way to the point.
 template <typename F>
 F spot_attenuation(F cosine, float cos_full, float cos_none) {
     // TODO: Eq. 6.7.

@@ -69,7 +69,7 @@ Vec3<F> any_orthogonal(Vec3<F> n) {
     return Vec3<F>(vec3(1, 0, 0));
 }
 
-/// The TBN basis: three directions at right angles, each of length 1.
+/// The TBN basis: orthonormal, unless a variant leaves it as it is.
 template <typename F>
 struct TangentBasis {
     Vec3<F> tangent, bitangent, normal;
@@ -122,7 +122,7 @@ struct TangentShare {
     std::array<std::int64_t, 3> share;
 };
 
-/// A triangle's share at one of its vertices: its angle there, along its tangent (Eq. 8.6), in
+/// A triangle's share at one of its vertices: its angle there times its tangent (Eq. 8.6), in
 /// whole numbers of 2^-40. Which vertex of the triangle comes first in the file does not change a
 /// bit.
 ///

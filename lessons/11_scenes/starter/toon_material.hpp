@@ -34,12 +34,12 @@ F toon_step(F cosine, const ToonMaterial& look) {
 /// The level of light on a point: 0 is its colour in the shade, 1 its lit one (Eq. 11.5).
 ///
 /// How bright the lights are does not count, only how bright they are beside the brightest one
-/// there: so a picture in one light has two colours for each paint, and no more.
+/// there: so a picture in one light has two colours for each paint, and the ramp between them.
 ///
 /// @param normal_world  Of any length. Without a direction, all lights graze it: the cosine is 0.
-/// @return  0 to 1; 0 where no light arrives.
 /// @param share         Called as share(l): the visibility of light l, 0 to 1. From a half on it is
 ///                      taken for 1, else for 0: a drawing's shadows have edges.
+/// @return  0 to 1; 0 where no light arrives.
 template <typename F, typename Share>
 F toon_level(std::span<const Light> lights, Vec3<F> position_world, Vec3<F> normal_world,
              const ToonMaterial& look, Share&& share) {
@@ -57,7 +57,7 @@ Vec3<F> toon_paint(Vec3<F> shade, Vec3<F> lit, F level) {
 /// A mesh's outline: its faces turned inside out, of the outline's colour, to be pushed outwards.
 struct OutlineHull {
     Mesh mesh;
-    std::vector<vec3> places, normals;  ///< Of each position: before it is pushed; whereto.
+    std::vector<vec3> places, normals;  ///< Of each position before it is pushed; of the push.
     std::vector<float> widths;          ///< World space, or in heights of the picture.
     std::vector<bool> on_screen;        ///< Whether its width is in heights of the picture.
 };
