@@ -106,10 +106,8 @@ glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3,
 /// @param fov_y_radians  The angle from the lower to the upper border, in (0, pi).
 /// @param aspect         Width divided by height, > 0.
 /// @param near,far       Distances, 0 < near < far; far may be infinite.
-/// @return               The relative error of each element is at most 2 eps; that of A and B,
-/// which
-///                       lose digits where near and far are close, (2 + 1 / (2 (1 - near/far)))
-///                       eps.
+/// @return               Each element with a relative error of at most 2 eps; A and B, which lose
+///                       digits where near and far are close, (2 + 1 / (2 (1 - near/far))) eps.
 template <std::floating_point T>
 glm::mat<4, 4, T> perspective(T fov_y_radians, T aspect, T near, T far) {
     // In double, as the last bit of a tangent in float is not the same on all processors.

@@ -134,8 +134,7 @@ inline float inverse_w(float depth, const Camera& camera) {
 /// The second difference along x or y; the rows beside count half (Eq. 7.12). It is 0 for a plane,
 /// however steep; the first difference would grow with the slope.
 ///
-/// @param at     Called as at(ivec2 offset): each component is -1, 0 or 1; 0, 0 is the pixel
-/// itself.
+/// @param at     Called as at(ivec2 offset), each component -1, 0 or 1.
 /// @param along  (1, 0) or (0, 1).
 template <typename At>
 float second_difference(At&& at, ivec2 along) {
@@ -160,7 +159,7 @@ vec3 sobel(At&& at, ivec2 along) {
 ///
 /// @param normals   Of what is seen, length 1; 0 where nothing is.
 /// @param width_px  Of lines along rows and columns, rounded up to an even number; slanted ones are
-///                  up to 1.41 times as wide, or thinner. 0: each pixel is asked, none inked. In a
+///                  thinner, or up to 1.41 times as wide. 0: each pixel is asked, none inked. In a
 ///                  picture that is at most that even number of pixels wide or high, none is
 ///                  asked.
 template <typename CounterPolicy>

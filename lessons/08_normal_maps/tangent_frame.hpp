@@ -77,7 +77,7 @@ Vec3<F> any_orthogonal(Vec3<F> n) {
     return unit_or(across(axis, n), axis);
 }
 
-/// The TBN basis: orthonormal, unless a variant leaves it as it is.
+/// The TBN basis: orthonormal, unless a variant leaves it skewed.
 template <typename F>
 struct TangentBasis {
     Vec3<F> tangent, bitangent, normal;

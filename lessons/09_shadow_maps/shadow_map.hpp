@@ -195,7 +195,7 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
 struct PcfKernel {
     bool is_in_map = false;  ///< Else the point is lit.
     ivec2 middle{0};         ///< The texel in which the point lies.
-    float depth = 0;         ///< That a texel in the middle is compared with: less the bias.
+    float depth = 0;         ///< Compared with the middle texel: the surface's, less the bias.
     vec2 slope{0};           ///< As in Receiver.
 };
 

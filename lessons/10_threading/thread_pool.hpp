@@ -50,7 +50,7 @@ class ThreadPool {
     /// @param task   Called as task(i, worker) for i from 0 to tasks - 1, each once, by several
     ///               threads at once, in no fixed order. Of the calls by one worker, numbered from
     ///               0, the caller, to size() - 1, only one runs at a time. When one throws, no
-    ///               other is taken; when all that were have ended, run() throws what the first one
+    ///               other is taken; when those taken have ended, run() throws what the first one
     ///               threw, and the pool can be used as before.
     ///
     /// Not to be called by two threads at once, nor by a task.

@@ -141,7 +141,8 @@ TriangleInputs triangle_inputs(const Frame<Maps>& frame, const ProjectedTriangle
     const EffectMask effects = assets.plan.materials[projected.triangle.material].effects;
     TriangleSurface surface = triangle_surface(assets.scene, assets.textures, effects, projected);
     if constexpr (with.model == ShadingModel::toon)
-        surface.own_color.ambient = surface.material.toon->shade;  // as paint has no ambient colour
+        surface.own_color.ambient =
+            surface.material.toon->shade;  // toon paint has no ambient colour
     TriangleNormalMap normal_map;
     if constexpr (with.normal_map)
         normal_map =

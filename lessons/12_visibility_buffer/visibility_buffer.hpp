@@ -67,18 +67,18 @@ class BarycentricPlanes {
 /// Where the pixels of a tile are kept: row by row.
 class TileLayout {
   public:
-    /// @param padding  At least so many places behind each row may be written, and mean nothing.
+    /// @param padding  At least so many elements behind each row may be written, and mean nothing.
     explicit TileLayout(const Tile& tile, int padding = 0)
         : first_(tile.box.first),
           width_(tile.box.last.x - first_.x + 1),
           pitch_((width_ + padding + tile.row_step - 1) / tile.row_step),
-          places_(static_cast<std::size_t>(tile.box.last.y - first_.y + tile.row_step) *
-                  static_cast<std::size_t>(pitch_)) {}
+          size_(static_cast<std::size_t>(tile.box.last.y - first_.y + tile.row_step) *
+                static_cast<std::size_t>(pitch_)) {}
 
-    std::size_t places() const { return places_; }
-    int width() const { return width_; }  ///< Of the tile, in pixels.
+    std::size_t size() const { return size_; }  ///< Of an array that holds them.
+    int width() const { return width_; }        ///< Of the tile, in pixels.
 
-    /// The place of a pixel in one of the tile's own rows.
+    /// The index of a pixel in one of the tile's own rows.
     std::size_t operator[](ivec2 pixel) const {
         const ivec2 from_first = pixel - first_;
         return static_cast<std::size_t>(from_first.y) * static_cast<std::size_t>(pitch_) +
@@ -89,7 +89,7 @@ class TileLayout {
     ivec2 first_;
     int width_;
     int pitch_;  ///< From a row of the picture to the next. Only each row_step-th is the tile's.
-    std::size_t places_;
+    std::size_t size_;
 };
 
 /// The triangles of a tile in drawing order, and for each of its pixels the one that is nearest so
@@ -155,7 +155,7 @@ class TileVisibility {
   private:
     void clear() {
         triangles_.clear();
-        ids_.assign(layout_.places(), no_triangle);
+        ids_.assign(layout_.size(), no_triangle);
     }
 
     /// Calls take(run, id) for all pixels of the tile in which there is a triangle.
@@ -179,8 +179,7 @@ class TileVisibility {
     std::vector<const ProjectedTriangle*> triangles_;
     std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
     std::vector<PixelRun> runs_;                          ///< Triangle by triangle.
-    std::vector<std::size_t>
-        end_;  ///< Of each triangle's runs in runs_; before they are put there, their begin.
+    std::vector<std::size_t> end_;                        ///< Of each triangle's runs in runs_.
 };
 
 }  // namespace rasterbook

@@ -19,7 +19,7 @@ struct Light {
     vec3 color;            ///< Linear; what arrives from a directional light, or at a point light.
     vec3 direction_world;  ///< Length 1: towards a directional light; where a spotlight shines.
     vec3 position_world{0};   ///< Of a point light or spotlight.
-    float half_distance = 1;  ///< Where half arrives, world space; not directional; >= FLT_MIN.
+    float half_distance = 1;  ///< Where half of its light arrives; >= FLT_MIN, world.
     float cos_full = 1;       ///< Cosine of the angle up to which a spotlight shines fully.
     float cos_none = 0;       ///< Of the angle from which on it does not shine, < cos_full.
 };

@@ -69,7 +69,7 @@ Vec3<F> any_orthogonal(Vec3<F> n) {
     return Vec3<F>(vec3(1, 0, 0));
 }
 
-/// The TBN basis: orthonormal, unless a variant leaves it as it is.
+/// The TBN basis: orthonormal, unless a variant leaves it skewed.
 template <typename F>
 struct TangentBasis {
     Vec3<F> tangent, bitangent, normal;

@@ -43,8 +43,7 @@ struct TransparentFragment {
     vec3 color;
 };
 
-/// The transparent fragments of a tile, gathered in any order of depths, blended from back to
-/// front.
+/// The transparent fragments of a tile, gathered in any order of depth, blended from back to front.
 ///
 /// Sorted in each pixel by themselves: triangles that cut through each other, or overlap in a ring,
 /// have no order as a whole.

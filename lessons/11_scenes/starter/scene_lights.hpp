@@ -27,8 +27,7 @@ constexpr float lux_of_white = std::numbers::pi_v<float>;
 /// as large as this share of the scene's radius. A spotlight is, too.
 constexpr float point_light_size = 1.0f / 128;
 
-/// A file's light in units of the lessons' (Eq. 11.1 and 11.2). Its range is ignored: glTF calls it
-/// a hint.
+/// A file's light in units of the lessons' (Eq. 11.1 and 11.2). Its range, a hint, is ignored.
 ///
 /// @param scene_radius  World space, > 0; any float. Farther from a point light than 10 times its
 ///                      size, less than 1% of its light is missing.

@@ -95,7 +95,7 @@ glm::vec<4, Floats<N>> channels_of(const std::array<Vector<float, N>, 4>& texels
 /// The four texels around each of N positions.
 template <int N>
 struct TexelsAround {
-    Ints<N> upper_left;          ///< Of the four, its place behind the level's first texel.
+    Ints<N> upper_left;          ///< Of the four, as an index into the level's texels.
     Floats<N> share_x, share_y;  ///< Of the right ones and of the lower ones, 0 to 1.
 };
 

@@ -140,7 +140,7 @@ class TileDepths {
 
     /// Cleared.
     explicit TileDepths(const Tile& tile)
-        : layout_(tile, padding), depths_(layout_.places(), DepthBuffer::cleared) {}
+        : layout_(tile, padding), depths_(layout_.size(), DepthBuffer::cleared) {}
 
     /// Those from a pixel to the end of its row.
     float* from(ivec2 pixel) { return &depths_[layout_[pixel]]; }
