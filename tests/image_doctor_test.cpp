@@ -478,7 +478,7 @@ TEST(ImageDoctor, TheCommandFindsWhatTroubleshootingSaysItFinds) {
     const std::string page = test::read_text(docs / "troubleshooting.md");
     int found = 0;
     for (const std::string& section : test::parts_after(page, "\n## ")) {
-        if (section.find("`./tests/run --diagnose` finds it.") == section.npos) continue;
+        if (section.find("`./tests/run --diagnose mine.png NN` finds it") == section.npos) continue;
         ++found;
         std::istringstream command(test::all_between(section, "`./lessons/run ", "`").at(0));
         std::string number;
