@@ -71,7 +71,7 @@ build() {
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
     [ -z "$home" ] || [ "$home" = "$PWD" ] || fresh=(--fresh)
     # A lesson is built again and again: then only what has changed is looked at, and not what may have been installed since.
-    if [ "$1" != common ] && [ ! -d "lessons/$1" ] || [ "$home" != "$PWD" ] || [ CMakePresets.json -nt "build/$preset/build.ninja" ]; then
+    if [ "$1" != common ] && [ ! -d "lessons/${1%_probe}" ] || [ "$home" != "$PWD" ] || [ CMakePresets.json -nt "build/$preset/build.ninja" ]; then
         quietly cmake --preset "$preset" "${fresh[@]}"
     fi
     log=$(mktemp)

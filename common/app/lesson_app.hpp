@@ -146,6 +146,14 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 /// For run_lesson(): a lesson without --probe.
 struct NoProbe {};
 
+/// Whether programs have --probe. A reader's own goes without, so that its picture takes less time
+/// to come; ./lessons/run builds another when it is asked for.
+#ifdef RASTERBOOK_WITHOUT_PROBE
+constexpr bool has_probe = false;
+#else
+constexpr bool has_probe = true;
+#endif
+
 /// Runs a lesson: reads the command line and the model, renders, writes the picture.
 ///
 /// @tparam Options     Derived from LessonOptions; may have `void declare(Knobs&)`, an `Orbit
@@ -172,7 +180,7 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, MakeA
     if constexpr (requires { options.orbit; }) orbit = &options.orbit;
     if constexpr (requires { options.threads.threads; }) threads = &options.threads.threads;
     std::function<PixelProbe()> probe;
-    if constexpr (!std::is_same_v<MakeProbe, NoProbe>)
+    if constexpr (has_probe && !std::is_same_v<MakeProbe, NoProbe>)
         probe = [&] { return make_probe(std::as_const(options), std::as_const(*assets)); };
     return run_lesson_program(
         {std::move(name), std::move(title), options, orbit, show_depth, threads,

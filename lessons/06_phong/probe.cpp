@@ -5,6 +5,8 @@
 #include <cstddef>
 
 #include "04_mvp/camera.hpp"
+#include "04_mvp/probe.hpp"
+#include "06_phong/report.hpp"
 #include "06_phong/studio_lights.hpp"
 
 namespace rasterbook {

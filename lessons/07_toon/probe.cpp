@@ -11,7 +11,7 @@
 
 #include "04_mvp/camera.hpp"
 #include "04_mvp/probe.hpp"
-#include "06_phong/probe.hpp"
+#include "06_phong/report.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "07_toon/toon_variants.hpp"

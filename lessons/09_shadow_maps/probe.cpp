@@ -6,7 +6,11 @@
 #include <memory>
 
 #include "04_mvp/camera.hpp"
+#include "04_mvp/probe.hpp"
+#include "06_phong/report.hpp"
 #include "06_phong/studio_lights.hpp"
+#include "08_normal_maps/report.hpp"
+#include "09_shadow_maps/report.hpp"
 
 namespace rasterbook {
 

@@ -1,76 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// "Why this pixel?": shadows in one pixel, in this lesson and all later ones, for `--probe`.
+/// "Why this pixel?" for the pictures of this lesson and the next: `--probe`.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <string>
-
-#include "04_mvp/probe.hpp"
-#include "06_phong/probe.hpp"
-#include "06_phong/surface.hpp"
+#include "05_textures/textures.hpp"
+#include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
-#include "08_normal_maps/probe.hpp"
 #include "09_shadow_maps/assets.hpp"
 #include "09_shadow_maps/shadows.hpp"
-#include "common/app/counters.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/probe/pixel_report.hpp"
 
 namespace rasterbook {
-
-/// Says which depths a shadow test compares.
-///
-/// @param map       The map's number, counted through all lights.
-/// @param receiver  With the bias that has been fitted to it for this map.
-inline void report_shadow_test(PixelReport& report, const ShadowMaps& shadow_maps, std::size_t l,
-                               std::size_t map, const TriangleReceiver& receiver,
-                               const PcfKernel& kernel) {
-    const LightShadowMaps& of_light = shadow_maps.of_light[l];
-    const ShadowMap& asked = of_light.maps[map - of_light.first_map];
-    const float in_map = asked.depths.depths()[kernel.middle + max_pcf_radius];
-    report.line("  shadow map",
-                "texel " + words(kernel.middle) + " of " + std::to_string(asked.size) + "x" +
-                    std::to_string(asked.size),
-                "Eq. 9.6");
-    for (const auto& bias : receiver.biases[map])
-        if (bias) report.line("  bias", bias->bias, "Eq. 9.10");
-    const float depth = std::min(kernel.depth, DepthBuffer::cleared);
-    report.line(
-        "  depths compared",
-        words(depth, 7) + (depth <= in_map ? " is not behind " : " is behind ") + words(in_map, 7),
-        "Eq. 9.7");
-    const int side = 2 * shadow_maps.radius + 1;
-    const float lit = pcf_visibility(asked, shadow_maps.radius, kernel);
-    report.line("  taps that say lit",
-                std::to_string(std::lrint(lit * static_cast<float>(side * side))) + " of " +
-                    std::to_string(side * side),
-                "Eq. 9.13");
-}
-
-/// Says how much of a light reaches a point of a triangle, and why.
-inline float report_visibility(PixelReport& report, const ShadowMaps& shadow_maps, std::size_t l,
-                               TriangleReceiver& receiver, vec3 position, vec3 normal) {
-    NoCounters uncounted;
-    bool is_tested = false;
-    const float visibility =
-        light_visibility(shadow_maps, l, receiver, position, normal, uncounted,
-                         [&](std::size_t map, const PcfKernel& kernel) {
-                             is_tested = true;
-                             report_shadow_test(report, shadow_maps, l, map, receiver, kernel);
-                         });
-    if (is_tested)
-        report.line("  visibility", visibility, "Eq. 9.16");
-    else
-        report.line("  visibility",
-                    words(visibility) + (shadow_maps.of_light[l].maps.empty()
-                                             ? ": the light casts no shadows"
-                                         : visibility == 0 ? ": the surface is turned away"
-                                                           : ": outside of the shadow map"));
-    return visibility;
-}
 
 /// What shadow_probe() is to know of a lesson's options, wherever they stand.
 struct ShadowProbeOptions {

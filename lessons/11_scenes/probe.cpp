@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "04_mvp/probe.hpp"
-#include "06_phong/probe.hpp"
-#include "08_normal_maps/probe.hpp"
-#include "09_shadow_maps/probe.hpp"
+#include "06_phong/report.hpp"
+#include "08_normal_maps/report.hpp"
+#include "09_shadow_maps/report.hpp"
 #include "11_scenes/blending.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/shaders.hpp"

@@ -36,7 +36,7 @@ int run_scene_lesson(int argc, char** argv, std::string name, std::string title,
                         counters, clock);
             return picture;
         },
-        scene_probe);
+        [](const auto&... of) { return scene_probe(of...); });
 }
 
 }  // namespace rasterbook
