@@ -22,7 +22,7 @@ not found once, that is an error: the page is not up to date.
 `answers` does so with the answers to the exercises in lessons/NN_*/README.md. An answer's diff is a
 unified one whose lines "@@" have no numbers, the lesson then draws with its first command, and the
 picture is the one that the answer shows. `check-answers` draws all of them, and compares; with a TURN
-of 0, 1 or 2, only those of the lessons whose number divided by 3 has this remainder.
+of 0, 1, 2 or 3, only those of the lessons whose number divided by 4 has this remainder.
 """
 
 import contextlib
@@ -398,7 +398,7 @@ def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bo
         files = re.findall(r"^--- (.*)$", answer.diff, flags=re.MULTILINE)
         code = {file: (tree / file).read_text(encoding="utf-8") for file in files}
         changed(code, answer.diff)
-        if turn is not None and int(answer.lesson[:2]) % 3 != turn:
+        if turn is not None and int(answer.lesson[:2]) % 4 != turn:
             continue
         picture = png(drawn_with(tree, code, answer.lesson, answer.options))
         if answer.picture is None:
@@ -432,7 +432,7 @@ def main() -> None:
         case ["check-answers"]:
             with copied_tree() as tree:
                 draw_answers(tree, is_check=True)
-        case ["check-answers", "0" | "1" | "2" as turn]:
+        case ["check-answers", "0" | "1" | "2" | "3" as turn]:
             with copied_tree() as tree:
                 draw_answers(tree, is_check=True, turn=int(turn))
         case _:
