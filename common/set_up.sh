@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Installs what is missing on Debian and Ubuntu; sourced by lessons/run, tests/run and docs/run.
+# Installs what is missing on Debian and Ubuntu; sourced by the scripts that build.
 # Elsewhere the README names the packages, and the presets work by themselves.
 
 packages=(g++ cmake ninja-build libglm-dev libcli11-dev libpng-dev libstb-dev nlohmann-json3-dev libtinygltf-dev

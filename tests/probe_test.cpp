@@ -247,7 +247,7 @@ TEST(Probe, OnASharedEdgeItSaysWhichTriangleOwnsThePixel) {
               "on edge ab, neither a left nor a top one (Eq. 2.7)");
     EXPECT_EQ(why_not_covered(lower, on_edge), "") << "it owns the edge";
     EXPECT_TRUE(covered(lower, on_edge) && !covered(upper, on_edge));
-    EXPECT_EQ(why_not_covered(lower, {0, 4}), "outside of edge ca by 2.12 px (Eq. 2.5)")
+    EXPECT_EQ(why_not_covered(lower, {0, 4}), "outside of edge ca by 2.12 px (Eq. 2.2)")
         << "3 / sqrt(2)";
 }
 

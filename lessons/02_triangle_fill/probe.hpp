@@ -55,7 +55,7 @@ inline std::string why_not_covered(const ScreenTriangle& triangle, ivec2 pixel) 
         outside += std::string(outside.empty() ? "outside of edge " : ", ") + names[i] + " by " +
                    words(static_cast<float>(distance_px), 3) + " px";
     }
-    return outside.empty() ? on : outside + " (Eq. 2.5)";
+    return outside.empty() ? on : outside + " (Eq. 2.2)";
 }
 
 /// Says where a triangle lies on the screen, and the pixel in it.
