@@ -22,7 +22,7 @@ not found once, that is an error: the page is not up to date.
 `answers` does so with the answers to the exercises in lessons/NN_*/README.md. An answer's diff is a
 unified one whose lines "@@" have no numbers, the lesson then draws with its first command, and the
 picture is the one that the answer shows. `check-answers` draws all of them, and compares; with a TURN
-of 0, 1, 2 or 3, only those of the lessons whose number divided by 4 has this remainder.
+such as 1/4, only those of the lessons whose number divided by 4 leaves 1.
 """
 
 import contextlib
@@ -382,7 +382,10 @@ def changed(code: dict[str, str], diff: str) -> None:
             code[file] = ("\n" + code[file]).replace("\n" + before, "\n" + after, 1)[1:]
 
 
-def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bool = False, turn: int | None = None) -> None:
+def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bool = False, turn: str = "0/1") -> None:
+    remainder, divisor = map(int, turn.split("/"))
+    if remainder >= divisor:
+        raise SystemExit(f"error: {turn} is no lesson's turn")
     # What an answer changes is compiled again for it, and once more for the next that does not: so those that change the
     # same follow each other, and what all lessons include is changed last.
     def order(answer: Answer) -> tuple[bool, str, list[str]]:
@@ -398,7 +401,7 @@ def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bo
         files = re.findall(r"^--- (.*)$", answer.diff, flags=re.MULTILINE)
         code = {file: (tree / file).read_text(encoding="utf-8") for file in files}
         changed(code, answer.diff)
-        if turn is not None and int(answer.lesson[:2]) % 4 != turn:
+        if int(answer.lesson[:2]) % divisor != remainder:
             continue
         picture = png(drawn_with(tree, code, answer.lesson, answer.options))
         if answer.picture is None:
@@ -432,9 +435,9 @@ def main() -> None:
         case ["check-answers"]:
             with copied_tree() as tree:
                 draw_answers(tree, is_check=True)
-        case ["check-answers", "0" | "1" | "2" | "3" as turn]:
+        case ["check-answers", turn] if re.fullmatch(r"\d+/\d+", turn):
             with copied_tree() as tree:
-                draw_answers(tree, is_check=True, turn=int(turn))
+                draw_answers(tree, is_check=True, turn=turn)
         case _:
             raise SystemExit(__doc__)
 

@@ -3,8 +3,8 @@
 Every lesson's page is opened from the folder and from a server and has to draw the bytes that the
 program draws; every control has to change the picture as the option does, or to say why not; a
 probed pixel has to have the program's reasons; what goes wrong has to end in a sentence. If
-RASTERBOOK_TURN is 0, 1, 2 or 3, controls and pixels are tried in the lessons whose number divided by 4
-has this remainder. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED is set.
+RASTERBOOK_TURN is such as 1/4, controls and pixels are tried in the lessons whose number divided by 4
+leaves 1. Exits with 77 where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED is set.
 """
 
 import functools

@@ -1,8 +1,8 @@
 """Opens the built site in headless Chromium: site_test.py SITE_FOLDER.
 
 Every page of text and some of the code are looked at, at desk and phone width, light and dark;
-the links of all pages are followed. If RASTERBOOK_TURN is 0, 1, 2 or 3, only every fourth page is opened
-at phone width, from that one on. Exits with 77 where something is missing, or with 1 if
+the links of all pages are followed. If RASTERBOOK_TURN is such as 1/4, only every fourth page is
+opened at phone width, from number 1 on. Exits with 77 where something is missing, or with 1 if
 RASTERBOOK_SITE_REQUIRED is set.
 """
 
@@ -59,8 +59,8 @@ def skip(reason: str) -> None:
 
 def is_turn_of(number: int) -> bool:
     """Whether what has this number is to be tried; without RASTERBOOK_TURN, all is."""
-    turn = os.environ.get("RASTERBOOK_TURN")
-    return not turn or number % 4 == int(turn)
+    remainder, divisor = map(int, os.environ.get("RASTERBOOK_TURN", "0/1").split("/"))
+    return number % divisor == remainder
 
 
 class Links(HTMLParser):
