@@ -67,11 +67,11 @@ build() {
     case $preset in
         mine | mine_debug | mine_fast) preset=release build common || return ;;  # they link what no reader changes
     esac
-    local home fresh=() log
+    local home fresh=() log of=${1%_probe}
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
     [ -z "$home" ] || [ "$home" = "$PWD" ] || fresh=(--fresh)
     # A lesson is built again and again: then only what has changed is looked at, and not what may have been installed since.
-    if [ "$1" != common ] && [ ! -d "lessons/${1%_probe}" ] || [ "$home" != "$PWD" ] || [ CMakePresets.json -nt "build/$preset/build.ninja" ]; then
+    if [ "$1" != common ] && [ ! -d "lessons/${of%_hard_cases_test}" ] || [ "$home" != "$PWD" ] || [ CMakePresets.json -nt "build/$preset/build.ninja" ]; then
         quietly cmake --preset "$preset" "${fresh[@]}"
     fi
     log=$(mktemp)

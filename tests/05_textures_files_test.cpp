@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "05_textures/load_textures.hpp"
 #include "05_textures/textures.hpp"
 #include "common/image/image_io.hpp"
 #include "common/model/mesh.hpp"

@@ -151,7 +151,8 @@ TEST(ShadowMaps, Eq9_16_LightFadesAlikeInAllFacesOfAPointLight) {
     EXPECT_EQ(floor.count(Counter::shadow_tests), 2u);
 }
 
-TEST(ShadowMaps, Eq9_16_NormalMapsDoNotChangeWhichShadowTestsAreMade) {
+TEST(ShadowMaps, HardCase_NormalMapsDoNotChangeWhichShadowTestsAreMade) {
+    look_up("Eq. 9.16");
     // On the pot's dark side bumps lean towards the light, on its bright side away from it.
     for (const LightKind kind : light_kinds) {
         lesson_09::Options options = small_picture();

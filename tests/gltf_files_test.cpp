@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "05_textures/load_textures.hpp"
 #include "05_textures/textures.hpp"
 #include "common/image/image_io.hpp"
 #include "common/model/model_file.hpp"

@@ -6,6 +6,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
+#include "05_textures/load_textures.hpp"
 #include "05_textures/probe.hpp"
 #include "05_textures/textures.hpp"
 #include "common/app/lesson_app.hpp"

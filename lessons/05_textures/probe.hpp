@@ -15,6 +15,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/probe.hpp"
 #include "04_mvp/projection.hpp"
+#include "05_textures/texture_variants.hpp"
 #include "05_textures/textures.hpp"
 #include "common/probe/pixel_report.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "06_phong/load_surface_textures.hpp"
 #include "06_phong/normals.hpp"
 
 namespace rasterbook {

@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "06_phong/load_surface_textures.hpp"
 #include "06_phong/normals.hpp"
+#include "08_normal_maps/load_normal_maps.hpp"
 
 namespace rasterbook {
 

@@ -3,7 +3,6 @@
 /// Normals from the maps that a scene's materials name. Introduced in lesson 08.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <tuple>
@@ -27,35 +26,6 @@ struct NormalMaps {
     std::vector<MapSpace> spaces;  ///< Of its normals.
 };
 
-/// @param all_effects  A lit material without a map is given one that changes nothing.
-/// @throws InputError  As load_textures() has it.
-inline NormalMaps load_normal_maps(Scene& scene, const TextureOptions& options,
-                                   const NormalMapVariant& variant, bool all_effects) {
-    const auto calls_for_map = [&](const Material& material) {
-        return is_lit(material) && variant.space != MapSpace::none;
-    };
-    NormalMaps maps{load_textures(
-                        scene, &Material::normal_map, "norm", options,
-                        [&](const Image<u8vec4>& image, Wrap) { return variant.normals(image); },
-                        calls_for_map),
-                    std::vector<MapSpace>(scene.materials.size(), MapSpace::tangent)};
-    const MaterialTextures bumps = load_textures(
-        scene, &Material::bump_map, "map_Bump", options,
-        [&](const Image<u8vec4>& image, Wrap wrap) {
-            return variant.normals_of_bumps(image, wrap);
-        },
-        [&](const Material& material) {
-            return calls_for_map(material) && material.normal_map.file.empty();
-        });
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (maps.textures[i]) maps.spaces[i] = variant.space;
-        if (bumps[i]) maps.textures[i] = bumps[i];
-        if (!maps.textures[i] && is_lit(scene.materials[i]) && all_effects)
-            maps.textures[i] = constant_texture(vec4(0, 0, 1, 1));
-    }
-    return maps;
-}
-
 /// Lesson 06's plan, with normal maps.
 inline std::vector<EffectMask> plan_effects(const Scene& scene, const SurfaceTextures& textures,
                                             const NormalMaps& normal_maps, bool all_effects) {
@@ -68,19 +38,6 @@ inline std::vector<EffectMask> plan_effects(const Scene& scene, const SurfaceTex
 /// The map of a material that its normals come from.
 inline const TextureMap& normal_map_of(const Material& material) {
     return material.normal_map.file.empty() ? material.bump_map : material.normal_map;
-}
-
-/// Gives tangents to each mesh that a normal map in tangent space calls for.
-inline void make_tangents(Scene& scene, const NormalMaps& maps, const NormalMapVariant& variant) {
-    if (variant.frame != FrameOf::vertex) return;
-    for (Mesh& mesh : scene.meshes)
-        if (std::ranges::any_of(mesh.triangles, [&](const Triangle& triangle) {
-                return maps.textures[triangle.material] &&
-                       maps.spaces[triangle.material] == MapSpace::tangent;
-            }))
-            mesh.tangents = vertex_tangents(mesh, [&](const Triangle& triangle) {
-                return uvs_of(mesh, triangle, normal_map_of(scene.materials[triangle.material]));
-            });
 }
 
 /// A triangle's normal map, and what its vertices have for it.

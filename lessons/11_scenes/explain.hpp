@@ -4,12 +4,14 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "11_scenes/scene_assets.hpp"
+#include "11_scenes/scene_plan.hpp"
 #include "common/app/counters.hpp"
+#include "common/model/mesh.hpp"
 
 namespace rasterbook {
 
@@ -43,9 +45,10 @@ class StepClock {
 /// once.
 ///
 /// @param camera    Its name.
+/// @param lights    As lights_in_words() has them.
 /// @param counters  Of the picture.
 /// @param clock     Its last step ends now.
-void explain(const SceneAssets& assets, const std::string& camera, const Counters& counters,
-             StepClock& clock);
+void explain(const Scene& scene, const ScenePlan& plan, const std::string& camera,
+             std::span<const std::string> lights, const Counters& counters, StepClock& clock);
 
 }  // namespace rasterbook

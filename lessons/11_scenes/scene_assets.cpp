@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "06_phong/load_surface_textures.hpp"
 #include "06_phong/normals.hpp"
+#include "08_normal_maps/load_normal_maps.hpp"
 
 namespace rasterbook {
 
@@ -137,6 +140,24 @@ SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
                                      "only, by the alpha of their textures");
     return {std::move(scene),  std::move(textures), std::move(normal_maps), bounds,
             std::move(lit_by), std::move(plan),     std::move(hulls),       is_on_paper};
+}
+
+std::vector<std::string> lights_in_words(const SceneLights& lit_by, const ScenePlan& plan) {
+    if (!plan.any(Effect::light) && !plan.any(Effect::toon)) return {"none is called for"};
+    constexpr const char* kinds[] = {"directional light", "point light", "spotlight"};
+    std::vector<std::string> words;
+    for (std::size_t l = 0; l < lit_by.lights.size(); ++l) {
+        const std::string& name = lit_by.names[l];
+        words.push_back((name.empty() ? "unnamed" : name) + ", a " +
+                        kinds[static_cast<std::size_t>(lit_by.lights[l].kind)] +
+                        (lit_by.casts[l] ? "" : ", casts no shadow"));
+    }
+    if (lit_by.exposure < 1) {
+        std::ostringstream times;
+        times << 1 / lit_by.exposure;
+        words.push_back("taken down by " + times.str() + ", so that the brightest is white");
+    }
+    return words;
 }
 
 std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera) {

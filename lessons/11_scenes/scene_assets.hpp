@@ -5,11 +5,13 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
+#include "05_textures/texture_variants.hpp"
 #include "06_phong/effects.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
@@ -50,6 +52,9 @@ SceneAssets make_scene_assets(Scene from, const Options& options) {
     return make_scene_assets(std::move(from), options.texture, options.shading, options.normal_map,
                              options.shadow.size);
 }
+
+/// What a scene is lit by, in words: mostly one string for each light.
+std::vector<std::string> lights_in_words(const SceneLights& lit_by, const ScenePlan& plan);
 
 /// Draws paper behind a part of a picture.
 inline void draw_paper(Image<vec3>& color, const Tile& part) {

@@ -32,8 +32,9 @@ int run_scene_lesson(int argc, char** argv, std::string name, std::string title,
             StepClock clock;
             Image<vec3> picture = render(options, assets, *pool, counters, clock);
             if (options.scene.explain)
-                explain(assets, camera_of_picture(options, options.scene.camera, assets.scene).name,
-                        counters, clock);
+                explain(assets.scene, assets.plan,
+                        camera_of_picture(options, options.scene.camera, assets.scene).name,
+                        lights_in_words(assets.lit_by, assets.plan), counters, clock);
             return picture;
         },
         [](const auto&... of) { return scene_probe(of...); });

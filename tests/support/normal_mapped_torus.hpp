@@ -18,6 +18,7 @@
 #include "05_textures/interpolation.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/surface.hpp"
+#include "08_normal_maps/load_normal_maps.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "common/math/types.hpp"
 #include "common/model/mesh.hpp"

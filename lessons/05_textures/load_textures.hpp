@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Reads the textures that a scene's materials name. Introduced in lesson 05.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "05_textures/texture.hpp"
+#include "05_textures/texture_variants.hpp"
+#include "05_textures/textures.hpp"
+#include "common/model/mesh.hpp"
+#include "common/model/texture_file.hpp"
+
+namespace rasterbook {
+
+/// The textures that materials name by one statement, each file read once. Materials that no
+/// triangle has get none.
+///
+/// @param scene      Takes warnings; its budget is charged.
+/// @param decode     Makes texels of an image's stored values.
+/// @param calls_for  Whether a material needs its texture.
+/// @throws InputError  As read_texture_file() has it.
+inline MaterialTextures load_textures(
+    Scene& scene, TextureMap Material::* map_of, const char* statement,
+    const TextureOptions& options,
+    const std::function<Image<vec4>(const Image<u8vec4>&, Wrap)>& decode,
+    const std::function<bool(const Material&)>& calls_for) {
+    std::vector<bool> is_used(scene.materials.size());
+    for (const Mesh& mesh : scene.meshes)
+        for (const Triangle& triangle : mesh.triangles) is_used[triangle.material] = true;
+    std::map<std::pair<std::filesystem::path, Wrap>, std::shared_ptr<const Texture>> loaded;
+    MaterialTextures textures(scene.materials.size());
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        const TextureMap& map = scene.materials[i].*map_of;
+        if (map.file.empty() || !is_used[i] || !calls_for(scene.materials[i])) continue;
+        const Wrap wrap = map.clamp ? Wrap::clamp : map.mirror ? Wrap::mirror : options.wrap;
+        std::shared_ptr<const Texture>& texture = loaded[{map.file, wrap}];
+        if (!texture) {
+            const Image<u8vec4> image =
+                read_texture_file(map, statement, options.keep_going, scene);
+            texture = std::make_shared<Texture>(make_texture(decode(image, wrap), wrap));
+        }
+        textures[i] = texture;
+    }
+    return textures;
+}
+
+/// Those of map_Kd.
+inline MaterialTextures load_diffuse_textures(Scene& scene, const TextureOptions& options) {
+    return load_textures(
+        scene, &Material::diffuse_map, "map_Kd", options,
+        [&](const Image<u8vec4>& image, Wrap) { return options.decoded(image); },
+        [](const Material&) { return true; });
+}
+
+}  // namespace rasterbook
