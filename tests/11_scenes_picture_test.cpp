@@ -544,6 +544,23 @@ TEST(SceneFiles, HardCase_ThePlanIsExplained) {
     EXPECT_NE(of_glass.out.find("mask (no holes)"), std::string::npos) << of_glass.out;
 }
 
+TEST(SceneFiles, HardCase_ExplainNamesLightsWhereTheyAreCalledFor) {
+    look_up("Eq. 11.12");
+    SceneLights lit_by;
+    lit_by.lights = {Light{LightKind::directional}, Light{LightKind::spot}};
+    lit_by.names = {"sun", ""};
+    lit_by.casts = {true, false};
+    lit_by.exposure = 0.125f;
+    ScenePlan plan{std::vector<MaterialPlan>(1)};
+    plan.materials[0].is_seen = true;
+    EXPECT_EQ(lights_in_words(lit_by, plan), std::vector<std::string>{"none is called for"});
+    plan.materials[0].set(Effect::toon, true, "");
+    EXPECT_EQ(lights_in_words(lit_by, plan),
+              (std::vector<std::string>{"sun, a directional light",
+                                        "unnamed, a spotlight, casts no shadow",
+                                        "taken down by 8, so that the brightest is white"}));
+}
+
 TEST(SceneFiles, HardCase_QualitySetsWhatNoOtherOptionSets) {
     look_up("Eq. 11.3");
     const auto folder = fresh_folder("quality");
