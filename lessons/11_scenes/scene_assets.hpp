@@ -53,7 +53,8 @@ SceneAssets make_scene_assets(Scene from, const Options& options) {
                              options.shadow.size);
 }
 
-/// What a scene is lit by, in words: mostly one string for each light.
+/// What a scene is lit by, in words: a string for each light, and one for an exposure below 1; or
+/// that no material calls for light.
 std::vector<std::string> lights_in_words(const SceneLights& lit_by, const ScenePlan& plan);
 
 /// Draws paper behind a part of a picture.
