@@ -19,6 +19,7 @@
 #include "04_mvp/transform.hpp"
 #include "06_phong/normals.hpp"
 #include "08_normal_maps/tangent_frame.hpp"
+#include "08_normal_maps/vertex_tangents.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
 #include "support/one_triangle.hpp"

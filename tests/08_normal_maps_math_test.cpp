@@ -17,6 +17,7 @@
 #include "06_phong/normals.hpp"
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
+#include "08_normal_maps/vertex_tangents.hpp"
 #include "support/look_up.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "05_textures/interpolation.hpp"
-#include "06_phong/normals.hpp"
+#include "06_phong/face_normal.hpp"
 #include "06_phong/phong.hpp"
 #include "06_phong/surface.hpp"
 #include "common/app/lesson_app.hpp"

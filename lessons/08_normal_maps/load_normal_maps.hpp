@@ -13,7 +13,7 @@
 #include "06_phong/load_surface_textures.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
-#include "08_normal_maps/tangent_frame.hpp"
+#include "08_normal_maps/vertex_tangents.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {

@@ -12,7 +12,7 @@
 #include "05_textures/interpolation.hpp"
 #include "05_textures/textures.hpp"
 #include "06_phong/effects.hpp"
-#include "06_phong/normals.hpp"
+#include "06_phong/face_normal.hpp"
 #include "08_normal_maps/normal_map.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
 #include "08_normal_maps/tangent_frame.hpp"

@@ -244,13 +244,13 @@ class Shaders {
     static constexpr std::array<Shader, sizeof...(i)> compiled(std::index_sequence<i...>) {
         return {&draw_triangle<all_permutations[i], CounterPolicy>...};
     }
-    static constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
 
     std::vector<Shader> of_material_;
 };
 
 template <typename CounterPolicy>
 Shaders<CounterPolicy>::Shaders(const ScenePlan& plan) {
+    constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
     for (const MaterialPlan& material : plan.materials)
         of_material_.push_back(table[permutation_of(material)]);
 }

@@ -11,6 +11,7 @@
 #include "06_phong/normals.hpp"
 #include "08_normal_maps/normal_map.hpp"
 #include "08_normal_maps/tangent_frame.hpp"
+#include "08_normal_maps/vertex_tangents.hpp"
 
 namespace rasterbook {
 namespace {

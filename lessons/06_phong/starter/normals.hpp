@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -15,25 +14,11 @@
 #include <utility>
 #include <vector>
 
+#include "06_phong/face_normal.hpp"
 #include "common/math/numerics.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
-
-/// The direction out of a triangle's front, length 1; up for a triangle of no area.
-inline vec3 face_normal(const Mesh& mesh, const Triangle& triangle) {
-    // TODO: the cross product of two sides, scaled by normalize_or(); in double, since products
-    // of floats may overflow or vanish. A vertex is at
-    // mesh.positions[triangle.vertices[i].position].
-    return {0, 1, 0};
-}
-
-/// The angle between the two sides at a triangle's vertex, 0 to pi; 0 for a triangle of no area,
-/// which would otherwise count with pi for a normal that means nothing.
-inline float vertex_angle_radians(const Mesh& mesh, const Triangle& triangle, std::size_t vertex) {
-    // TODO: by atan2(), as the text says behind Eq. 6.9; in double, too.
-    return 0;
-}
 
 /// Cosine of 50 degrees: faces that meet at a greater angle meet in a sharp edge. Prisms of up to 7
 /// sides keep their edges, those of 8 and more are round; no common solid sits at it.

@@ -19,7 +19,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
 #include "04_mvp/projection.hpp"
-#include "06_phong/normals.hpp"
+#include "06_phong/face_normal.hpp"
 #include "common/app/counters.hpp"
 #include "common/math/functions.hpp"
 
