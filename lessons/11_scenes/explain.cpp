@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "11_scenes/explain.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <iostream>
 #include <map>
@@ -55,7 +56,10 @@ void explain(const Scene& scene, const ScenePlan& plan, const std::string& camer
     for (const auto& [step, ms] : clock.steps()) {
         std::ostringstream number;
         number.precision(3);
-        number << ms;
+        if (ms < 100)
+            number << ms;
+        else
+            number << std::llround(ms);  // 1234, not 1.23e+03
         out << "  " << step << ": " << number.str() << '\n';
     }
     std::cout << out.str();  // at once: not between the words of another frame
