@@ -28,26 +28,32 @@ struct WideDrawing {
 template <int N>
 WideDrawing<Counters> drawing_of_width();
 
+/// Whether a program has --width. A reader's own has the native width alone, so that its picture
+/// takes less time to come; ./lessons/run builds another when it is asked for.
+#ifdef RASTERBOOK_NATIVE_WIDTH_ALONE
+constexpr bool has_each_width = false;
+#else
+constexpr bool has_each_width = true;
+#endif
+
 /// @param width  1, 4, 8 or 16.
 inline WideDrawing<Counters> drawing_of_width(int width) {
-    switch (width) {
-        case 1:
-            return drawing_of_width<1>();
-        case 4:
-            return drawing_of_width<4>();
-        case 8:
-            return drawing_of_width<8>();
-        default:
-            return drawing_of_width<16>();
+    if constexpr (has_each_width) {
+        if (width == 1) return drawing_of_width<1>();
+        if (width == 4) return drawing_of_width<4>();
+        if (width == 8) return drawing_of_width<8>();
+        if (width == 16) return drawing_of_width<16>();
     }
+    return drawing_of_width<native_width>();
 }
 
 struct WidthOptions {
     int width = native_width;
 
     void declare(Knobs& knobs) {
-        knobs.choice("--width", width, {{"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}},
-                     "Pixels that are drawn at a time");
+        if constexpr (has_each_width)
+            knobs.choice("--width", width, {{"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}},
+                         "Pixels that are drawn at a time");
     }
 };
 
