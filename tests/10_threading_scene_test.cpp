@@ -83,7 +83,7 @@ std::uint64_t hash_of(const Image<vec3>& picture) {
 struct ThrowingCounters {
     static inline std::atomic<long> fragments_left = 0;
 
-    void add(Counter counter) {
+    void add(Counter counter, std::uint64_t = 1) {
         if (counter == Counter::fragments_shaded && --fragments_left == 0)
             throw std::runtime_error("a worker is tired");
     }

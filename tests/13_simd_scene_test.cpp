@@ -178,6 +178,7 @@ TEST(Simd, HardCase_EachWidthHasFunctionsOfItsOwn) {
             EXPECT_EQ(a.draw_id == b.draw_id, width == other)
                 << "whether --width " << width << " and --width " << other
                 << " draw ids by the same function";
+            EXPECT_EQ(a.project_triangles == b.project_triangles, width == other);
             EXPECT_EQ(a.draw_transparent == b.draw_transparent, width == other);
             EXPECT_EQ(a.shade_visible == b.shade_visible, width == other);
         }

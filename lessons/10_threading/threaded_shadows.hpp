@@ -44,9 +44,10 @@ inline void clear_tile(ShadowMap& map, const Tile& tile) {
 ///
 /// @param pool    Has size() and run() as ThreadPool does.
 /// @param tiling  Of a picture of map.size * map.size.
+/// @param set_up  Does what project_triangles() does.
 template <typename Pool>
 BinnedTriangles casters_of(Pool& pool, const ShadowMap& map, const Scene& scene,
-                           const Tiling& tiling) {
+                           const Tiling& tiling, ProjectTriangles* set_up = project_triangles) {
     std::vector<const Mesh*> meshes;
     for (const Mesh& mesh : scene.meshes)
         if (!is_outside_frustum(mesh.bounds, map.clip_from_world)) meshes.push_back(&mesh);
@@ -54,7 +55,8 @@ BinnedTriangles casters_of(Pool& pool, const ShadowMap& map, const Scene& scene,
     const auto casts = [&](std::size_t material) {
         return casts_shadows(scene.materials[material]);
     };
-    return {pool, scene, meshes, map.clip_from_world, tiling, Culling::none, casts, uncounted};
+    return {pool,  scene,     meshes, map.clip_from_world, tiling, Culling::none,
+            casts, uncounted, set_up};
 }
 
 /// Clears a tile of a map's texels and draws the depths of the casters into it.

@@ -107,17 +107,19 @@ struct BinnedPasses {
 ///
 /// @param meshes    Those in the camera's view.
 /// @param counters  One for each worker of the pool.
+/// @param set_up    Does what project_triangles() does.
 template <typename Pool, typename CounterPolicy>
 BinnedPasses bin_passes(Pool& pool, const SceneAssets& assets, std::span<const Mesh* const> meshes,
                         const mat4& clip_from_world, const Tiling& tiling,
-                        WorkerCounters<CounterPolicy>& counters) {
+                        WorkerCounters<CounterPolicy>& counters,
+                        ProjectTriangles* set_up = project_triangles) {
     BinnedPasses binned;
     for (const Pass& pass : passes_of(assets.plan, meshes))
         (pass.is_blended ? binned.blended : binned.opaque)
             .emplace_back(
                 pool, assets.scene, pass.meshes, clip_from_world, tiling, pass.culling,
                 [&](std::size_t material) { return pass.takes(assets.plan.materials[material]); },
-                counters);
+                counters, set_up);
     return binned;
 }
 

@@ -88,19 +88,20 @@ class ShadowMapsOnDemand {
     /// Finds what each map's parts are to be drawn from. Takes what draw_shadow_maps() takes.
     ///
     /// @param part_size  Texels along a part's side, at least 1.
+    /// @param set_up     Does what project_triangles() of lesson 10 does.
     template <typename Pool, typename CounterPolicy>
     ShadowMapsOnDemand(Pool& pool, int part_size, const ShadowVariant& variant, bool all_effects,
                        const Scene& scene, const ShadowBounds& bounds,
                        std::span<const Light> lights, WorkerCounters<CounterPolicy>& counters,
-                       std::span<const bool> casts) {
+                       std::span<const bool> casts, ProjectTriangles* set_up = project_triangles) {
         const Tiling tiling(Split::tiles, ivec2(variant.size), 1, part_size);
-        maps_ =
-            draw_shadow_maps(variant, all_effects, scene, bounds, lights, casts, counters[0],
-                             [&](ShadowMap& map, bool is_drawn) {
-                                 parts_.emplace_back(map, tiling,
-                                                     is_drawn ? casters_of(pool, map, scene, tiling)
-                                                              : BinnedTriangles());
-                             });
+        maps_ = draw_shadow_maps(
+            variant, all_effects, scene, bounds, lights, casts, counters[0],
+            [&](ShadowMap& map, bool is_drawn) {
+                parts_.emplace_back(
+                    map, tiling,
+                    is_drawn ? casters_of(pool, map, scene, tiling, set_up) : BinnedTriangles());
+            });
     }
 
     const ShadowMaps& maps() const { return maps_; }

@@ -33,10 +33,11 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     const Camera camera = camera_of_picture(options, options.scene.camera, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     WorkerCounters<CounterPolicy> counters_of(pool.size());
+    const WideDrawing<CounterPolicy> wide = drawing_of_width(options.wide.width);
     clock.begin("casters");
     const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options.shadow,
                                          options.shading.all_effects, scene, bounds, lit_by.lights,
-                                         counters_of, lit_by.casts);
+                                         counters_of, lit_by.casts, wide.project_triangles);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
     std::vector<TileVisibility> visible_of(
@@ -47,11 +48,10 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     const std::vector<Mesh> outlines = outlines_of(assets, camera);
     const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world, total);
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    const BinnedPasses passes =
-        bin_passes(pool, assets, meshes, clip_from_world, tiling, counters_of);
+    const BinnedPasses passes = bin_passes(pool, assets, meshes, clip_from_world, tiling,
+                                           counters_of, wide.project_triangles);
 
     clock.begin("picture");
-    const WideDrawing<CounterPolicy> wide = drawing_of_width(options.wide.width);
     const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];

@@ -22,6 +22,7 @@
 #include "12_visibility_buffer/visible_shading.hpp"
 #include "13_simd/pixel_batch.hpp"
 #include "13_simd/simd.hpp"
+#include "13_simd/wide_setup.hpp"
 #include "13_simd/wide_shadows.hpp"
 #include "13_simd/wide_textures.hpp"
 #include "13_simd/wide_triangles.hpp"
@@ -238,8 +239,8 @@ void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visib
 /// The functions for as many pixels as F has numbers.
 template <typename F, typename CounterPolicy>
 WideDrawing<CounterPolicy> drawing_by() {
-    return {&draw_id<F, ShadowMapsOnDemand, CounterPolicy>, &shade_visible<F, CounterPolicy>,
-            &draw_transparent<F, CounterPolicy>};
+    return {&project_triangles<F>, &draw_id<F, ShadowMapsOnDemand, CounterPolicy>,
+            &shade_visible<F, CounterPolicy>, &draw_transparent<F, CounterPolicy>};
 }
 
 template <int N>

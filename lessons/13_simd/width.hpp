@@ -4,6 +4,7 @@
 /// Introduced in lesson 13.
 #pragma once
 
+#include "10_threading/binned_triangles.hpp"
 #include "12_visibility_buffer/visible_shading.hpp"
 #include "13_simd/wide_triangles.hpp"
 #include "common/app/counters.hpp"
@@ -17,6 +18,7 @@ template <typename CounterPolicy>
 struct WideDrawing {
     using Maps = ShadowMapsOnDemand;
 
+    ProjectTriangles* project_triangles;
     void (*draw_id)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
                     TileVisibility&, CounterPolicy&);
     void (*shade_visible)(const Frame<Maps>&, TileVisibility&, Show, HeatMap&, CounterPolicy&);

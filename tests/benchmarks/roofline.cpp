@@ -148,10 +148,11 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
     const Camera camera = camera_of_picture(options, options.scene.camera, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     WorkerCounters<Counters> counters_of(pool.size());
+    const WideDrawing<Counters> wide = drawing_of_width(options.wide.width);
     const double start = cpu_ms();
     const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options.shadow,
                                          options.shading.all_effects, scene, bounds, lit_by.lights,
-                                         counters_of, lit_by.casts);
+                                         counters_of, lit_by.casts, wide.project_triangles);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
     TileVisibility visible(options.visibility.most_ids(), TileDepths::padding);
@@ -162,13 +163,12 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
     const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world, total);
     const double start_of_triangles = cpu_ms();
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    const BinnedPasses passes =
-        bin_passes(pool, assets, meshes, clip_from_world, tiling, counters_of);
+    const BinnedPasses passes = bin_passes(pool, assets, meshes, clip_from_world, tiling,
+                                           counters_of, wide.project_triangles);
     parts.casters = start_of_outlines - start;
     parts.outlines = start_of_triangles - start_of_outlines;
     parts.triangles = cpu_ms() - start_of_triangles;
 
-    const WideDrawing<Counters> wide = drawing_of_width(options.wide.width);
     const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
     const auto draw = [&](std::size_t i, Counters& counters, std::vector<double>& ids,
                           std::vector<double>& shading, std::vector<double>& rest) {

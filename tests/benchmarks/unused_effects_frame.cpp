@@ -9,6 +9,7 @@
 /// is anything to do, the stage itself is replaced.
 #include "benchmarks/unused_effects.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 
@@ -25,7 +26,7 @@ namespace rasterbook {
 /// NoCounters, and a promise that nothing is to be counted for an effect.
 template <Without effect>
 struct NoWork {
-    void add(Counter counter) {
+    void add(Counter counter, std::uint64_t = 1) {
         if (is_work_of(effect, counter)) __builtin_unreachable();
     }
     void add(const NoWork&) {}

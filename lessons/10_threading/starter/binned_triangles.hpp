@@ -85,6 +85,32 @@ inline std::size_t begin_of_batch(std::size_t batch, std::size_t things) {
     return batch * things / batches_of(things);
 }
 
+/// Clips, projects and culls triangles of a mesh, and leaves out what has no area.
+///
+/// @param positions_clip  The mesh's positions, in clip space.
+/// @param size            Of the picture, in pixels.
+/// @param projected       What is left is added to it, in the triangles' order.
+/// @return                How many pieces were culled for the side that they show.
+inline std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle> triangles,
+                                     const vec4* positions_clip, ivec2 size, Culling culling,
+                                     std::vector<ProjectedTriangle>& projected) {
+    std::size_t culled = 0;
+    for (const Triangle& triangle : triangles) {
+        const auto& [p, q, r] = triangle.vertices;
+        for (const ClippedTriangle& clipped :
+             clip_triangle({positions_clip[p.position], positions_clip[q.position],
+                            positions_clip[r.position]})) {
+            const ProjectedTriangle piece = project(mesh, triangle, clipped, size);
+            if (piece.is_back_facing && culling == Culling::back_faces)
+                ++culled;
+            else if (piece.on_screen.twice_area != 0)
+                projected.push_back(piece);
+        }
+    }
+    return culled;
+}
+using ProjectTriangles = decltype(project_triangles);  ///< Such a function.
+
 /// The meshes of a scene that may be in view; counts them all.
 template <typename CounterPolicy>
 std::vector<const Mesh*> meshes_in_view(const Scene& scene, const mat4& clip_from_world,
@@ -131,10 +157,12 @@ class BinnedTriangles {
     ///
     /// @param takes      Called as takes(material), an index into Scene::materials: whether
     ///                   triangles of it are taken.
+    /// @param set_up     Does what project_triangles() does.
     template <typename Pool, typename Takes, typename CounterPolicy>
     BinnedTriangles(Pool& pool, const Scene& scene, std::span<const Mesh* const> meshes,
                     const mat4& clip_from_world, const Tiling& tiling, Culling culling,
-                    const Takes& takes, WorkerCounters<CounterPolicy>& counters) {
+                    const Takes& takes, WorkerCounters<CounterPolicy>& counters,
+                    ProjectTriangles* set_up = project_triangles) {
         std::vector<std::size_t> first_position = {0}, first_triangle = {0};
         for (const Mesh* mesh : meshes) {
             first_position.push_back(first_position.back() + mesh->positions.size());
@@ -155,17 +183,20 @@ class BinnedTriangles {
             std::vector<ProjectedTriangle>& triangles = batches[batch].triangles;
             triangles.reserve(begin_of_batch(batch + 1, first_triangle.back()) -
                               begin_of_batch(batch, first_triangle.back()));
-            for_each_run(first_triangle, batch,
-                         [&](std::size_t mesh, std::size_t i, std::size_t end) {
-                             const vec4* const positions = &positions_clip[first_position[mesh]];
-                             for (; i < end; ++i) {
-                                 const Triangle& triangle = meshes[mesh]->triangles[i];
-                                 if (!takes(triangle.material)) continue;
-                                 counters[worker].add(Counter::triangles_in);
-                                 add(*meshes[mesh], triangle, positions, tiling.size(), culling,
-                                     triangles, counters[worker]);
-                             }
-                         });
+            for_each_run(
+                first_triangle, batch, [&](std::size_t mesh, std::size_t i, std::size_t end) {
+                    const std::span<const Triangle> of_mesh = meshes[mesh]->triangles;
+                    const auto is_taken = [&](std::size_t t) { return takes(of_mesh[t].material); };
+                    for (std::size_t next = i; i < end; i = next) {
+                        while (next < end && is_taken(next) == is_taken(i)) ++next;
+                        if (!is_taken(i)) continue;
+                        counters[worker].add(Counter::triangles_in, next - i);
+                        counters[worker].add(Counter::triangles_culled_by_facing,
+                                             set_up(*meshes[mesh], of_mesh.subspan(i, next - i),
+                                                    &positions_clip[first_position[mesh]],
+                                                    tiling.size(), culling, triangles));
+                    }
+                });
             for (const ProjectedTriangle& projected : triangles)
                 work[batch] += drawing_work(projected.on_screen);
         });
@@ -190,22 +221,6 @@ class BinnedTriangles {
     }
 
   private:
-    template <typename CounterPolicy>
-    static void add(const Mesh& mesh, const Triangle& triangle, const vec4* positions_clip,
-                    ivec2 size, Culling culling, std::vector<ProjectedTriangle>& triangles,
-                    CounterPolicy& counters) {
-        const auto& [p, q, r] = triangle.vertices;
-        for (const ClippedTriangle& clipped :
-             clip_triangle({positions_clip[p.position], positions_clip[q.position],
-                            positions_clip[r.position]})) {
-            const ProjectedTriangle projected = project(mesh, triangle, clipped, size);
-            if (projected.is_back_facing && culling == Culling::back_faces)
-                counters.add(Counter::triangles_culled_by_facing);
-            else if (projected.on_screen.twice_area != 0)
-                triangles.push_back(projected);
-        }
-    }
-
     /// Visits the things of one batch: in each mesh, those that follow each other.
     ///
     /// @param first  Of each mesh's things, counted through all meshes, and the last one's end.
