@@ -111,7 +111,7 @@ void compare(const TrianglesInClipSpace& triangles, ivec2 size) {
 
 }  // namespace
 
-TEST(Simd, RoundingOfTheWorkedExample) {
+TEST(Simd, HardCase_HalvesAreRoundedToEven) {
     look_up("Eq. 2.8");
     constexpr std::array rounded_numbers = {0.0f, 2.0f, 2.0f, 3.0f};
     EXPECT_TRUE(has_in_lanes(rounded(in_lanes<4>({0.5f, 1.5f, 2.5f, 2.75f})), [&](int i) {
@@ -119,7 +119,7 @@ TEST(Simd, RoundingOfTheWorkedExample) {
     })) << "0.5, 1.5, 2.5 and 2.75 rounded";
 }
 
-TEST(Simd, RoundedNumbersAreThoseOfLrint) {
+TEST(Simd, HardCase_RoundedNumbersAreThoseOfLrint) {
     look_up("Eq. 2.8");
     for_each_width([]<int N>() {
         Dice dice(1);
@@ -137,7 +137,7 @@ TEST(Simd, RoundedNumbersAreThoseOfLrint) {
     });
 }
 
-TEST(Simd, TrianglesInsideOfTheFrustumAreLesson10s) {
+TEST(Simd, HardCase_TrianglesInsideOfTheFrustumAreLesson10s) {
     look_up("Eq. 2.8");
     Dice dice(2);
     for (int k = 0; k < 200; ++k) {
@@ -148,7 +148,7 @@ TEST(Simd, TrianglesInsideOfTheFrustumAreLesson10s) {
     }
 }
 
-TEST(Simd, TrianglesOnTheFrustumsBorderAreNotClipped) {
+TEST(Simd, HardCase_TrianglesOnTheFrustumsBorderAreNotClipped) {
     look_up("Eq. 4.10");
     TrianglesInClipSpace on_border;
     for (int i = 0; i < 4; ++i)
