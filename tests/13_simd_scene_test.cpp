@@ -207,6 +207,7 @@ TEST(Simd, HardCase_InvalidWidthsAreAnErrorInOneLine) {
 TEST(Simd, HardCase_PicturesAreLesson11sWithEachWidth) {
     look_up("Eq. 13.1");
     const std::string expected = bytes_of_picture("11_scenes", {"--size", golden_size});
+    ASSERT_GT(expected.size(), 100000u);
     for (const char* const width : {"1", "4", "8", "16"})
         EXPECT_TRUE(bytes_of_picture(with_each_width, {"--size", golden_size, "--width", width}) ==
                     expected)

@@ -201,10 +201,10 @@ class BinnedTriangles {
             for_each_run(
                 first_triangle, batch, [&](std::size_t mesh, std::size_t i, std::size_t end) {
                     const std::span<const Triangle> of_mesh = meshes[mesh]->triangles;
-                    const auto is_taken = [&](std::size_t t) { return takes(of_mesh[t].material); };
                     for (std::size_t next = i; i < end; i = next) {
-                        while (next < end && is_taken(next) == is_taken(i)) ++next;
-                        if (!is_taken(i)) continue;
+                        const std::size_t material = of_mesh[i].material;
+                        while (next < end && of_mesh[next].material == material) ++next;
+                        if (!takes(material)) continue;
                         counters[worker].add(Counter::triangles_in, next - i);
                         counters[worker].add(Counter::triangles_culled_by_facing,
                                              set_up(*meshes[mesh], of_mesh.subspan(i, next - i),
