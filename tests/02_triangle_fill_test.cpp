@@ -16,6 +16,7 @@
 #include "common/image/image.hpp"
 #include "common/math/numerics.hpp"
 #include "support/ascii_picture.hpp"
+#include "support/cases.hpp"
 #include "support/exact.hpp"
 #include "support/first_difference.hpp"
 #include "support/golden.hpp"
@@ -304,7 +305,7 @@ TEST(TriangleFill, Eq2_4_BarycentricsAreWithinTwoUlpOfTheExactOnes) {
     std::uniform_real_distribution<float> coordinate(-400, 500);
     int visited = 0;
     std::string first_wrong;
-    for (int i = 0; i < 2'000; ++i) {
+    for (int i = 0; i < test::cases_of(2'000); ++i) {
         const auto point = [&] { return vec2(coordinate(random), coordinate(random)); };
         const vec2 first = point(), second = point(), third = point();
         const ivec2 p = exactly_snapped(first), q = exactly_snapped(second),
@@ -339,7 +340,7 @@ TEST(TriangleFill, Eq2_4_BarycentricsAreWithinTwoUlpOfTheExactOnes) {
             });
         ASSERT_EQ(first_wrong, "") << "seed 2, case " << i;
     }
-    EXPECT_GT(visited, 100'000);
+    EXPECT_GT(visited, test::cases_of(100'000));
 }
 
 TEST(TriangleFill, Eq2_4_BarycentricsDoNotDependOnThePicturesSize) {

@@ -15,6 +15,7 @@
 
 #include "02_triangle_fill/triangle.hpp"
 #include "common/math/numerics.hpp"
+#include "support/cases.hpp"
 #include "support/exact.hpp"
 #include "support/first_difference.hpp"
 #include "support/golden.hpp"
@@ -147,7 +148,7 @@ TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestVertexIsTheSameDepth) {
 TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
     look_up("Eq. 3.3: how large its error is");
     int compared = 0;
-    for (const auto& [p, id] : random_patches(2, 2'000, {40, 30})) {
+    for (const auto& [p, id] : random_patches(2, test::cases_of(2'000), {40, 30})) {
         const auto depths = depths_of(p, {0, 0}, {40, 30});
         for (int y = 0; y < 30; ++y)
             for (int x = 0; x < 40; ++x)
@@ -159,7 +160,7 @@ TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
                         << ", and the least of its vertices; seed 2, case " << id;
                 }
     }
-    EXPECT_GT(compared, 100'000);
+    EXPECT_GT(compared, test::cases_of(100'000));
 }
 
 TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {

@@ -19,6 +19,7 @@
 #include "04_mvp/transform.hpp"
 #include "common/app/counters.hpp"
 #include "support/ascii_picture.hpp"
+#include "support/cases.hpp"
 #include "support/first_difference.hpp"
 #include "support/look_up.hpp"
 #include "support/plane_names.hpp"
@@ -107,7 +108,7 @@ ScreenTriangle on_screen(const ClippedTriangle& part, ivec2 size) {
     return projected(part, size).on_screen;
 }
 
-Pixels covered(const Vertices& vertices, ivec2 size) {
+Pixels covered_pixels(const Vertices& vertices, ivec2 size) {
     Pixels pixels;
     for (const ClippedTriangle& part : clip_triangle(vertices))
         fill_triangle(on_screen(part, size), size,
@@ -152,7 +153,7 @@ bool is_close_to_edge(const Vertices& vertices, dvec2 center, ivec2 size) {
 
 /// For EXPECT_TRUE: each pixel is as the oracle has it, unless an edge is close to its centre.
 testing::AssertionResult covers_what_rays_hit(const Vertices& vertices, ivec2 size, int& covering) {
-    const Pixels actual = covered(vertices, size);
+    const Pixels actual = covered_pixels(vertices, size);
     Pixels expected;
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
@@ -274,7 +275,7 @@ TEST(Mvp, BarycentricsOfWhatIsLeftSayWhereItComesFrom) {
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(-3, 3);
     int cut = 0;
-    for (int i = 0; i < 100'000; ++i) {
+    for (int i = 0; i < test::cases_of(100'000); ++i) {
         const auto vertex = [&] {
             return vec4(any(random), any(random), any(random), any(random) + 1);
         };
@@ -285,7 +286,7 @@ TEST(Mvp, BarycentricsOfWhatIsLeftSayWhereItComesFrom) {
                 << "of the triangle " << testing::PrintToString(vertices) << "; seed 2, case " << i;
         cut += parts.size() > 2;
     }
-    EXPECT_GT(cut, 10'000) << "triangles of which more than two parts are left, of 100,000";
+    EXPECT_GT(cut, test::cases_of(10'000)) << "triangles of which more than two parts are left";
 }
 
 TEST(Mvp, WhatIsLeftKeepsTheWinding) {
@@ -413,7 +414,7 @@ TEST(Mvp, HardCase_CameraInsideATriangle) {
         return Vertices{clip_from_view * vec4(-50, y, 40, 1), clip_from_view * vec4(60, y, 30, 1),
                         clip_from_view * vec4(0, y, -80, 1)};
     };
-    EXPECT_TRUE(covered(floor_at(0), {64, 48}).empty()) << "seen from its edge";
+    EXPECT_TRUE(covered_pixels(floor_at(0), {64, 48}).empty()) << "seen from its edge";
     int covering = 0;
     for (const float y : {-0.01f, 0.01f, -1.0f})
         EXPECT_TRUE(covers_what_rays_hit(floor_at(y), {64, 48}, covering)) << y;
@@ -424,31 +425,32 @@ TEST(Mvp, HardCase_WZeroNegativeAndTiny) {
     look_up("Eq. 4.10: what lies behind the eye is outside of a plane");
     constexpr ivec2 size(64, 48);
     for (const float w : {0.0f, -0.0f, -1.0f, -1e-40f}) {
-        EXPECT_TRUE(covered({{{0, 0, -1, w}, {1, 0, -1, w}, {0, 1, -1, w}}}, size).empty());
+        EXPECT_TRUE(covered_pixels({{{0, 0, -1, w}, {1, 0, -1, w}, {0, 1, -1, w}}}, size).empty());
         int covering = 0;
         EXPECT_TRUE(covers_what_rays_hit(
             {{{0.1f, 0.2f, w - 0.5f, w}, all_inside[1], all_inside[2]}}, size, covering))
             << "w " << w;
         EXPECT_EQ(covering, 1);
     }
-    EXPECT_TRUE(covered({vec4(0), vec4(0), vec4(0)}, size).empty());
-    EXPECT_TRUE(covered({vec4(0), all_inside[1], all_inside[2]}, size).empty())
+    EXPECT_TRUE(covered_pixels({vec4(0), vec4(0), vec4(0)}, size).empty());
+    EXPECT_TRUE(covered_pixels({vec4(0), all_inside[1], all_inside[2]}, size).empty())
         << "a vertex at the eye has no place on the screen";
     // A tiny w is ordinary: positions on the screen are quotients.
     constexpr float tiny = 0x1p-135f;
-    EXPECT_EQ(covered({{tiny * all_inside[0], tiny * all_inside[1], tiny * all_inside[2]}}, size),
-              covered(all_inside, size));
+    EXPECT_EQ(
+        covered_pixels({{tiny * all_inside[0], tiny * all_inside[1], tiny * all_inside[2]}}, size),
+        covered_pixels(all_inside, size));
 }
 
 TEST(Mvp, HardCase_TinyAndHugeVerticesAreCutAsOthers) {
     look_up("Eq. 4.12: products of vertices may overflow, quotients do not");
     constexpr ivec2 size(64, 48);
     const Vertices vertices = {{{-1, -2, 0, 1}, {3, 0, 0.5f, 2}, {0, 2, -0.25f, 1.5f}}};
-    const Pixels expected = covered(vertices, size);
+    const Pixels expected = covered_pixels(vertices, size);
     EXPECT_GT(expected.size(), 500u);
     for (const float scale : {0x1p-120f, 0x1p-70f, 0x1p70f, 0x1p120f})
         EXPECT_TRUE(same_pixels(
-            covered({{scale * vertices[0], scale * vertices[1], scale * vertices[2]}}, size),
+            covered_pixels({{scale * vertices[0], scale * vertices[1], scale * vertices[2]}}, size),
             expected))
             << scale;
 }
@@ -476,7 +478,7 @@ TEST(Mvp, Eq4_14_NoBoxIsCulledOfWhichAPointIsSeen) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> any(-1, 1), share(0, 1);
     int culled = 0, seen = 0;
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < test::cases_of(20'000); ++i) {
         const auto point = [&](float reach) {
             return reach * vec3(any(random), any(random), any(random));
         };
@@ -503,8 +505,8 @@ TEST(Mvp, Eq4_14_NoBoxIsCulledOfWhichAPointIsSeen) {
             << testing::PrintToString(clip_from_world) << "; seed 7, case " << i;
         culled += is_culled, seen += is_seen;
     }
-    EXPECT_GT(culled, 2'000);
-    EXPECT_GT(seen, 2'000);
+    EXPECT_GT(culled, test::cases_of(2'000));
+    EXPECT_GT(seen, test::cases_of(2'000));
 }
 
 TEST(Mvp, HardCase_BoxAroundTheCameraIsNotCulled) {

@@ -15,6 +15,7 @@
 #include "04_mvp/clip.hpp"
 #include "05_textures/interpolation.hpp"
 #include "support/any_size.hpp"
+#include "support/cases.hpp"
 #include "support/exact.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
@@ -222,7 +223,7 @@ int compare(const ScreenTriangle& on_screen, const ClippedTriangle& piece, Toler
 void compare_pieces(Compared what) {
     AnyTriangle any(6);
     int pixels = 0;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < cases_of(400); ++i) {
         const float reach = i % 2 ? 1e6f : 10;
         ClippedTriangle piece;
         for (ClippedVertex& vertex : piece)
@@ -231,7 +232,7 @@ void compare_pieces(Compared what) {
         ASSERT_GE(compared, 0) << "seed 6, case " << i;
         pixels += compared;
     }
-    EXPECT_GT(pixels, 100'000);
+    EXPECT_GT(pixels, cases_of(100'000));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "07_toon/outline.hpp"
+#include "support/cases.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
 #include "support/printers.hpp"
@@ -230,7 +231,7 @@ TEST(Toon, Eq7_14_RoundingDecidesNothingAtBoxes) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-1, 1), degrees(0, 360);
     int inked = 0, on_quarter = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < cases_of(2000); ++i) {
         const vec3 first = glm::normalize(vec3(any(random), any(random), any(random) + 1.01f));
         const vec3 second =
             glm::normalize(glm::cross(first, vec3(any(random), any(random) + 1.01f, any(random))));
@@ -278,8 +279,8 @@ TEST(Toon, Eq7_14_RoundingDecidesNothingAtBoxes) {
                 on_quarter += squares == 4;  // on a threshold of 0.5
             }
     }
-    EXPECT_GT(inked, 100'000);
-    EXPECT_GT(on_quarter, 1000);
+    EXPECT_GT(inked, cases_of(100'000));
+    EXPECT_GT(on_quarter, cases_of(1000));
 }
 
 TEST(Toon, Eq7_14_SlantedLines) {

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "07_toon/outline.hpp"
+#include "support/cases.hpp"
 #include "support/lit_sphere.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
@@ -194,7 +195,7 @@ TEST(Toon, Eq7_9_AnExampleStraightAhead) {
 TEST(Toon, Eq7_9_MovesAlongItsNormal) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-1, 1), octave(-20, 20);
-    for (int i = 0; i < 100'000; ++i) {
+    for (int i = 0; i < cases_of(100'000); ++i) {
         const float scale = std::exp2(octave(random));
         const float w = scale * (1.1f + any(random));
         const vec4 position(w * any(random), w * any(random), w * any(random), w);

@@ -16,6 +16,7 @@
 #include "07_toon/toon.hpp"
 #include "07_toon/toon_variants.hpp"
 #include "common/math/numerics.hpp"
+#include "support/cases.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
 #include "support/printers.hpp"
@@ -208,7 +209,7 @@ TEST(Toon, Eq7_5_ExampleOfAQuarter) {
 TEST(Toon, Eq7_5_IsTheMeanOfTheTones) {
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(-0.3f, 1.3f), octave(-18, 4);
-    for (int i = 0; i < 100'000; ++i) {
+    for (int i = 0; i < cases_of(100'000); ++i) {
         const float x = any(random), change = std::exp2(octave(random));
         const int n = 2 + static_cast<int>(random() % (max_tones - 1));
         const long double half = change / 2.0L;

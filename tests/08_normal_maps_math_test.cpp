@@ -18,6 +18,7 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "08_normal_maps/vertex_tangents.hpp"
+#include "support/cases.hpp"
 #include "support/look_up.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
@@ -29,7 +30,7 @@ using namespace rasterbook::test;
 
 namespace {
 
-constexpr int exact_cases = 200'000, special_cases = 1'000'000;
+constexpr int exact_cases = cases_of(200'000), special_cases = 1'000'000;
 
 /// Half of the distance from 1 to the next number: what one rounding is off by, at most.
 constexpr real half_ulp_of_float = 0x1p-24L, half_ulp_of_double = 0x1p-53L;

@@ -14,6 +14,7 @@
 
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
+#include "support/cases.hpp"
 #include "support/light_maps.hpp"
 #include "support/look_up.hpp"
 #include "support/names.hpp"
@@ -531,7 +532,7 @@ TEST(ShadowMaps, Eq9_15_RoundingsStayBelowWhatIsAllowedForThem) {
     std::mt19937 random(4);
     std::uniform_real_distribution<float> any(-1, 1);
     double greatest = 0;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < cases_of(60); ++i) {
         const LightKind kind = light_kinds[static_cast<std::size_t>(i) % 3];
         const float x = any(random), y = any(random), z = any(random);
         const TiltedPlane plane(random, kind, 1, 50.0f * vec3(x, y, z));

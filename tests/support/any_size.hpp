@@ -7,12 +7,13 @@
 #include <random>
 
 #include "common/math/types.hpp"
+#include "support/cases.hpp"
 
 namespace rasterbook::test {
 
 /// What most of these tests take, and how often.
 inline constexpr float decades = 8;
-inline constexpr int cases = 100'000;
+inline constexpr int cases = cases_of(100'000);
 
 /// Sizes from 10^-power to 10^power, each order of magnitude as often as the others, with
 /// either sign.

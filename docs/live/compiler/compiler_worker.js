@@ -7,15 +7,15 @@ import { ConsoleStdout, Directory, File, OpenFile, PreopenDirectory, WASI } from
 
 const options = ["--target=wasm32-wasi", "-std=c++20", "-ffp-contract=off", "-fno-math-errno", "-fignore-exceptions", "-Wall", "-Wextra",
   "-Wno-psabi", "-Wno-unused-parameter", "-Wno-missing-field-initializers", "-fno-color-diagnostics",
-  "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
+  "-DRASTERBOOK_IN_A_PAGE", "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
   '-DRASTERBOOK_ASSETS=""', '-DRASTERBOOK_LESSONS=""', '-DRASTERBOOK_GOLDEN=""', '-DRASTERBOOK_TEST_DATA=""',
   "-nostdinc", "-nostdinc++", "-I/docs/live/without_threads", "-I/mine", "-I/", "-I/lessons", "-I/tests"];
 
 let compiler;  // WebAssembly.Module
 const root = new Map();  // the files, as folders in folders
 const texts = new Map();  // the course's files: text by path
-const precompiled = {};  // by level of optimisation, what is precompiled
 let version, searchPath;
+let precompiled;  // what is precompiled
 
 const encoder = new TextEncoder();
 
@@ -66,10 +66,10 @@ function joined(parts) {
 const commands = new Map();  // what the driver makes of its words
 
 /** Runs clang as its driver would run it, but in the same program. */
-function clang(level, args) {
-  const key = [level, ...args].join("\n");
+function clang(...args) {
+  const key = args.join("\n");
   if (!commands.has(key)) {
-    const driver = run(["clang++", level, ...options, ...searchPath, ...args, "-###"]);
+    const driver = run(["clang++", ...options, ...searchPath, ...args, "-###"]);
     const line = driver.text.split("\n").find((line) => line.startsWith(' "'));
     if (driver.status !== 0 || !line) return driver;
     const words = [...line.matchAll(/"((?:[^"\\]|\\.)*)"/g)].map(([, word]) => word.replace(/\\(.)/g, "$1"));
@@ -125,25 +125,25 @@ function putOwn(lesson, files) {
 }
 
 /** Precompiles what does not change while the reader writes, or takes what the browser has kept of it. */
-async function precompile(level, headers) {
+async function precompile(headers) {
   const text = headers.map((header) => `#include ${header}\n`).join("");
-  if (precompiled[level] === text) return;
-  const file = `precompiled${level}.pch`;
-  put(`unit/precompiled${level}.hpp`, text);
+  if (precompiled === text) return;
+  const file = "precompiled.pch";
+  put("unit/precompiled.hpp", text);
   const cache = await globalThis.caches?.open("rasterbook compiler").catch(() => null);
-  const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode(level + text)));
+  const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode(text)));
   const url = cache && `${self.origin}/precompiled/${[...hash].map((byte) => byte.toString(16)).join("")}?${version}`;
   const kept = await cache?.match(url);
   if (kept) put(file, new Uint8Array(await (await unpacked(await kept.blob())).arrayBuffer()));
   else {
     const { status, bytes, text: said } = clang(
-      level, ["-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", `/unit/precompiled${level}.hpp`, "-o", "-"]);
+      "-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", "/unit/precompiled.hpp", "-o", "-");
     if (status !== 0) throw new Error(`The course's headers do not compile: ${said.slice(0, 500)}`);
     put(file, bytes);
     // The other worker takes it from there. Packed it is a quarter of 30 MB; a full disk is no reason to stop.
     await cache?.put(url, new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream("gzip")))).catch(() => {});
   }
-  precompiled[level] = text;
+  precompiled = text;
 }
 
 /** What clang says, for each place; paths as the reader knows them. An error in the course's code is put where the reader's leads to it. */
@@ -192,27 +192,28 @@ const tasks = {
   },
 
   /** Precompiles what some files include; says `which` sources depend on the reader's files. */
-  precompile: async ({ lesson, files, level, like, sources }) => {
+  precompile: async ({ lesson, files, like, sources }) => {
     const { headers, depends } = headersOf(like, putOwn(lesson, files));
-    await precompile(level, headers);
+    await precompile(headers);
     return { which: sources.filter(depends) };
   },
 
   /**
    * Compiles sources as one, after precompile().
    *
-   * @param {string} level    Of optimisation: "-O0" or "-O1".
+   * @param {string} level    Of optimisation: "-O0" or "-O1". What is precompiled serves both.
    * @param {string[]} like   Files that include what is worth to be precompiled.
    * @param {string[]} extra  Options of clang.
    */
   compile: async ({ lesson, files, level, sources, like, extra = [] }) => {
-    await precompile(level, headersOf(like, putOwn(lesson, files)).headers);
+    await precompile(headersOf(like, putOwn(lesson, files)).headers);
     const place = (source) => {
       const mine = source.replace(/^lessons\//, "mine/");
       return get(mine) ? mine : source;
     };
     put("unit/unit.cpp", sources.map((source) => `#include "/${place(source)}"\n`).join(""));
-    const { status, bytes, text } = clang(level, ["-include-pch", `/precompiled${level}.pch`, ...extra, "-c", "/unit/unit.cpp", "-o", "-"]);
+    const { status, bytes, text } = clang(
+      level, "-include-pch", "/precompiled.pch", "-Xclang", "-fno-validate-pch", ...extra, "-c", "/unit/unit.cpp", "-o", "-");
     const log = text
       .replace(/^In file included from \/unit\/unit\.cpp:\d+:\n/gm, "")
       .replace(/^\d+ (?:error|warning)s?.* generated\.\n/gm, "");

@@ -13,6 +13,9 @@ const at = (path) => new URL(path, import.meta.url);
 const mostSeconds = { draw: 60, test: 30 };  // for a picture of a test, or a test of a formula
 const mostCompileSeconds = 300;
 
+/** From lesson 05 on, what is not optimised takes longer to draw its pictures than it takes to be optimised. */
+const levelOf = (lesson) => (lesson >= "05" && lesson < "12" ? "-O1" : "-O0");
+
 const objectOf = (source) => `${source.replaceAll("/", "_")}.o`;
 const shared = ["docs/live/live_app.cpp", "common/app/knobs.cpp", "common/probe/pixel_report.cpp"].map(objectOf);
 
@@ -167,14 +170,13 @@ export class Toolchain {
   async compileAnew(lesson, files) {
     const isLesson = lesson in this.lessons;
     const main = isLesson ? `lessons/${lesson}/main.cpp` : `lessons/sandbox/main.cpp`;
-    const { before, apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
-    const like = isLesson ? [main, ...(before ? [`lessons/${before}/main.cpp`] : [])] : ["lessons/05_textures/main.cpp"];
-    const own = { lesson, files, level: "-O0", like: [...like, ...apart] };  // a picture is to come soon
-    const compile = (compiler, sources) => this.compilers[compiler].ask({ task: "compile", ...own, sources }, mostCompileSeconds);
-    // What is precompiled takes longest when it is first asked for: one does it for both, while the other does so for the tests.
+    const { apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
+    const own = { lesson, files, like: this.likeThoseOf(lesson) };
+    const compile = (compiler, sources, level) => this.compilers[compiler].ask({ task: "compile", ...own, sources, level }, mostCompileSeconds);
+    // What is precompiled takes longest when it is first asked for: one does it for both, the other takes it from the browser.
     this.precompiled = this.compilers[0].ask({ task: "precompile", ...own, sources: apart }, mostCompileSeconds);
     const { which } = await this.precompiled;  // the others are compiled already
-    const parts = [compile(0, [main]), ...(which.length > 0 ? [compile(1, which)] : [])];
+    const parts = [compile(0, [main], levelOf(lesson)), ...(which.length > 0 ? [compile(1, which, "-O0")] : [])];
     const all = Promise.all(parts);
     all.catch(() => {});  // nobody waits for it where main.cpp does not compile
     const { messages, log: said, object } = await parts[0];
@@ -188,6 +190,14 @@ export class Toolchain {
       start: ["/objects/crt1-reactor.o", "--entry", "_initialize"],
     }, mostCompileSeconds);
     return { messages: program ? messages : linkMessages(log), log, program };
+  }
+
+  /** Files that include what is worth to be precompiled: the lesson's, and its tests. */
+  likeThoseOf(lesson) {
+    if (!(lesson in this.lessons)) return ["lessons/05_textures/main.cpp", ...this.apartOf(lesson)];
+    const { before, apart, tests } = this.lessons[lesson];
+    const mains = [lesson, ...(before ? [before] : [])].map((name) => `lessons/${name}/main.cpp`);
+    return [...mains, ...apart, "docs/live/compiler/formula_tests.hpp", ...tests];
   }
 
   /** A program is linked with the sources beside main.cpp of its lesson and, as it begins with the main.cpp of the one before, of that one. */
@@ -232,9 +242,8 @@ export class Toolchain {
 
   async compileTests(lesson, files, equations) {
     const sources = this.lessons[lesson].tests;
-    const own = { lesson, files, level: "-O1", like: ["docs/live/compiler/formula_tests.hpp", ...sources], sources };  // they take longer to run than to be compiled
-    await Promise.all([this.compilers[1].ask({ task: "precompile", ...own }, mostCompileSeconds), this.precompiled]);
-    // The lesson's sources come first, for the picture.
+    const own = { lesson, files, like: this.likeThoseOf(lesson), sources, level: "-O0" };  // they take longer to be compiled than to run
+    await this.precompiled;  // and the lesson's sources come first, for the picture
     const { object, messages, log } = await this.compilers[1].ask({
       task: "compile", ...own, extra: [`-DASKED_EQUATIONS="${equations}"`, "-include", "/docs/live/compiler/formula_tests.hpp"],
     }, mostCompileSeconds);

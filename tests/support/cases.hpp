@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// How often tests draw lots.
+#pragma once
+
+namespace rasterbook::test {
+
+/// Of n random cases, those that run: in a page, where tests are not optimised, one in twenty.
+constexpr int cases_of(int n) {
+#ifdef RASTERBOOK_IN_A_PAGE
+    return n / 20;
+#else
+    return n;
+#endif
+}
+
+}  // namespace rasterbook::test
