@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How often tests draw lots.
+/// How many random cases a test runs.
 #pragma once
 
 namespace rasterbook::test {

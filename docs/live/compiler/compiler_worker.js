@@ -131,7 +131,7 @@ async function precompile(headers) {
   const file = "precompiled.pch";
   put("unit/precompiled.hpp", text);
   const cache = await globalThis.caches?.open("rasterbook compiler").catch(() => null);
-  const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode(text)));
+  const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode([...options, text].join("\n"))));
   const url = cache && `${self.origin}/precompiled/${[...hash].map((byte) => byte.toString(16)).join("")}?${version}`;
   const kept = await cache?.match(url);
   if (kept) put(file, new Uint8Array(await (await unpacked(await kept.blob())).arrayBuffer()));

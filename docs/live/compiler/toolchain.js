@@ -13,9 +13,6 @@ const at = (path) => new URL(path, import.meta.url);
 const mostSeconds = { draw: 60, test: 30 };  // for a picture of a test, or a test of a formula
 const mostCompileSeconds = 300;
 
-/** From lesson 05 on, what is not optimised takes longer to draw its pictures than it takes to be optimised. */
-const levelOf = (lesson) => (lesson >= "05" && lesson < "12" ? "-O1" : "-O0");
-
 const objectOf = (source) => `${source.replaceAll("/", "_")}.o`;
 const shared = ["docs/live/live_app.cpp", "common/app/knobs.cpp", "common/probe/pixel_report.cpp"].map(objectOf);
 
@@ -171,12 +168,14 @@ export class Toolchain {
     const isLesson = lesson in this.lessons;
     const main = isLesson ? `lessons/${lesson}/main.cpp` : `lessons/sandbox/main.cpp`;
     const { apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
+    const level = isLesson && lesson >= "06" ? "-O1" : "-O0";  // from there on, there is much to draw
     const own = { lesson, files, like: this.likeThoseOf(lesson) };
-    const compile = (compiler, sources, level) => this.compilers[compiler].ask({ task: "compile", ...own, sources, level }, mostCompileSeconds);
+    const compile = (compiler, sources, level) =>
+      this.compilers[compiler].ask({ task: "compile", ...own, sources, level }, mostCompileSeconds);
     // What is precompiled takes longest when it is first asked for: one does it for both, the other takes it from the browser.
     this.precompiled = this.compilers[0].ask({ task: "precompile", ...own, sources: apart }, mostCompileSeconds);
     const { which } = await this.precompiled;  // the others are compiled already
-    const parts = [compile(0, [main], levelOf(lesson)), ...(which.length > 0 ? [compile(1, which, "-O0")] : [])];
+    const parts = [compile(0, [main], level), ...(which.length > 0 ? [compile(1, which, "-O0")] : [])];
     const all = Promise.all(parts);
     all.catch(() => {});  // nobody waits for it where main.cpp does not compile
     const { messages, log: said, object } = await parts[0];
