@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -74,6 +75,41 @@ TEST(Simd, HardCase_RandomScenesHaveLesson12sBitsAndCounts) {
         all.add(expected.counters);
     }
     expect_all_work(all, random_scenes);
+}
+
+TEST(Simd, HardCase_FlatMaterialsHaveLesson12sBitsAndCounts) {
+    look_up("Several triangles in a batch");
+    ThreadPool pool(2);
+    std::uint64_t shaded = 0;
+    for (std::uint32_t seed = 0; seed < random_scenes; ++seed) {
+        Dice dice(seed + 3'000'000);
+        auto options = any_options<lesson_13::Options>(dice);
+        Scene scene = any_scene(seed + 7000);
+        for (Mesh& mesh : scene.meshes)
+            if (!dice.one_in(4)) mesh.colors.clear();
+        // All materials, or all but one.
+        const std::uint32_t own = dice.below(2 * static_cast<std::uint32_t>(AnyMaterial::count));
+        for (std::size_t i = 0; i < scene.materials.size(); ++i)
+            if (i != own) {
+                Material flat;
+                flat.illumination = 0;
+                flat.diffuse = dice.color();
+                flat.two_sided = true;
+                scene.materials[i] = flat;
+            }
+        const SceneAssets assets = make_scene_assets(std::move(scene), options);
+        const Drawn expected = drawn_by_12(options, assets, pool);
+        for (const int width : widths) {
+            options.wide.width = width;
+            const Drawn actual = drawn_by_13(options, assets, pool);
+            const std::string where = in_words(options) + " (seed " + std::to_string(seed) + ")";
+            ASSERT_TRUE(have_the_same_bits(actual.picture, expected.picture))
+                << "beside lesson 12's picture; " << where;
+            ASSERT_TRUE(counts_are_equal(actual, expected)) << where;
+        }
+        shaded += expected.count(Counter::fragments_shaded);
+    }
+    EXPECT_GT(shaded, 100u * random_scenes) << "pixels of all pictures";
 }
 
 TEST(Simd, HardCase_ModelsHaveLesson12sBitsAndCountsWithEachOption) {

@@ -601,7 +601,7 @@ TEST(Simd, Eq13_2_EdgeFunctionsOfTheWorkedExample) {
     constexpr std::array next = {-16, 0, 16};
     const auto check = [&](auto whole) {
         using Whole = decltype(whole);
-        const WideEdges<Whole, 4> wide(edges);
+        WideEdges<Whole, 4> wide(edges, 0);
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t l = 0; l < 4; ++l)
                 EXPECT_EQ(static_cast<double>(wide.at[i][l]) / 65536, expected.at(i).at(l))
@@ -609,17 +609,17 @@ TEST(Simd, Eq13_2_EdgeFunctionsOfTheWorkedExample) {
                     << ", 1), in square pixels";
             EXPECT_EQ(static_cast<double>(wide.to_next_pixels[i]) / 65536, next.at(i))
                 << "what is added to edge function " << i << " for the next four pixels";
-            EXPECT_EQ(static_cast<double>(wide.to_next_row[i]) / 65536,
-                      static_cast<double>(edges[i].step_y) / 65536)
-                << "what is added to edge function " << i << " for the next row";
         }
-        auto moved = wide.at;
-        WideEdges<Whole, 4>::add(moved, wide.to_next_pixels);
+        wide.advance();
+        const WideEdges<Whole, 4> from_column_4(edges, 4);
         for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t l = 0; l < 4; ++l)
-                EXPECT_EQ(static_cast<double>(moved[i][l]) / 65536,
+            for (std::size_t l = 0; l < 4; ++l) {
+                EXPECT_EQ(static_cast<double>(wide.at[i][l]) / 65536,
                           expected.at(i).at(l) + next.at(i))
                     << "edge function " << i << ", four pixels to the right";
+                EXPECT_EQ(from_column_4.at[i][l], wide.at[i][l])
+                    << "edge function " << i << ", begun four pixels to the right";
+            }
     };
     check(std::int32_t{}), check(double{});
     int vectors = 0;
@@ -694,8 +694,8 @@ TEST(Simd, Eq13_2_TilesOfAllSplitsHaveLesson10sPixels) {
 }
 
 TEST(Simd, Eq13_2_HardCase_TheLargestTrianglesOf32BitsDoNotOverflow) {
-    // Less than 100 pixels wide and high, with the vectors of the box's last column and of the row
-    // below it: in 64 bits, none of these numbers is 2^31 or more.
+    // Less than 100 pixels wide and high, with the vectors behind the box's last column: in 64
+    // bits, none of these numbers is 2^31 or more.
     std::int64_t greatest = 0;
     Dice dice(5);
     constexpr int side = pixels_in_32_bits * subpixels - 1;
@@ -716,7 +716,7 @@ TEST(Simd, Eq13_2_HardCase_TheLargestTrianglesOf32BitsDoNotOverflow) {
         for (std::size_t i = 0; i < 3; ++i) {
             const EdgeWalk edge(v.at((i + 1) % 3), v.at((i + 2) % 3), winding, first);
             for (const int x : {0, 15, box.last.x - first.x + 31})
-                for (const int y : {0, box.last.y - first.y + 1})
+                for (const int y : {0, box.last.y - first.y})
                     greatest = std::max(greatest,
                                         std::abs(edge.value + x * edge.step_x + y * edge.step_y));
         }
@@ -736,11 +736,11 @@ TEST(Simd, Eq13_2_HardCase_TheLargestTrianglesOf32BitsDoNotOverflow) {
             << "in 32 bits, and in doubles (" << k << ")";
     }
     EXPECT_GT(greatest, 850'000'000) << "the largest edge function";
-    EXPECT_LT(greatest, std::int64_t{100} * 256 * (131 + 101) * 256)
+    EXPECT_LT(greatest, std::int64_t{100} * 256 * (131 + 100) * 256)
         << "the largest edge function, and the bound of Robust, \"32 bits or 53\"";
-    EXPECT_LT(std::int64_t{pixels_in_32_bits} * 256 *
-                  (pixels_in_32_bits + 31 + pixels_in_32_bits + 1) * 256,
-              std::int64_t{1} << 31)
+    EXPECT_LT(
+        std::int64_t{pixels_in_32_bits} * 256 * (pixels_in_32_bits + 31 + pixels_in_32_bits) * 256,
+        std::int64_t{1} << 31)
         << "the bound for pixels_in_32_bits";
 }
 
@@ -758,6 +758,30 @@ TEST(Simd, Eq13_2_HardCase_TrianglesThatDoNotFitInto32BitsTakeDoubles) {
             ASSERT_TRUE(fills_as_lesson_02<Floats<16>>(triangle, ivec2(0), ivec2(310)))
                 << "in 16 lanes, a triangle " << side << " pixels wide and high: " << in_words(v);
         }
+}
+
+TEST(Simd, Eq13_2_ARowOfALargeTriangleBeginsAndEndsWithItsPixels) {
+    for_each_width([]<int N>() {
+        Dice dice(N);
+        for (int k = 0; k < 300; ++k) {
+            std::array<vec2, 3> v;
+            for (vec2& vertex : v) vertex = 300.0f * (vec2(dice.in_cube(1)) + 1.0f);
+            const ScreenTriangle triangle = snap_triangle(v[0], v[1], v[2]);
+            const PixelBox box = box_around(triangle);
+            if (std::max(box.last.x - box.first.x, box.last.y - box.first.y) < 100) continue;
+            std::vector<int> in_row(601), vectors(601);
+            fill_triangle(triangle, ivec2(0), ivec2(600), [&](ivec2 pixel, Barycentrics) {
+                ++in_row.at(static_cast<std::size_t>(pixel.y));
+            });
+            fill_triangle<Floats<N>>(triangle, ivec2(0), ivec2(600), [&](ivec2 pixel, auto...) {
+                ++vectors.at(static_cast<std::size_t>(pixel.y));
+            });
+            for (std::size_t y = 0; y < in_row.size(); ++y)
+                ASSERT_EQ(vectors[y], (in_row[y] + N - 1) / N)
+                    << "vectors of " << N << " for the " << in_row[y] << " pixels in row " << y
+                    << " of the triangle " << in_words(v);
+        }
+    });
 }
 
 TEST(Simd, Eq13_2_HardCase_ATileThatAnEdgeTouchesInOnePixelIsFilled) {

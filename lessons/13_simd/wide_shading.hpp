@@ -99,25 +99,6 @@ struct VisibleTriangle {
     std::span<const PixelRun> runs;
 };
 
-/// Draws the triangles of an unlit material if it has one colour: then there is nothing to compute
-/// in their pixels.
-///
-/// @return  Whether it has.
-template <typename F, typename CounterPolicy>
-bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, std::span<const VisibleTriangle> visible,
-               CounterPolicy& counters) {
-    const ProjectedTriangle& first = *visible.front().triangle;
-    const EffectMask effects = frame.assets.plan.materials[first.triangle.material].effects;
-    if (effects[Effect::texture] || vertex_colors(effects, first).are_there) return false;
-    const vec3 color = unlit(surface_color(frame.assets.scene.materials[first.triangle.material]));
-    for (const auto& [triangle, runs] : visible)
-        for (const PixelRun& run : runs) {
-            counters.add(Counter::fragments_shaded, static_cast<std::uint64_t>(run.length));
-            fill<F>(&frame.color[run.first], run.length, color);
-        }
-    return true;
-}
-
 /// As shade_pixels() of lesson 12, of triangles of one mesh and one material.
 template <Permutation with, typename F, typename CounterPolicy>
 void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, std::span<const VisibleTriangle> visible,
@@ -126,8 +107,6 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, std::span<const Visibl
         for (const auto& [triangle, runs] : visible)
             shade_pixels<with>(frame, *triangle, runs, counters);
     } else {
-        if constexpr (with.model == ShadingModel::unlit)
-            if (fill_flat<F>(frame, visible, counters)) return;
         PixelBatch<with, F, CounterPolicy> batch(frame, *visible.front().triangle, counters);
         for (const auto& [triangle, runs] : visible) {
             if (triangle != visible.front().triangle) batch.begin(*triangle);
@@ -211,20 +190,65 @@ void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTri
     for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
 }
 
+/// Whether two triangles are of one mesh and one material.
+inline bool are_alike(const ProjectedTriangle& a, const ProjectedTriangle& b) {
+    return &a.mesh == &b.mesh && a.triangle.material == b.triangle.material;
+}
+
+/// The colour of all of a triangle's pixels, if there is one: its material is unlit, and has
+/// neither a texture nor vertex colours.
+inline std::optional<vec3> flat_color(const Frame<ShadowMapsOnDemand>& frame,
+                                      const ProjectedTriangle& projected) {
+    const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
+    if (all_permutations[permutation_of(plan)].model != ShadingModel::unlit ||
+        plan[Effect::texture] || vertex_colors(plan.effects, projected).are_there)
+        return std::nullopt;
+    return unlit(surface_color(frame.assets.scene.materials[projected.triangle.material]));
+}
+
+/// Draws the colours of a tile if each of its triangles has one: then there is nothing to compute.
+///
+/// @return  Whether they have.
+template <typename CounterPolicy>
+bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible,
+               CounterPolicy& counters) {
+    std::vector<vec3> color_of;  // by id
+    for (const ProjectedTriangle* before = nullptr;
+         const ProjectedTriangle* triangle : visible.triangles()) {
+        if (before == nullptr || !are_alike(*before, *triangle)) {
+            const std::optional<vec3> color = flat_color(frame, *triangle);
+            if (!color) return false;
+            color_of.push_back(*color);
+        } else {
+            color_of.push_back(color_of.back());
+        }
+        before = triangle;
+    }
+    if (color_of.empty()) return true;
+    std::uint64_t count = 0;
+    const auto [tile, row_step] = visible.tile();
+    for (int y = tile.first.y; y <= tile.last.y; y += row_step) {
+        const TriangleId* id = visible.ids_from({tile.first.x, y});
+        vec3* pixel = &frame.color[{tile.first.x, y}];
+        for (int x = tile.first.x; x <= tile.last.x; ++x, ++id, ++pixel)
+            if (*id != no_triangle) *pixel = color_of[*id], ++count;
+    }
+    counters.add(Counter::fragments_shaded, count);
+    return true;
+}
+
 /// As shade_visible() of lesson 12.
 template <typename F, typename CounterPolicy>
 void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible, Show show,
                    HeatMap& heat, CounterPolicy& counters) {
+    if (width_of<F> > 1 && show == Show::picture && fill_flat(frame, visible, counters))
+        return visible.clear();
     std::vector<VisibleTriangle> triangles;
     visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelRun> runs) {
         triangles.push_back({&triangle, runs});
     });
-    const auto is_alike = [](const VisibleTriangle& a, const VisibleTriangle& b) {
-        return &a.triangle->mesh == &b.triangle->mesh &&
-               a.triangle->triangle.material == b.triangle->triangle.material;
-    };
     for (auto begin = triangles.begin(), end = begin; begin != triangles.end(); begin = end) {
-        while (end != triangles.end() && is_alike(*begin, *end)) ++end;
+        while (end != triangles.end() && are_alike(*begin->triangle, *end->triangle)) ++end;
         shader_of<F, CounterPolicy>(frame, *begin->triangle)
             .shade_pixels(frame, {begin, end}, counters);
     }

@@ -25,58 +25,62 @@
 
 namespace rasterbook {
 
-/// The three edges of a triangle at the N pixels from one pixel on (Eq. 13.2).
+/// The three edge functions of a triangle at N pixels of a row (Eq. 13.2).
 ///
 /// @tparam Whole  Holds all of these whole numbers exactly: std::int32_t for small triangles,
 ///                double for others.
 template <typename Whole, int N>
 struct WideEdges {
-    using Wholes = Vector<Whole, N>;
+    std::array<Vector<Whole, N>, 3> at;  ///< Inside > 0.
+    std::array<Whole, 3> to_next_pixels{};
 
-    std::array<Wholes, 3> at;  ///< The edge functions, inside > 0.
-    std::array<Whole, 3> to_next_pixels, to_next_row;
-
-    explicit WideEdges(const std::array<EdgeWalk, 3>& edges) {
+    /// @param column  Of the first pixel, counted from where the edges are.
+    WideEdges(const std::array<EdgeWalk, 3>& edges, std::int64_t column) {
+        const auto lanes = __builtin_convertvector(lane_numbers<N>().lanes, Vector<Whole, N>);
         for (std::size_t i = 0; i < 3; ++i) {
-            for (int lane = 0; lane < N; ++lane)
-                at[i][lane] = static_cast<Whole>(edges[i].value + lane * edges[i].step_x);
+            at[i] = static_cast<Whole>(edges[i].value + column * edges[i].step_x) +
+                    lanes * static_cast<Whole>(edges[i].step_x);
             to_next_pixels[i] = static_cast<Whole>(N * edges[i].step_x);
-            to_next_row[i] = static_cast<Whole>(edges[i].step_y);
         }
     }
 
-    static void add(std::array<Wholes, 3>& to, const std::array<Whole, 3>& steps) {
-        for (std::size_t i = 0; i < 3; ++i) to[i] += steps[i];
+    void advance() {
+        for (std::size_t i = 0; i < 3; ++i) at[i] += to_next_pixels[i];
+    }
+
+    /// Rounding keeps the order: what is at least 0 or 1 stays so.
+    Vec3<Floats<N>> as_floats() const {
+        const auto as_float = [](auto whole) {
+            return Floats<N>(__builtin_convertvector(whole, Vector<float, N>));
+        };
+        return {as_float(at[0]), as_float(at[1]), as_float(at[2])};
     }
 };
 
-/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also in the
-/// columns and the row that the walk goes beyond its box: 100 * (131 + 101) * 65536 < 2^31.
+/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also in the columns
+/// that the walk goes beyond its box: 100 * (131 + 100) * 65536 < 2^31.
 constexpr int pixels_in_32_bits = 100;
 
 /// Visits the pixels of a box that a triangle covers, N of a row at a time.
 template <typename Whole, int N, typename Emit>
-void fill_box(const std::array<EdgeWalk, 3>& edges, float per_area, const PixelBox& box,
-              Emit&& emit) {
+void fill_box(std::array<EdgeWalk, 3> edges, float per_area, const PixelBox& box, Emit&& emit) {
     using F = Floats<N>;
-    WideEdges<Whole, N> row(edges);
-    const F least_a(static_cast<float>(edges[0].least)),
-        least_b(static_cast<float>(edges[1].least)), least_c(static_cast<float>(edges[2].least));
+    const Vec3<F> least(vec3(edges[0].least, edges[1].least, edges[2].least));
     for (int y = box.first.y; y <= box.last.y; ++y) {
-        auto at = row.at;
-        for (int x = box.first.x; x <= box.last.x; x += N) {
-            const F a{__builtin_convertvector(at[0], Vector<float, N>)};
-            const F b{__builtin_convertvector(at[1], Vector<float, N>)};
-            const F c{__builtin_convertvector(at[2], Vector<float, N>)};
-            // Rounding keeps the order: what is at least 0 or 1 stays so.
-            const Mask<N> covered = (a >= least_a) & (b >= least_b) & (c >= least_c) &
-                                    first_lanes<F>(box.last.x - x + 1);
-            // A small triangle covers pixels in nearly each row of its box: not worth a question.
-            if (std::is_same_v<Whole, std::int32_t> || any_of(covered))
-                emit(ivec2(x, y), covered, Vec3<F>(a, b, c) * F(per_area));
-            WideEdges<Whole, N>::add(at, row.to_next_pixels);
+        std::int64_t first = 0, last = box.last.x - box.first.x;  // from box.first.x
+        // A small triangle covers most of its box's few columns: not worth a division.
+        if constexpr (!std::is_same_v<Whole, std::int32_t>)
+            for (const EdgeWalk& edge : edges) edge.narrow(first, last);
+        WideEdges<Whole, N> row(edges, first);
+        for (std::int64_t x = first; x <= last; x += N) {
+            const Vec3<F> share = row.as_floats();
+            const Mask<N> covered = (share.x >= least.x) & (share.y >= least.y) &
+                                    (share.z >= least.z) &
+                                    first_lanes<F>(static_cast<int>(last - x) + 1);
+            emit(box.first + ivec2(x, y - box.first.y), covered, share * F(per_area));
+            row.advance();
         }
-        WideEdges<Whole, N>::add(row.at, row.to_next_row);
+        for (EdgeWalk& edge : edges) edge.value += edge.step_y;
     }
 }
 
@@ -101,19 +105,16 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
         fill_triangle(triangle, first, last,
                       [&](ivec2 pixel, Barycentrics at) { emit(pixel, true, at); });
     } else {
-        if (triangle.twice_area == 0) return;
+        const PixelBox around = box_around(triangle), box = common_box(around, {first, last});
+        if (triangle.twice_area == 0 || box.is_empty()) return;
         const auto [a, b, c] = triangle.vertices;
-        const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
-        const PixelBox box{glm::max((low + (subpixels / 2 - 1)) >> subpixel_bits, first),
-                           glm::min((high - subpixels / 2) >> subpixel_bits, last)};
-        if (box.is_empty()) return;
         const int winding = triangle.twice_area > 0 ? 1 : -1;
         const std::array<EdgeWalk, 3> edges{EdgeWalk(b, c, winding, box.first),
                                             EdgeWalk(c, a, winding, box.first),
                                             EdgeWalk(a, b, winding, box.first)};
         const auto per_area =
             static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
-        const ivec2 size = (high - low) >> subpixel_bits;
+        const ivec2 size = around.last - around.first + 1;
         if (std::max(size.x, size.y) < pixels_in_32_bits)
             fill_box<std::int32_t, width_of<F>>(edges, per_area, box, emit);
         else if (std::ranges::none_of(edges, [&](auto& edge) { return is_outside(edge, box); }))

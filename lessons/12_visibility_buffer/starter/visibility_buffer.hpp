@@ -104,6 +104,10 @@ class TileVisibility {
         clear();
     }
 
+    const Tile& tile() const { return tile_; }
+    /// Those that were added, by id.
+    std::span<const ProjectedTriangle* const> triangles() const { return triangles_; }
+
     /// Whether all ids are taken.
     bool is_full() const { return triangles_.size() == max_ids_; }
 
@@ -137,12 +141,13 @@ class TileVisibility {
         clear();
     }
 
-  private:
+    /// The tile has no triangles any more.
     void clear() {
         triangles_.clear();
         ids_.assign(layout_.size(), no_triangle);
     }
 
+  private:
     /// Calls take(run, id) for all pixels of the tile in which there is a triangle.
     template <typename Take>
     void for_each_run(Take&& take) const {

@@ -25,41 +25,47 @@
 
 namespace rasterbook {
 
-/// The three edges of a triangle at the N pixels from one pixel on (Eq. 13.2).
+/// The three edge functions of a triangle at N pixels of a row (Eq. 13.2).
 ///
 /// @tparam Whole  Holds all of these whole numbers exactly: std::int32_t for small triangles,
 ///                double for others.
 template <typename Whole, int N>
 struct WideEdges {
-    using Wholes = Vector<Whole, N>;
+    std::array<Vector<Whole, N>, 3> at;  ///< Inside > 0.
+    std::array<Whole, 3> to_next_pixels{};
 
-    std::array<Wholes, 3> at;  ///< The edge functions, inside > 0.
-    std::array<Whole, 3> to_next_pixels, to_next_row;
-
-    explicit WideEdges(const std::array<EdgeWalk, 3>& edges) {
-        // TODO: step 2: Eq. 13.2: each edge's values at N pixels; its step to the next N of them,
-        // and to the next row.
-        for (std::size_t i = 0; i < 3; ++i)
-            at[i] = Wholes{}, to_next_pixels[i] = to_next_row[i] = 0;
+    /// @param column  Of the first pixel, counted from where the edges are.
+    WideEdges(const std::array<EdgeWalk, 3>& edges, std::int64_t column) {
+        // TODO: step 2: Eq. 13.2: each edge's values at N pixels, and what they change by to the
+        // next N pixels.
+        for (std::size_t i = 0; i < 3; ++i) at[i] = Vector<Whole, N>{};
     }
 
-    static void add(std::array<Wholes, 3>& to, const std::array<Whole, 3>& steps) {
-        for (std::size_t i = 0; i < 3; ++i) to[i] += steps[i];
+    void advance() {
+        for (std::size_t i = 0; i < 3; ++i) at[i] += to_next_pixels[i];
+    }
+
+    /// Rounding keeps the order: what is at least 0 or 1 stays so.
+    Vec3<Floats<N>> as_floats() const {
+        const auto as_float = [](auto whole) {
+            return Floats<N>(__builtin_convertvector(whole, Vector<float, N>));
+        };
+        return {as_float(at[0]), as_float(at[1]), as_float(at[2])};
     }
 };
 
-/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also in the
-/// columns and the row that the walk goes beyond its box: 100 * (131 + 101) * 65536 < 2^31.
+/// In this many pixels each way, a triangle's edge functions fit into 32 bits, also in the columns
+/// that the walk goes beyond its box: 100 * (131 + 100) * 65536 < 2^31.
 constexpr int pixels_in_32_bits = 100;
 
 /// Visits the pixels of a box that a triangle covers, N of a row at a time.
 template <typename Whole, int N, typename Emit>
-void fill_box(const std::array<EdgeWalk, 3>& edges, float per_area, const PixelBox& box,
-              Emit&& emit) {
+void fill_box(std::array<EdgeWalk, 3> edges, float per_area, const PixelBox& box, Emit&& emit) {
     using F = Floats<N>;
-    // TODO: step 2: the same by WideEdges, N pixels at a time. __builtin_convertvector makes floats
-    // of their values. A lane is covered where all three are at least their `least` (Eq. 13.2), and
-    // where its pixel is in the box. Emit what has a covered lane. Then the next N, the next row.
+    // TODO: step 2: the same by WideEdges, N pixels at a time. A lane is covered where all three
+    // are at least their `least` (Eq. 13.2), and where its pixel is in the box. Emit each N pixels
+    // with their mask. Then the next N, the next row. Where Whole is double, begin and end each row
+    // as lesson 02 does: by narrow().
     // Until then, a pixel at a time, in the first lane:
     for (int y = box.first.y; y <= box.last.y; ++y)
         for (int x = box.first.x; x <= box.last.x; ++x) {
@@ -97,19 +103,16 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
         fill_triangle(triangle, first, last,
                       [&](ivec2 pixel, Barycentrics at) { emit(pixel, true, at); });
     } else {
-        if (triangle.twice_area == 0) return;
+        const PixelBox around = box_around(triangle), box = common_box(around, {first, last});
+        if (triangle.twice_area == 0 || box.is_empty()) return;
         const auto [a, b, c] = triangle.vertices;
-        const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
-        const PixelBox box{glm::max((low + (subpixels / 2 - 1)) >> subpixel_bits, first),
-                           glm::min((high - subpixels / 2) >> subpixel_bits, last)};
-        if (box.is_empty()) return;
         const int winding = triangle.twice_area > 0 ? 1 : -1;
         const std::array<EdgeWalk, 3> edges{EdgeWalk(b, c, winding, box.first),
                                             EdgeWalk(c, a, winding, box.first),
                                             EdgeWalk(a, b, winding, box.first)};
         const auto per_area =
             static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
-        const ivec2 size = (high - low) >> subpixel_bits;
+        const ivec2 size = around.last - around.first + 1;
         if (std::max(size.x, size.y) < pixels_in_32_bits)
             fill_box<std::int32_t, width_of<F>>(edges, per_area, box, emit);
         else if (std::ranges::none_of(edges, [&](auto& edge) { return is_outside(edge, box); }))
