@@ -8,12 +8,13 @@ where something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED is set.
 
 import json
 import re
+import subprocess
 import sys
 import time
 from pathlib import Path
 
 from editor_test import EditorPage
-from live_test import LESSONS, PIXELS, native_bytes, serve
+from live_test import LESSONS, PIXEL, PIXELS, native_bytes, serve
 from site_test import ROOT, check_log, skip, start_browser
 
 STATUS = "return document.querySelector('.live .status').textContent"
@@ -74,6 +75,41 @@ def check_lesson(page: Run, build: Path, lesson: str) -> list[str]:
     return problems
 
 
+def check_probe(page: Run, build: Path) -> list[str]:
+    """The reader's code explains a pixel; that it does not compile for this is said."""
+    from selenium.webdriver.common.keys import Keys
+
+    lesson = "09_shadow_maps"
+    command = [build / lesson, "--probe", "640,360"]
+    course = subprocess.run(command, check=True, capture_output=True, encoding="utf-8").stdout.rstrip()
+    files = solution(lesson)
+    files["shadow_map.hpp"] = files["shadow_map.hpp"].replace("return lit / (side", "return (0 * lit + 4) / (side")
+    page.script(PUT, lesson, json.dumps({"files": files, "step": 0, "begun": {}}))
+    page.open("lesson_09.html", is_forgotten=False)
+    page.timed_run()
+    page.wait()
+    problems = []
+    for line in ("", "\n#define seen ;  // as the probe calls what it has found\n", ""):
+        page.all(".tabs button")[0].click()
+        tab = next(tab for tab in page.all(".tabs button") if tab.text == "shadow_map.hpp")
+        tab.click()
+        page.write(files["shadow_map.hpp"] + line)
+        page.timed_run()
+        page.one(".live canvas").send_keys(Keys.ENTER)
+        page.wait()
+        reasons = page.script("return document.querySelector('.reasons').textContent")
+        print(f"a pixel with {line!r}: {reasons[:120]!r}", flush=True)
+        if line and not reasons.startswith("What explains a pixel does not compile with this: "):
+            problems.append(f"of a probe that does not compile it says {reasons[:200]}")
+        if not line:
+            color = "#{:02x}{:02x}{:02x}".format(*page.script(PIXEL, 640, 360))
+            if course.endswith(color):
+                problems.append("the reader's header does not change the picture")
+            if not reasons.endswith(color):
+                problems.append(f"what explains a pixel does not end with its colour, {color}: {reasons[-40:]}")
+    return problems
+
+
 def solution(lesson: str) -> dict[str, str]:
     folder = ROOT / "lessons" / lesson
     names = [file.name for file in (folder / "starter").iterdir()] + ["main.cpp"]
@@ -124,6 +160,7 @@ def main() -> None:
     try:
         for lesson in asked:
             problems += [f"{lesson}: {problem}" for problem in check_lesson(page, build, lesson)]
+        problems += check_probe(page, build)
         problems += check_wrong(page)
         problems += check_log(browser, "writing", (address,))
     finally:

@@ -5,10 +5,10 @@
 
 namespace rasterbook::test {
 
-/// Of n random cases, those that run: in a page, where tests are not optimised, one in twenty.
+/// Of n random cases, those that run: in a page, where tests are not optimised, one in fifty.
 constexpr int cases_of(int n) {
 #ifdef RASTERBOOK_IN_A_PAGE
-    return n / 20;
+    return n / 50;
 #else
     return n;
 #endif

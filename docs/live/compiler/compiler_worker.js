@@ -109,7 +109,29 @@ function headersOf(files, own) {
     }
   };
   files.filter((file) => texts.has(file)).forEach(visit);
-  return { headers: [...headers], depends };
+  return [...headers];
+}
+
+/** Where a file of the reader's stands below mine/. */
+const pathOf = (name, lesson) => (name.includes("/") ? name : `${lesson}/${name}`);
+
+/** The names of the reader's files that a source is or includes, itself or by others. */
+function usedBy(source, lesson, files) {
+  const names = new Map(Object.keys(files).map((name) => [`lessons/${pathOf(name, lesson)}`, name]));
+  const used = new Set(), seen = new Set();
+  const visit = (path) => {
+    if (seen.has(path)) return;
+    seen.add(path);
+    const name = names.get(path);
+    if (name !== undefined) used.add(name);
+    for (const { name: included } of includesOf(files[name] ?? texts.get(path) ?? "")) {
+      const besides = path.replace(/[^/]*$/, "");
+      const header = [besides, ...folders].map((folder) => folder + included).find((file) => names.has(file) || texts.has(file));
+      if (header) visit(header);
+    }
+  };
+  visit(source);
+  return [...used];
 }
 
 /** The reader's files in place of the course's. */
@@ -117,7 +139,7 @@ function putOwn(lesson, files) {
   root.delete("mine");
   const own = new Set();
   for (const [name, text] of Object.entries(files)) {
-    const path = name.includes("/") ? name : `${lesson}/${name}`;
+    const path = pathOf(name, lesson);
     put(`mine/${path}`, text);
     own.add(`lessons/${path}`).add(path);
   }
@@ -191,11 +213,10 @@ const tasks = {
     return {};
   },
 
-  /** Precompiles what some files include; says `which` sources depend on the reader's files. */
+  /** Precompiles what some files include; says which of the reader's files each source `uses`. */
   precompile: async ({ lesson, files, like, sources }) => {
-    const { headers, depends } = headersOf(like, putOwn(lesson, files));
-    await precompile(headers);
-    return { which: sources.filter(depends) };
+    await precompile(headersOf(like, putOwn(lesson, files)));
+    return { uses: Object.fromEntries(sources.map((source) => [source, usedBy(source, lesson, files)])) };
   },
 
   /**
@@ -206,7 +227,7 @@ const tasks = {
    * @param {string[]} extra  Options of clang.
    */
   compile: async ({ lesson, files, level, sources, like, extra = [] }) => {
-    await precompile(headersOf(like, putOwn(lesson, files)).headers);
+    await precompile(headersOf(like, putOwn(lesson, files)));
     const place = (source) => {
       const mine = source.replace(/^lessons\//, "mine/");
       return get(mine) ? mine : source;

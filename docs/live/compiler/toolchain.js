@@ -3,7 +3,7 @@
 //
 //   const toolchain = new Toolchain();
 //   await toolchain.load(({ bytes, of, what }) => ...);
-//   const { messages, log, program } = await toolchain.compile("05_textures", { "main.cpp": text, ... });
+//   const { messages, log, program, whole } = await toolchain.compile("05_textures", { "main.cpp": text, ... });
 //   const { messages, log, tiers, first } = await toolchain.test("05_textures", files, step);
 //
 // What goes wrong in the page rejects with an Error whose message is a sentence; what stop() ends,
@@ -125,6 +125,7 @@ async function forgetOthers(version) {
 
 export class Toolchain {
   compiled = new Latest();
+  objects = { main: new Latest(), apart: new Latest() };
   tests = new Latest();
 
   async load(progress) {
@@ -164,31 +165,54 @@ export class Toolchain {
     return this.compiled.answer(JSON.stringify([lesson, files]), () => this.compileAnew(lesson, files));
   }
 
+  /**
+   * What explains a pixel is compiled when it is asked for: until then, the program has the course's.
+   *
+   * @returns  Among others `program`, null where it does not compile, and `whole`, which returns a promise of
+   *           the program with all that is the reader's; null where `program` has it.
+   */
   async compileAnew(lesson, files) {
     const isLesson = lesson in this.lessons;
     const main = isLesson ? `lessons/${lesson}/main.cpp` : `lessons/sandbox/main.cpp`;
     const { apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
     const level = isLesson && lesson >= "06" ? "-O1" : "-O0";  // from there on, there is much to draw
     const own = { lesson, files, like: this.likeThoseOf(lesson) };
+    // What is precompiled takes longest when it is first asked for: one does it for both, the other takes it from the browser.
+    this.precompiled = this.compilers[0].ask({ task: "precompile", ...own, sources: [main, ...apart] }, mostCompileSeconds);
+    const { uses } = await this.precompiled;
     const compile = (compiler, sources, level) =>
       this.compilers[compiler].ask({ task: "compile", ...own, sources, level }, mostCompileSeconds);
-    // What is precompiled takes longest when it is first asked for: one does it for both, the other takes it from the browser.
-    this.precompiled = this.compilers[0].ask({ task: "precompile", ...own, sources: apart }, mostCompileSeconds);
-    const { which } = await this.precompiled;  // the others are compiled already
-    const parts = [compile(0, [main], level), ...(which.length > 0 ? [compile(1, which, "-O0")] : [])];
+    let free = 0;  // the first compiler, and what comes next takes the other
+    /** Not anew where all that the sources include is as before. */
+    const object = (kept, sources, level) => {
+      const used = [...new Set(sources.flatMap((source) => uses[source]))].map((name) => [name, files[name]]);
+      return kept.answer(JSON.stringify([lesson, sources, level, used]), () => compile(free++, sources, level));
+    };
+    const changed = apart.filter((source) => uses[source].length > 0);  // the others are compiled already
+    const isOfProbe = (source) => source.endsWith("/probe.cpp");
+    const soon = changed.filter((source) => !isOfProbe(source)), later = changed.filter(isOfProbe);
+    const parts = [object(this.objects.main, [main], level), ...(soon.length > 0 ? [object(this.objects.apart, soon, "-O0")] : [])];
     const all = Promise.all(parts);
     all.catch(() => {});  // nobody waits for it where main.cpp does not compile
-    const { messages, log: said, object } = await parts[0];
-    if (!object) return { messages, log: said, program: null };
+    const { messages, log: said, object: compiledMain } = await parts[0];
+    if (!compiledMain) return { messages, log: said, program: null };
     const compiled = await all;
     const wrong = compiled.find((part) => !part.object);
     if (wrong) return { messages: wrong.messages, log: wrong.log, program: null };
-    const { program, log } = await this.compilers[0].ask({
+    const link = (compiled, which) => this.compilers[0].ask({
       task: "link", compiled: compiled.map((part) => part.object),
       names: [...shared, ...this.apartOf(lesson).filter((source) => !which.includes(source)).map(objectOf)],
       start: ["/objects/crt1-reactor.o", "--entry", "_initialize"],
     }, mostCompileSeconds);
-    return { messages: program ? messages : linkMessages(log), log, program };
+    const { program, log } = await link(compiled, soon);
+    const whole = async () => {
+      const probe = await compile(0, later, "-O0");
+      const { program = null } = probe.object ? await link([...compiled, probe], changed) : {};
+      const wrong = probe.messages.find(({ severity }) => severity === "error");
+      if (!program) throw new Error(`What explains a pixel does not compile with this${wrong ? `: ${wrong.file}:${wrong.line}: ${wrong.text}` : ""}.`);
+      return program;
+    };
+    return { messages: program ? messages : linkMessages(log), log, program, whole: later.length > 0 ? whole : null };
   }
 
   /** Files that include what is worth to be precompiled: the lesson's, and its tests. */

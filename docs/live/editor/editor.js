@@ -300,7 +300,7 @@ class Editor {
     const compiled = this.toolchain.compile(...asked);
     const tests = this.sandbox ? null : this.toolchain.test(...asked, this.step || null);
     tests?.catch(() => {});  // nobody may wait for them
-    const { messages, log, program } = await compiled;
+    const { messages, log, program, whole } = await compiled;
     if (isOld()) return;
     this.show(messages, log, program);
     const warnings = messages.filter(({ severity }) => severity === "warning").length;
@@ -312,7 +312,7 @@ class Editor {
     }
     const options = this.optionsToDraw();
     this.isNewStep = false;
-    await this.place.setProgram(program, options);
+    await this.place.setProgram(program, options, whole);
     if (isOld()) return;
     if (this.sandbox) return this.say(`Compiled${warned} in ${seconds()}.`, "right");
     this.say(`Compiled${warned} in ${seconds()}. Testing …`);
