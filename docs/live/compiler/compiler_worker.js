@@ -83,7 +83,7 @@ function clang(...args) {
 const folders = ["docs/live/without_threads/", "", "lessons/", "tests/"];  // in which the course's headers are looked for
 const found = (name) => folders.map((folder) => folder + name).find((path) => texts.has(path));
 const includesOf = (text) =>
-  [...text.matchAll(/^#include ([<"])([^>"]+)[>"]/gm)].map(([, quote, name]) => ({ isOwn: quote === '"', name }));
+  [...text.matchAll(/^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]/gm)].map(([, quote, name]) => ({ isOwn: quote === '"', name }));
 
 /** The headers that some files include, themselves or by others; those that depend on one of `own` are left out. */
 function headersOf(files, own) {
