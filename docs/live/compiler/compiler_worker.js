@@ -7,6 +7,7 @@ import { ConsoleStdout, Directory, File, OpenFile, PreopenDirectory, WASI } from
 
 const options = ["--target=wasm32-wasi", "-std=c++20", "-ffp-contract=off", "-fno-math-errno", "-fignore-exceptions", "-Wall", "-Wextra",
   "-Wno-psabi", "-Wno-unused-parameter", "-Wno-missing-field-initializers", "-fno-color-diagnostics",
+  "-fdiscard-value-names", "-fno-verify-intermediate-code",  // as where clang is not built with assertions
   "-DRASTERBOOK_IN_A_PAGE", "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
   '-DRASTERBOOK_ASSETS=""', '-DRASTERBOOK_LESSONS=""', '-DRASTERBOOK_GOLDEN=""', '-DRASTERBOOK_TEST_DATA=""',
   "-nostdinc", "-nostdinc++", "-I/docs/live/without_threads", "-I/mine", "-I/", "-I/lessons", "-I/tests"];
@@ -15,7 +16,7 @@ let compiler;  // WebAssembly.Module
 const root = new Map();  // the files, as folders in folders
 const texts = new Map();  // the course's files: text by path
 let version, searchPath;
-let precompiled;  // what is precompiled
+let precompiled;  // what is precompiled for a lesson
 
 const encoder = new TextEncoder();
 
@@ -39,10 +40,10 @@ function get(path) {
 }
 
 /** Runs a tool of LLVM; what it prints comes back. */
-function run(args) {
+function run(args, input = "") {
   const printed = [], said = [];
   const files = [
-    new OpenFile(new File([])),
+    new OpenFile(new File(encoder.encode(input))),
     new ConsoleStdout((bytes) => printed.push(bytes.slice())),
     new ConsoleStdout((bytes) => said.push(bytes.slice())),
     new PreopenDirectory("/", root),
@@ -66,7 +67,7 @@ function joined(parts) {
 const commands = new Map();  // what the driver makes of its words
 
 /** Runs clang as its driver would run it, but in the same program. */
-function clang(...args) {
+function clang(args, input) {
   const key = args.join("\n");
   if (!commands.has(key)) {
     const driver = run(["clang++", ...options, ...searchPath, ...args, "-###"]);
@@ -75,7 +76,7 @@ function clang(...args) {
     const words = [...line.matchAll(/"((?:[^"\\]|\\.)*)"/g)].map(([, word]) => word.replace(/\\(.)/g, "$1"));
     commands.set(key, words[0] === "" ? words.slice(1) : words);
   }
-  return run(commands.get(key));
+  return run(commands.get(key), input);
 }
 
 // --- What includes what
@@ -101,9 +102,9 @@ function headersOf(files, own) {
     seen.add(path);
     for (const { isOwn, name } of includesOf(texts.get(path))) {
       const header = isOwn && found(name);
-      if (!isOwn) headers.add(`<${name}>`);
+      if (!isOwn) headers.add(name);
       else if (header) {
-        if (!depends(header)) headers.add(`"${name}"`);
+        if (!depends(header)) headers.add(name);
         visit(header);
       }
     }
@@ -146,9 +147,21 @@ function putOwn(lesson, files) {
   return own;
 }
 
+const textOf = (headers) => headers.map((name) => `#include <${name}>\n`).join("");
+
+/** Headers as a file for -include-pch, on top of what is precompiled already. */
+function pchOf(headers, precompiled = []) {
+  const { status, bytes, text } = clang(
+    ["-x", "c++-header", ...precompiled, "-Xclang", "-fpch-instantiate-templates", "-c", "-", "-o", "-"], headers);
+  if (status !== 0) throw new Error(`The course's headers do not compile: ${text.slice(0, 500)}`);
+  return bytes;
+}
+
+const including = (pch) => ["-include-pch", pch, "-Xclang", "-fno-validate-pch"];
+
 /** Precompiles what does not change while the reader writes, or takes what the browser has kept of it. */
 async function precompile(headers) {
-  const text = headers.map((header) => `#include ${header}\n`).join("");
+  const text = textOf(headers);
   if (precompiled === text) return;
   const file = "precompiled.pch";
   put("unit/precompiled.hpp", text);
@@ -158,11 +171,9 @@ async function precompile(headers) {
   const kept = await cache?.match(url);
   if (kept) put(file, new Uint8Array(await (await unpacked(await kept.blob())).arrayBuffer()));
   else {
-    const { status, bytes, text: said } = clang(
-      "-x", "c++-header", "-Xclang", "-fpch-instantiate-templates", "-c", "/unit/precompiled.hpp", "-o", "-");
-    if (status !== 0) throw new Error(`The course's headers do not compile: ${said.slice(0, 500)}`);
+    const bytes = pchOf(text, including("/shared.pch"));
     put(file, bytes);
-    // The other worker takes it from there. Packed it is a quarter of 30 MB; a full disk is no reason to stop.
+    // The other worker takes it from there. Packed it is half of up to 15 MB; a full disk is no reason to stop.
     await cache?.put(url, new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream("gzip")))).catch(() => {});
   }
   precompiled = text;
@@ -210,7 +221,15 @@ const tasks = {
       put(`objects/${name}`, packed.subarray(at, at + size));
       at += size;
     }
+    const shared = blobs["shared.pch.gz"];  // not there yet while it is made
+    if (shared) put("shared.pch", new Uint8Array(await (await unpacked(shared)).arrayBuffer()));
     return {};
+  },
+
+  /** Precompiles all that some files include and that depends on no lesson. */
+  precompileShared: ({ files }) => {
+    const ofLessons = new Set([...texts.keys()].filter((path) => path.startsWith("lessons/")));
+    return { bytes: pchOf(textOf(headersOf(files, ofLessons))) };
   },
 
   /** Precompiles what some files include; says which of the reader's files each source `uses`. */
@@ -233,8 +252,7 @@ const tasks = {
       return get(mine) ? mine : source;
     };
     put("unit/unit.cpp", sources.map((source) => `#include "/${place(source)}"\n`).join(""));
-    const { status, bytes, text } = clang(
-      level, "-include-pch", "/precompiled.pch", "-Xclang", "-fno-validate-pch", ...extra, "-c", "/unit/unit.cpp", "-o", "-");
+    const { status, bytes, text } = clang([level, ...including("/precompiled.pch"), ...extra, "-c", "/unit/unit.cpp", "-o", "-"]);
     const log = text
       .replace(/^In file included from \/unit\/unit\.cpp:\d+:\n/gm, "")
       .replace(/^\d+ (?:error|warning)s?.* generated\.\n/gm, "");
@@ -256,11 +274,11 @@ const tasks = {
 
 async function answer(data) {
   try {
-    postMessage({ id: data.id, ...(await tasks[data.task](data)) });
+    self.postMessage({ id: data.id, ...(await tasks[data.task](data)) });
   } catch (error) {
-    postMessage({ id: data.id, error: /memory/i.test(error.message) ? "There is not enough memory for the compiler." : error.message });
+    self.postMessage({ id: data.id, error: /memory/i.test(error.message) ? "There is not enough memory for the compiler." : error.message });
   }
 }
 
 let last = Promise.resolve();
-onmessage = ({ data }) => (last = last.then(() => answer(data)));  // one at a time
+self.onmessage = ({ data }) => (last = last.then(() => answer(data)));  // one at a time

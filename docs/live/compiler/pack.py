@@ -1,8 +1,8 @@
 """Makes the compiler of the site's pages: pack.py NPM CLANG FOLDER LINKED JUDGE OUT.
 
 npm installs clang, compiled to WebAssembly, in FOLDER. OUT is the folder of what a page fetches:
-the compiler; headers and sources; objects and libraries; what is known of the lessons; and the
-golden pictures. LINKED lists the objects that programs are linked with, JUDGE is judge.cpp's
+the compiler; headers and sources; objects and libraries; what is precompiled for all lessons; what
+is known of the lessons; and the golden pictures. LINKED lists the objects that programs are linked with, JUDGE is judge.cpp's
 module. Where npm cannot install the compiler, OUT is left empty, and the site is made without the
 editor.
 """
@@ -188,9 +188,12 @@ def main() -> None:
     program = (HERE / "program_worker.js").read_text("utf-8") + (HERE.parent / "lesson.js").read_text("utf-8")
     (out / "program_worker.js").write_text(program, encoding="utf-8")
     compressed(out / "judge.wasm.gz", judge.read_bytes())
+    (out / "package.json").write_text('{"type": "module"}', encoding="utf-8")  # scripts are modules, for Node as well
+    path = search_path(clang)
+    subprocess.run(["node", HERE / "precompile_shared.mjs", out, json.dumps(path)], check=True)
     all_files = [file for file in sorted(out.rglob("*.gz"))]
     version = hashlib.sha256(b"".join(file.read_bytes() for file in all_files)).hexdigest()[:16]
-    manifest = {"version": version, "searchPath": search_path(clang), "sizes": {file.name: file.stat().st_size for file in all_files}}
+    manifest = {"version": version, "searchPath": path, "sizes": {file.name: file.stat().st_size for file in all_files}}
     (out / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
 
 
