@@ -156,6 +156,23 @@ def described(lesson: str) -> dict:
     }
 
 
+def precompile_shared(found: dict[str, str], folder: Path, path: list[str], out: Path) -> None:
+    """Takes half a minute; so it is kept in `folder` until something that is precompiled changes."""
+    parts = [text for name, text in sorted(found.items()) if not re.match(r"lessons/|tests/\d", name)]
+    includes = {line for text in found.values() for line in re.findall(r"^[ \t]*#[ \t]*include.*", text, re.MULTILINE)}
+    tools = [(HERE / name).read_text("utf-8") for name in ("compiler_worker.js", "precompile_shared.mjs", "package-lock.json")]
+    key = hashlib.sha256("".join([*parts, *sorted(includes), *tools]).encode()).hexdigest()[:16]
+    kept = folder / f"shared_{key}.pch.gz"
+    if kept.exists():
+        shutil.copy(kept, out / "shared.pch.gz")
+        return
+    subprocess.run(["node", HERE / "precompile_shared.mjs", out, json.dumps(path)], check=True)
+    for other in folder.glob("shared_*.pch.gz"):
+        other.unlink()
+    new = shutil.copy(out / "shared.pch.gz", folder / "new.pch.gz")
+    new.rename(kept)
+
+
 def compressed(file: Path, data: bytes) -> None:
     file.write_bytes(gzip.compress(data, 9, mtime=0))
 
@@ -190,7 +207,7 @@ def main() -> None:
     compressed(out / "judge.wasm.gz", judge.read_bytes())
     (out / "package.json").write_text('{"type": "module"}', encoding="utf-8")  # scripts are modules, for Node as well
     path = search_path(clang)
-    subprocess.run(["node", HERE / "precompile_shared.mjs", out, json.dumps(path)], check=True)
+    precompile_shared(found, folder, path, out)
     all_files = [file for file in sorted(out.rglob("*.gz"))]
     version = hashlib.sha256(b"".join(file.read_bytes() for file in all_files)).hexdigest()[:16]
     manifest = {"version": version, "searchPath": path, "sizes": {file.name: file.stat().st_size for file in all_files}}
