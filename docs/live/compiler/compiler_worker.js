@@ -149,11 +149,11 @@ function putOwn(lesson, files) {
 
 const textOf = (headers) => headers.map((name) => `#include <${name}>\n`).join("");
 
-/** Headers as a file for -include-pch, on top of what is precompiled already. */
-function pchOf(headers, precompiled = []) {
-  const { status, bytes, text } = clang(
-    ["-x", "c++-header", ...precompiled, "-Xclang", "-fpch-instantiate-templates", "-c", "-", "-o", "-"], headers);
-  if (status !== 0) throw new Error(`The course's headers do not compile: ${text.slice(0, 500)}`);
+/** Text that includes headers, as a file for -include-pch. @param {string[]} before  Options that include another one first. */
+function pchOf(text, before = []) {
+  const { status, bytes, text: said } = clang(
+    ["-x", "c++-header", ...before, "-Xclang", "-fpch-instantiate-templates", "-c", "-", "-o", "-"], text);
+  if (status !== 0) throw new Error(`The course's headers do not compile: ${said.slice(0, 500)}`);
   return bytes;
 }
 
@@ -164,7 +164,6 @@ async function precompile(headers) {
   const text = textOf(headers);
   if (precompiled === text) return;
   const file = "precompiled.pch";
-  put("unit/precompiled.hpp", text);
   const cache = await globalThis.caches?.open("rasterbook compiler").catch(() => null);
   const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode([...options, text].join("\n"))));
   const url = cache && `${self.origin}/precompiled/${[...hash].map((byte) => byte.toString(16)).join("")}?${version}`;
