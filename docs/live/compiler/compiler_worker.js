@@ -19,6 +19,7 @@ let version, searchPath;
 let precompiled;  // what is precompiled for a lesson
 
 const encoder = new TextEncoder();
+const bytesOf = async (blob) => new Uint8Array(await (await unpacked(blob)).arrayBuffer());
 
 /** @param {Uint8Array | string} data */
 function put(path, data) {
@@ -149,7 +150,11 @@ function putOwn(lesson, files) {
 
 const textOf = (headers) => headers.map((name) => `#include <${name}>\n`).join("");
 
-/** Text that includes headers, as a file for -include-pch. @param {string[]} before  Options that include another one first. */
+/**
+ * Text that includes headers, as a file for -include-pch.
+ *
+ * @param {string[]} before  Options that include what is precompiled already.
+ */
 function pchOf(text, before = []) {
   const { status, bytes, text: said } = clang(
     ["-x", "c++-header", ...before, "-Xclang", "-fpch-instantiate-templates", "-c", "-", "-o", "-"], text);
@@ -168,11 +173,11 @@ async function precompile(headers) {
   const hash = cache && new Uint8Array(await crypto.subtle.digest("SHA-256", encoder.encode([...options, text].join("\n"))));
   const url = cache && `${self.origin}/precompiled/${[...hash].map((byte) => byte.toString(16)).join("")}?${version}`;
   const kept = await cache?.match(url);
-  if (kept) put(file, new Uint8Array(await (await unpacked(await kept.blob())).arrayBuffer()));
+  if (kept) put(file, await bytesOf(await kept.blob()));
   else {
     const bytes = pchOf(text, including("/shared.pch"));
     put(file, bytes);
-    // The other worker takes it from there. Packed it is half of up to 15 MB; a full disk is no reason to stop.
+    // The other worker takes it from there. Packed it is half of up to 16 MB; a full disk is no reason to stop.
     await cache?.put(url, new Response(new Blob([bytes]).stream().pipeThrough(new CompressionStream("gzip")))).catch(() => {});
   }
   precompiled = text;
@@ -213,7 +218,7 @@ const tasks = {
       put(path, text);
       texts.set(path, text);
     }
-    const packed = new Uint8Array(await (await unpacked(blobs["objects.gz"])).arrayBuffer());
+    const packed = await bytesOf(blobs["objects.gz"]);
     const length = new DataView(packed.buffer).getUint32(0, true);
     let at = 4 + length;
     for (const [name, size] of Object.entries(JSON.parse(new TextDecoder().decode(packed.subarray(4, at))))) {
@@ -221,7 +226,7 @@ const tasks = {
       at += size;
     }
     const shared = blobs["shared.pch.gz"];  // not there yet while it is made
-    if (shared) put("shared.pch", new Uint8Array(await (await unpacked(shared)).arrayBuffer()));
+    if (shared) put("shared.pch", await bytesOf(shared));
     return {};
   },
 

@@ -2,9 +2,9 @@
 
 npm installs clang, compiled to WebAssembly, in FOLDER. OUT is the folder of what a page fetches:
 the compiler; headers and sources; objects and libraries; what is precompiled for all lessons; what
-is known of the lessons; and the golden pictures. LINKED lists the objects that programs are linked with, JUDGE is judge.cpp's
-module. Where npm cannot install the compiler, OUT is left empty, and the site is made without the
-editor.
+is known of the lessons; and the golden pictures. LINKED lists the objects that programs are linked
+with, JUDGE is judge.cpp's module. Where npm cannot install the compiler, OUT is left empty, and the
+site is made without the editor.
 """
 
 import gzip
@@ -158,10 +158,11 @@ def described(lesson: str) -> dict:
 
 def precompile_shared(found: dict[str, str], folder: Path, path: list[str], out: Path) -> None:
     """Takes half a minute; so it is kept in `folder` until something that is precompiled changes."""
-    parts = [text for name, text in sorted(found.items()) if not re.match(r"lessons/|tests/\d", name)]
+    parts = {name: text for name, text in found.items() if not re.match(r"lessons/|tests/\d", name)}
     includes = {line for text in found.values() for line in re.findall(r"^[ \t]*#[ \t]*include.*", text, re.MULTILINE)}
-    tools = [(HERE / name).read_text("utf-8") for name in ("compiler_worker.js", "precompile_shared.mjs", "package-lock.json")]
-    key = hashlib.sha256("".join([*parts, *sorted(includes), *tools]).encode()).hexdigest()[:16]
+    scripts = ("compiler_worker.js", "toolchain.js", "precompile_shared.mjs", "package-lock.json")
+    tools = [(HERE / name).read_text("utf-8") for name in scripts]
+    key = hashlib.sha256(json.dumps([parts, sorted(includes), path, tools], sort_keys=True).encode()).hexdigest()[:16]
     kept = folder / f"shared_{key}.pch.gz"
     if kept.exists():
         shutil.copy(kept, out / "shared.pch.gz")

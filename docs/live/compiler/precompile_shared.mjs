@@ -9,6 +9,7 @@ import { gzipSync } from "node:zlib";
 const [, , folder, searchPath] = process.argv;
 globalThis.self = globalThis;
 await import(pathToFileURL(`${folder}/compiler_worker.js`));
+const { Toolchain } = await import(pathToFileURL(`${folder}/toolchain.js`));
 
 /** Asks the compiler's worker, which here is no worker. */
 const ask = (message) => new Promise((resolve, reject) => {
@@ -19,7 +20,8 @@ const ask = (message) => new Promise((resolve, reject) => {
 const names = ["llvm.wasm.gz", "texts.json.gz", "objects.gz"];
 const blobs = Object.fromEntries(names.map((name) => [name, new Blob([readFileSync(`${folder}/${name}`)])]));
 await ask({ task: "load", blobs, searchPath: JSON.parse(searchPath) });
-const lessons = Object.entries(JSON.parse(readFileSync(`${folder}/lessons.json`, "utf8")));
-const files = lessons.flatMap(([lesson, { apart, tests }]) => [`lessons/${lesson}/main.cpp`, ...apart, ...tests]);
-const { bytes } = await ask({ task: "precompileShared", files: [...files, "docs/live/compiler/formula_tests.hpp"] });
+const toolchain = new Toolchain();
+toolchain.lessons = JSON.parse(readFileSync(`${folder}/lessons.json`, "utf8"));
+const files = Object.keys(toolchain.lessons).flatMap((lesson) => toolchain.likeThoseOf(lesson));
+const { bytes } = await ask({ task: "precompileShared", files });
 writeFileSync(`${folder}/shared.pch.gz`, gzipSync(bytes, { level: 9 }));
