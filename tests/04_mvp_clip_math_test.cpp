@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is clipped and culled, for numbers from 10^-8 to 10^8, against long double.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -212,38 +213,41 @@ TEST(Mvp, Eq4_14_RandomBoxesOfAllSizes) {
         if (i % 2)
             clip_from_world = perspective(1.0f, 1.5f, 1e-3f * any.positive(), 1e12f) *
                               look_at(any.vector(), any.vector(), vec3(0, 1, 0));
-        bool is_beyond_one = false, reaches_into_all = true;
-        for (int plane = 0; plane < frustum_planes; ++plane) {
-            bool is_beyond = true, reaches_in = false;
-            for (const float x : {box.min.x, box.max.x})
-                for (const float y : {box.min.y, box.max.y})
-                    for (const float z : {box.min.z, box.max.z}) {
-                        lvec4 vertex(0), sizes(0);
-                        for (int row = 0; row < 4; ++row) {
-                            Sum sum;
-                            sum.add(real{x} * clip_from_world[0][row]);
-                            sum.add(real{y} * clip_from_world[1][row]);
-                            sum.add(real{z} * clip_from_world[2][row]);
-                            sum.add(clip_from_world[3][row]);
-                            vertex[row] = sum.value, sizes[row] = sum.of_sizes;
-                        }
+        std::array<bool, frustum_planes> is_beyond, reaches_in;  // of each plane
+        is_beyond.fill(true), reaches_in.fill(false);
+        for (const float x : {box.min.x, box.max.x})
+            for (const float y : {box.min.y, box.max.y})
+                for (const float z : {box.min.z, box.max.z}) {
+                    lvec4 vertex(0), sizes(0);
+                    for (int row = 0; row < 4; ++row) {
+                        Sum sum;
+                        sum.add(real{x} * clip_from_world[0][row]);
+                        sum.add(real{y} * clip_from_world[1][row]);
+                        sum.add(real{z} * clip_from_world[2][row]);
+                        sum.add(clip_from_world[3][row]);
+                        vertex[row] = sum.value, sizes[row] = sum.of_sizes;
+                    }
+                    for (int plane = 0; plane < frustum_planes; ++plane) {
                         // A product and four sums, of which plane_distance has one.
                         const real tolerance = 5 * eps / 2 * (sizes.w + sizes[plane / 2]);
                         const real distance = distance_inside(plane, vertex).value;
-                        is_beyond &= distance < -tolerance;
-                        reaches_in |= distance > tolerance;
+                        const auto of_plane = static_cast<std::size_t>(plane);
+                        is_beyond[of_plane] &= distance < -tolerance;
+                        reaches_in[of_plane] |= distance > tolerance;
                     }
-            is_beyond_one |= is_beyond, reaches_into_all &= reaches_in;
-        }
+                }
+        const bool is_beyond_one = std::ranges::count(is_beyond, true) > 0;
+        const bool reaches_into_all = std::ranges::count(reaches_in, false) == 0;
         const bool is_outside = is_outside_frustum(box, clip_from_world);
-        const std::string of_box = "the box from " + testing::PrintToString(box.min) + " to " +
-                                   testing::PrintToString(box.max) + " by " +
-                                   testing::PrintToString(clip_from_world) + ", case " +
-                                   std::to_string(i);
+        const auto of_box = [&] {
+            return "the box from " + testing::PrintToString(box.min) + " to " +
+                   testing::PrintToString(box.max) + " by " +
+                   testing::PrintToString(clip_from_world) + ", case " + std::to_string(i);
+        };
         ASSERT_TRUE(!is_beyond_one || is_outside)
-            << "not culled, though it is outside of one plane: " << of_box;
+            << "not culled, though it is outside of one plane: " << of_box();
         ASSERT_TRUE(!reaches_into_all || !is_outside)
-            << "culled, though it reaches into all planes: " << of_box;
+            << "culled, though it reaches into all planes: " << of_box();
         culled += is_beyond_one, kept += reaches_into_all;
     }
     EXPECT_GT(culled, cases / 10);

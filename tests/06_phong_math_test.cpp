@@ -324,21 +324,22 @@ TEST(Phong, Eq6_5_SumsOfColorsOfAllSizes) {
         const SurfaceColor before = color;
         color.tint(tint);
         for (int c = 0; c < 3; ++c) {
-            const std::string what =
-                "component " + std::to_string(c) + "; Ka = " + shown(material.ambient) +
-                ", Kd = " + shown(material.diffuse) + ", Ks = " + shown(material.specular) +
-                ", Ke = " + shown(material.emission) + "; seed 8, case " + std::to_string(i);
+            const auto what = [&] {
+                return "component " + std::to_string(c) + "; Ka = " + shown(material.ambient) +
+                       ", Kd = " + shown(material.diffuse) + ", Ks = " + shown(material.specular) +
+                       ", Ke = " + shown(material.emission) + "; seed 8, case " + std::to_string(i);
+            };
             ASSERT_EQ(before.ambient[c], std::min(material.ambient[c], material.diffuse[c]))
-                << "surface_color().ambient, " << what;
+                << "surface_color().ambient, " << what();
             ASSERT_EQ(before.diffuse[c], material.diffuse[c])
-                << "surface_color().diffuse, " << what;
+                << "surface_color().diffuse, " << what();
             const real kd = before.diffuse[c], ke = before.emission[c], t = tint[c];
             ASSERT_TRUE(is_near(color.ambient[c], before.ambient[c] * t,
                                 u * std::abs(before.ambient[c] * t)))
-                << "ambient after tint(" << shown(tint) << "), " << what;
+                << "ambient after tint(" << shown(tint) << "), " << what();
             ASSERT_TRUE(is_near(color.diffuse[c], kd * t, u * std::abs(kd * t)))
-                << "diffuse after tint(" << shown(tint) << "), " << what;
-            ASSERT_TRUE(is_near(plain[c], kd + ke, u * std::abs(kd + ke))) << "unlit(), " << what;
+                << "diffuse after tint(" << shown(tint) << "), " << what();
+            ASSERT_TRUE(is_near(plain[c], kd + ke, u * std::abs(kd + ke))) << "unlit(), " << what();
             Sum sum;
             sum.add(ke), sum.add(real{before.ambient[c]} * ambient_light[c]);
             sum.add(kd * light.diffuse[c]), sum.add(real{before.specular[c]} * light.specular[c]);
@@ -346,7 +347,7 @@ TEST(Phong, Eq6_5_SumsOfColorsOfAllSizes) {
             ASSERT_TRUE(is_near(sent[c], sum.value, 4 * u * sum.of_sizes * of_higher_order))
                 << "phong() in ambient light " << shown(ambient_light) << ", diffuse light "
                 << shown(light.diffuse) << " and specular light " << shown(light.specular) << ", "
-                << what;
+                << what();
         }
     }
 }

@@ -162,7 +162,7 @@ TEST(Toon, Eq7_9_ExampleOfFivePixels) {
     EXPECT_TRUE(are_near(vec2(to), dvec2(263, 16), 1e-4)) << "on the screen, " << what;
 }
 
-TEST(Toon, Eq7_10_RimsOfACube) {
+TEST(Toon, Eq7_10_HardCase_RimsOfACube) {
     const Scene cube = scene_of_one(cube_mesh(true));
     const float width = 24;
     // Face-on: its vertices move along the diagonals.

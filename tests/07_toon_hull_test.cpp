@@ -58,7 +58,7 @@ std::array<long double, 2> on_screen(const std::array<long double, 3>& p, ivec2 
 
 }  // namespace
 
-TEST(Toon, Eq7_7_RingOnASphere) {
+TEST(Toon, Eq7_7_HardCase_RingOnASphere) {
     for (const ivec2 size : {ivec2(320, 180), ivec2(640, 360), ivec2(900, 500)})
         for (const float distance : {4.0f, 8.0f})
             for (const float least : {0.1f, 0.35f, 0.7f}) {

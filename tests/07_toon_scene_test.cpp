@@ -140,7 +140,7 @@ TEST(Toon, HardCase_AFaceInDirectionalLightHasOneTone) {
     EXPECT_GT(colors(255, LightKind::point).size(), 20u);
 }
 
-TEST(Toon, Eq7_5_SmoothBordersAreNearerToManySamples) {
+TEST(Toon, Eq7_5_HardCase_SmoothBordersAreNearerToManySamples) {
     lesson_07::Options options = small_toon();
     options.shading.outline = Outline::none;
     const Image<vec3> hard = toon_picture(figure(), options);

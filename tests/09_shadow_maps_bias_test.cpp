@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <span>
 #include <string>
@@ -538,11 +539,13 @@ TEST(ShadowMaps, Eq9_15_RoundingsStayBelowWhatIsAllowedForThem) {
         const TiltedPlane plane(random, kind, 1, 50.0f * vec3(x, y, z));
         const LightViews views =
             light_views(plane.light, plane.mesh.bounds, plane.mesh.bounds, 512);
+        std::map<std::size_t, ShadowMap> maps;  // of the faces that are asked for
         for (const PointOn& p : points_on(plane.mesh, random, 2)) {
             const std::size_t face =
                 views.count == 6 ? cube_face(p.point - plane.light.position_world) : 0;
-            const ShadowMap map(views.clip_from_world[face], views.is_perspective, 512,
-                                plane.mesh.bounds);
+            const ShadowMap& map = maps.try_emplace(face, views.clip_from_world[face],
+                                                    views.is_perspective, 512, plane.mesh.bounds)
+                                       .first->second;
             const vec4 computed = map.texels_from_world * vec4(p.point, 1);
             const glm::mat<4, 4, real> exact_m =
                 glm::mat<4, 4, real>(viewport<double>(ivec2(512))) *

@@ -270,7 +270,7 @@ TEST(SceneFiles, HardCase_AnyNumberOfThreadsAndAnyOrderGiveTheSameBits) {
     }
 }
 
-TEST(SceneFiles, Eq11_7_WhatLiesBehindIsSeenThroughHoles) {
+TEST(SceneFiles, Eq11_7_HardCase_WhatLiesBehindIsSeenThroughHoles) {
     for (const bool leaf_first : {true, false})
         for (const float opacity : {0.5f, 0.4999f}) {
             Squares squares;
@@ -301,7 +301,7 @@ TEST(SceneFiles, Eq11_7_WhatLiesBehindIsSeenThroughHoles) {
     EXPECT_EQ(picture.count(Counter::blended_fragments), 0u);
 }
 
-TEST(SceneFiles, Eq11_9_IntersectingTransparentSurfacesAreRightInEachPixel) {
+TEST(SceneFiles, Eq11_9_HardCase_IntersectingTransparentSurfacesAreRightInEachPixel) {
     const vec3 red(1, 0, 0), blue(0, 0, 1), white(1);
     for (const bool red_first : {true, false}) {
         Squares squares;
@@ -324,7 +324,7 @@ TEST(SceneFiles, Eq11_9_IntersectingTransparentSurfacesAreRightInEachPixel) {
     }
 }
 
-TEST(SceneFiles, Eq11_10_EqualVertexColorsAreExactEverywhere) {
+TEST(SceneFiles, Eq11_10_HardCase_EqualVertexColorsAreExactEverywhere) {
     Squares squares;
     squares.add(0, vec3(0.7f, 0.3f, 0.9f), 0.8f);
     const Drawn plain = drawn(squares.scene, small_picture({64, 64}));
@@ -508,7 +508,7 @@ TEST(SceneFiles, HardCase_TheFinalRendererDrawsLesson10sPicture) {
         }
 }
 
-TEST(SceneFiles, Eq11_5_AToonMaterialHasTwoColors) {
+TEST(SceneFiles, Eq11_5_HardCase_AToonMaterialHasTwoColors) {
     for (const float toward_eye : {1.0f, -1.0f}) {
         Squares squares;
         Material& paint = squares.add(0, vec3(0.75f, 0.5f, 0.25f));

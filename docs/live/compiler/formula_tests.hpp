@@ -15,9 +15,6 @@ constexpr std::string_view not_in_a_page[] = {
     "RandomTriangulationsCoverEachPixelOnce",
     "FansWithFarVerticesAreHardForFloat",
     "Eq4_13_WhatIsLeftOfTrianglesOfAllSizes",
-    "Eq4_14_RandomBoxesOfAllSizes",
-    "Eq7_5_SmoothBordersAreNearerToManySamples",
-    "Eq7_7_RingOnASphere",
     "Eq8_9_HeightMapsAndNormalMapsAgree"};
 
 /// Whether a test's name begins with one of the equations in ASKED_EQUATIONS, as "Eq5_1_ Eq5_4_".
