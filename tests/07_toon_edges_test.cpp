@@ -250,9 +250,12 @@ TEST(Toon, Eq7_14_RoundingDecidesNothingAtBoxes) {
             return sector % 3 == 2 && i % 2 ? 3 : static_cast<int>(sector % 3);
         };
         ByHand box(size);
+        Image<int> side_of(size);
         for (ivec2 p(0); p.y < size.y; ++p.y)
-            for (p.x = 0; p.x < size.x; ++p.x)
-                box.normals[p] = sides[static_cast<std::size_t>(side_at(p))];
+            for (p.x = 0; p.x < size.x; ++p.x) {
+                side_of[p] = side_at(p);
+                box.normals[p] = sides[side_of[p]];
+            }
         EdgeThresholds of_normals;
         of_normals.depth = 9;
         const int reach = 1 + i % 3;
@@ -263,8 +266,8 @@ TEST(Toon, Eq7_14_RoundingDecidesNothingAtBoxes) {
                 for (int j = -1; j <= 1; ++j)
                     for (const int to : {-1, 1}) {
                         const int weight = to * (j == 0 ? 2 : 1);
-                        quarters[0][side_at(p + reach * ivec2(to, j))] += weight;
-                        quarters[1][side_at(p + reach * ivec2(j, to))] += weight;
+                        quarters[0][side_of[p + reach * ivec2(to, j)]] += weight;
+                        quarters[1][side_of[p + reach * ivec2(j, to)]] += weight;
                     }
                 int squares = 0;
                 for (const auto& along : quarters)

@@ -198,7 +198,7 @@ TEST(Toon, PictureOfTheHull) {
                               on_a_threshold));
 }
 
-TEST(Toon, PictureOfTheTeapot) {
+TEST(Toon, Eq7_14_HardCase_PictureOfTheTeapot) {
     EXPECT_TRUE(equals_golden(
         "07_toon", "07_toon_scene",
         {"--model", "scene.obj", "--distance", "1.4", "--pitch", "27", "--samples", "16"},

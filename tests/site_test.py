@@ -2,7 +2,7 @@
 
 Every page of text and some of the code are looked at, at desk and phone width, light and dark;
 the links of all pages are followed. If RASTERBOOK_TURN is such as 1/4, only every fourth page is
-opened at phone width, from number 1 on. Exits with 77 where something is missing, or with 1 if
+opened at phone width, from number 1 on, and every other one at desk width. Exits with 77 where something is missing, or with 1 if
 RASTERBOOK_SITE_REQUIRED is set.
 """
 
@@ -57,10 +57,12 @@ def skip(reason: str) -> None:
     sys.exit(1 if os.environ.get("RASTERBOOK_SITE_REQUIRED") else 77)
 
 
-def is_turn_of(number: int) -> bool:
+def is_turn_of(number: int, most_turns: int | None = None) -> bool:
     """Whether what has this number is to be tried; without RASTERBOOK_TURN, all is."""
-    remainder, divisor = map(int, os.environ.get("RASTERBOOK_TURN", "0/1").split("/"))
-    return number % divisor == remainder
+    remainder, turns = map(int, os.environ.get("RASTERBOOK_TURN", "0/1").split("/"))
+    if most_turns:
+        turns = min(turns, most_turns)
+    return number % turns == remainder % turns
 
 
 class Links(HTMLParser):
@@ -219,10 +221,13 @@ def main() -> None:
     problems = check_links(site)
     files = sorted(site.glob("*.html"))
     pages = [file for file in files if re.fullmatch(f"{TEXTS}|{CODE}", file.stem)]
+    on_desk = [page for i, page in enumerate(pages) if is_turn_of(i, 2)]
     on_phone = [page for i, page in enumerate(pages) if is_turn_of(i)]
     try:
         for page in pages:
-            for width in WIDTHS if page in on_phone else ("desk",):
+            for width, of_width in zip(WIDTHS, (on_desk, on_phone)):
+                if page not in of_width:
+                    continue
                 for scheme in ("light", "dark"):
                     problems += check_view(browser, page, width, scheme)
                     problems += check_log(browser, page.name)
@@ -231,7 +236,7 @@ def main() -> None:
         browser.quit()
     for problem in dict.fromkeys(problems):
         print(problem)
-    print(f"{len(pages)} pages at desk width, {len(on_phone)} at phone width, light and dark; {len(problems)} problems")
+    print(f"{len(pages)} pages; {len(on_desk)} at desk width, {len(on_phone)} at phone width, light and dark; {len(problems)} problems")
     sys.exit(1 if problems or len(pages) < 20 else 0)
 
 
