@@ -9,9 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "06_phong/load_surface_textures.hpp"
-#include "06_phong/normals.hpp"
-#include "08_normal_maps/load_normal_maps.hpp"
+#include "08_normal_maps/assets.hpp"
 
 namespace rasterbook {
 
@@ -112,16 +110,11 @@ SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
                               const LightOptions& shading, const NormalMapVariant& normal_map,
                               int shadow_size) {
     const bool all_effects = shading.all_effects;
-    Scene scene = with_outline_materials(std::move(from));
+    NormalMapAssets made = make_normal_map_assets(with_outline_materials(std::move(from)), texture,
+                                                  all_effects, normal_map);
+    Scene& scene = made.scene;
     const bool is_on_paper = is_all_toon(scene);
-    complete_normals(scene);
-    SurfaceTextures textures = load_surface_textures(scene, texture);
-    NormalMaps normal_maps = load_normal_maps(scene, texture, normal_map, all_effects);
-    make_tangents(scene, normal_maps, normal_map);
-    if (all_effects) {
-        add_neutral_inputs(scene, textures);
-        add_neutral_inputs(scene);
-    }
+    if (all_effects) add_neutral_inputs(scene);
     const ShadowBounds bounds = shadow_bounds(scene);
     SceneLights lit_by = lights_of(scene, shading.key_light, scene.warnings);
     leave_out_shadows(lit_by, bounds, shadow_size, scene);
@@ -131,15 +124,21 @@ SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
                             .normal_maps = normal_map.space != MapSpace::none,
                             .two_sided = shading.two_sided,
                             .all_effects = all_effects};
-    ScenePlan plan = plan_scene(scene, textures, normal_maps, inputs);
+    ScenePlan plan = plan_scene(scene, made.textures, made.normal_maps, inputs);
     std::vector<OutlineHull> hulls = outline_hulls(scene);
     for (const Material& material : scene.materials)
         if (!material.opacity_map.file.empty())
             scene.warnings.push_back("material \"" + material.name +
                                      "\": map_d is ignored: an alpha test is made for glTF files "
                                      "only, by the alpha of their textures");
-    return {std::move(scene),  std::move(textures), std::move(normal_maps), bounds,
-            std::move(lit_by), std::move(plan),     std::move(hulls),       is_on_paper};
+    return {std::move(scene),
+            std::move(made.textures),
+            std::move(made.normal_maps),
+            bounds,
+            std::move(lit_by),
+            std::move(plan),
+            std::move(hulls),
+            is_on_paper};
 }
 
 std::vector<std::string> lights_in_words(const SceneLights& lit_by, const ScenePlan& plan) {
