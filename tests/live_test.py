@@ -19,7 +19,7 @@ import tempfile
 import threading
 from pathlib import Path
 
-from site_test import ROOT, WIDTHS, check_log, is_turn_of, skip, start_browser
+from site_test import ROOT, WIDTHS, check_log, is_turn_of, of_this_turn, skip, start_browser
 
 LESSONS = sorted(folder.name for folder in (ROOT / "lessons").iterdir() if folder.is_dir())
 
@@ -289,9 +289,7 @@ def check_comparison(page: LivePage, address: str) -> list[str]:
 def check_links(page: LivePage, site: Path, address: str) -> list[str]:
     """What the texts compare can be compared, and differs, or is about time alone."""
     problems = []
-    for i, text in enumerate(sorted(site.glob("accuracy_*.html"))):
-        if not is_turn_of(i, 2):
-            continue
+    for text in of_this_turn(sorted(site.glob("accuracy_*.html")), 2):
         found = re.findall(
             r'href="(lesson_\d\d\.html)#([^"]+)">Compare</a> (.*?)</p>', text.read_text("utf-8")
         )
@@ -333,9 +331,7 @@ def check_failures(page: LivePage, address: str) -> list[str]:
 def check_accessibility(page: LivePage, address: str, axe: str) -> list[str]:
     """What axe-core calls serious or critical, with all options shown, light and dark."""
     problems = []
-    for i, name in enumerate(ACCESSIBLE):
-        if not is_turn_of(i, 2):
-            continue
+    for name in of_this_turn(ACCESSIBLE, 2):
         for scheme in ("light", "dark"):
             media = {"features": [{"name": "prefers-color-scheme", "value": scheme}]}
             page.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", media)
@@ -384,10 +380,9 @@ def main() -> None:
         for lesson in LESSONS:
             expected = native_bytes(build, lesson)
             for i, (place, address) in enumerate(places.items()):
-                if not is_turn_of(int(lesson[:2]) + i, 2):
-                    continue
-                found = check_bytes(page, address, lesson, expected)
-                problems += [f"{lesson}, {place}: {problem}" for problem in found]
+                if is_turn_of(int(lesson[:2]) + i, 2):
+                    found = check_bytes(page, address, lesson, expected)
+                    problems += [f"{lesson}, {place}: {problem}" for problem in found]
             if is_turn_of(int(lesson[:2])):
                 found = check_controls(page, folder, lesson, build)
                 if lesson != "01_bresenham_lines":

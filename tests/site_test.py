@@ -2,8 +2,8 @@
 
 Every page of text and some of the code are looked at, at desk and phone width, light and dark;
 the links of all pages are followed. If RASTERBOOK_TURN is such as 1/4, only every fourth page is
-opened at phone width, from number 1 on, and every other one at desk width. Exits with 77 where something is missing, or with 1 if
-RASTERBOOK_SITE_REQUIRED is set.
+opened at phone width, from number 1 on, and every other one at desk width. Exits with 77 where
+something is missing, or with 1 if RASTERBOOK_SITE_REQUIRED is set.
 """
 
 import json
@@ -11,6 +11,7 @@ import os
 import re
 import shutil
 import sys
+from collections.abc import Iterable
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -58,11 +59,19 @@ def skip(reason: str) -> None:
 
 
 def is_turn_of(number: int, most_turns: int | None = None) -> bool:
-    """Whether what has this number is to be tried; without RASTERBOOK_TURN, all is."""
+    """Whether what has this number is to be tried; without RASTERBOOK_TURN, all is.
+
+    @param most_turns  In so many turns all is tried, however many there are.
+    """
     remainder, turns = map(int, os.environ.get("RASTERBOOK_TURN", "0/1").split("/"))
     if most_turns:
         turns = min(turns, most_turns)
     return number % turns == remainder % turns
+
+
+def of_this_turn(things: Iterable, most_turns: int | None = None) -> list:
+    """Those whose place in the list has its turn."""
+    return [thing for i, thing in enumerate(things) if is_turn_of(i, most_turns)]
 
 
 class Links(HTMLParser):
@@ -221,8 +230,8 @@ def main() -> None:
     problems = check_links(site)
     files = sorted(site.glob("*.html"))
     pages = [file for file in files if re.fullmatch(f"{TEXTS}|{CODE}", file.stem)]
-    on_desk = [page for i, page in enumerate(pages) if is_turn_of(i, 2)]
-    on_phone = [page for i, page in enumerate(pages) if is_turn_of(i)]
+    on_desk = of_this_turn(pages, 2)
+    on_phone = of_this_turn(pages)
     try:
         for page in pages:
             for width, of_width in zip(WIDTHS, (on_desk, on_phone)):
