@@ -16,10 +16,10 @@
 #include <gtest/gtest.h>
 
 #include "11_scenes/blending.hpp"
+#include "11_scenes/permutation.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_lights.hpp"
 #include "11_scenes/scene_plan.hpp"
-#include "11_scenes/shaders.hpp"
 #include "11_scenes/toon_material.hpp"
 #include "support/look_up.hpp"
 #include "support/name_of_split.hpp"

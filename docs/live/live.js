@@ -228,6 +228,7 @@ async function drawWanted() {
   clearTimeout(slow);
   stop.hidden = true;
   isBusy = false;
+  place.dispatchEvent(new Event("drawn"));
   if (wanted) drawWanted();
 }
 

@@ -107,5 +107,10 @@ ShadowMaps draw_shadow_maps(Pool& pool, const ThreadOptions& threads, const Shad
                                 draw_map(pool, map, scene, tiling, is_drawn, counters);
                             });
 }
+// In threaded_shadows.cpp, so that main.cpp takes less time.
+extern template ShadowMaps draw_shadow_maps(ThreadPool&, const ThreadOptions&, const ShadowVariant&,
+                                            bool, const Scene&, const ShadowBounds&,
+                                            std::span<const Light>, WorkerCounters<Counters>&,
+                                            std::span<const bool>);
 
 }  // namespace rasterbook

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Shader permutations: the pipeline of a triangle, compiled once for each of six sets of effects,
-/// and chosen once for a material. Introduced in lesson 11; derivation:
-/// docs/derivations/11_scenes.md.
+/// Shaders: the pipeline of a triangle, compiled once for each permutation, and chosen once for a
+/// material. Introduced in lesson 11; derivation: docs/derivations/11_scenes.md.
 #pragma once
 
 #include <array>
-#include <cassert>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -21,43 +19,10 @@
 #include "09_shadow_maps/shadows.hpp"
 #include "10_threading/split.hpp"
 #include "11_scenes/blending.hpp"
+#include "11_scenes/permutation.hpp"
 #include "11_scenes/scene_assets.hpp"
 
 namespace rasterbook {
-
-/// How a fragment gets its colour.
-enum class ShadingModel { unlit, phong, toon };
-
-/// The effects that a shader is compiled with.
-struct Permutation {
-    ShadingModel model = ShadingModel::unlit;
-    bool normal_map = false;
-    bool shadow = false;
-
-    bool operator==(const Permutation&) const = default;
-};
-
-/// All permutations. Toon materials share one, since they are few: whether there is a normal map is
-/// asked at run time (Eq. 11.3).
-constexpr std::array all_permutations = {
-    Permutation{ShadingModel::unlit, false, false}, Permutation{ShadingModel::phong, false, false},
-    Permutation{ShadingModel::phong, false, true},  Permutation{ShadingModel::phong, true, false},
-    Permutation{ShadingModel::phong, true, true},   Permutation{ShadingModel::toon, true, true}};
-
-/// The permutation that is compiled with all that a material's plan has, and with as little beyond
-/// it as possible.
-inline std::size_t permutation_of(const MaterialPlan& plan) {
-    Permutation effects{plan[Effect::toon]    ? ShadingModel::toon
-                        : plan[Effect::light] ? ShadingModel::phong
-                                              : ShadingModel::unlit,
-                        plan[Effect::normal_map], plan[Effect::shadow]};
-    if (effects.model != ShadingModel::phong)
-        effects.normal_map = effects.shadow = effects.model == ShadingModel::toon;
-    for (std::size_t i = 0; i < all_permutations.size(); ++i)
-        if (all_permutations[i] == effects) return i;
-    assert(false && "all sets have a permutation");
-    return 0;
-}
 
 /// What a picture is drawn with, and into.
 ///

@@ -19,7 +19,7 @@ file(GLOB parts ${CMAKE_CURRENT_LIST_DIR}/*)
 file(GLOB_RECURSE texts ${PROJECT_SOURCE_DIR}/common/*.hpp ${PROJECT_SOURCE_DIR}/lessons/*.?pp ${PROJECT_SOURCE_DIR}/lessons/*/README.md
                         ${PROJECT_SOURCE_DIR}/tests/*_test.cpp ${PROJECT_SOURCE_DIR}/tests/support/*.hpp)
 set(linked ${live}/objects/docs_live_compiler_formula_tests.cpp.o ${of_tests} ${googletest} ${common} ${scenes})
-list(APPEND linked ${apart_of_07_toon} ${apart_of_09_shadow_maps})  # with those of the lessons before
+list(APPEND linked ${apart_of_07_toon} ${apart_of_10_threading})  # with those of the lessons before
 list(JOIN linked "\n" names)
 file(GENERATE OUTPUT ${live}/linked.txt CONTENT "${names}\n")
 add_custom_command(OUTPUT ${scripts}/compiler/manifest.json DEPENDS ${parts} npm.py ${texts} ${linked} ${judge_wasm} ${CMAKE_CURRENT_SOURCE_DIR}/lesson.js VERBATIM

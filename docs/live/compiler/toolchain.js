@@ -125,7 +125,7 @@ async function forgetOthers(version) {
 
 export class Toolchain {
   compiled = new Latest();
-  objects = { main: new Latest(), apart: new Latest() };
+  objects = [new Latest(), new Latest()];  // of main.cpp, and of what is compiled beside it
   tests = new Latest();
 
   async load(progress) {
@@ -175,7 +175,6 @@ export class Toolchain {
     const isLesson = lesson in this.lessons;
     const main = isLesson ? `lessons/${lesson}/main.cpp` : `lessons/sandbox/main.cpp`;
     const { apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
-    const level = isLesson && lesson >= "06" ? "-O1" : "-O0";  // from there on, there is much to draw
     const own = { lesson, files, like: this.likeThoseOf(lesson) };
     // What is precompiled takes longest when it is first asked for: one does it for both, the other takes it from the browser.
     this.precompiled = this.compilers[0].ask({ task: "precompile", ...own, sources: [main, ...apart] }, mostCompileSeconds);
@@ -191,7 +190,12 @@ export class Toolchain {
     const changed = apart.filter((source) => uses[source].length > 0);  // the others are compiled already
     const isOfProbe = (source) => source.endsWith("/probe.cpp");
     const soon = changed.filter((source) => !isOfProbe(source)), later = changed.filter(isOfProbe);
-    const parts = [object(this.objects.main, [main], level), ...(soon.length > 0 ? [object(this.objects.apart, soon, "-O0")] : [])];
+    // From lesson 06 on there is much to draw: what draws is optimised, apart from the rest. From lesson 11 on, that is not main.cpp.
+    const draws = (source) => (source === main ? isLesson && lesson >= "06" && lesson < "11" : /(shaders|shadows)\.cpp$/.test(source));
+    const isLikeMain = (source) => draws(source) === draws(main);
+    const parts = [[...soon.filter(isLikeMain), main], soon.filter((source) => !isLikeMain(source))]
+      .filter((sources) => sources.length > 0)
+      .map((sources, i) => object(this.objects[i], sources, draws(sources[0]) ? "-O1" : "-O0"));
     const all = Promise.all(parts);
     all.catch(() => {});  // nobody waits for it where main.cpp does not compile
     const { messages, log: said, object: compiledMain } = await parts[0];
@@ -230,8 +234,12 @@ export class Toolchain {
     return [...new Set([...apart, ...(before ? this.apartOf(before) : [])])];
   }
 
-  /** Asked together with compile(), it uses the other core. */
-  async test(lesson, files, step) {
+  /**
+   * Asked together with compile(), it uses the other core.
+   *
+   * @param {Promise} drawn  Pictures of tests wait for it, but not for long: the reader's own comes first.
+   */
+  async test(lesson, files, step, drawn = null) {
     const compiled = this.compile(lesson, files);
     const { steps } = this.lessons[lesson];
     const done = step ? steps.slice(0, step) : steps;
@@ -239,7 +247,7 @@ export class Toolchain {
     const equations = isAll ? "*" : done.flatMap(({ equations }) => equations.flatMap(numbersIn)).join(" ");
     const known = this.lessons[lesson].pictures;
     const names = step ? done.at(-1).pictures.filter((name) => name in known) : Object.keys(known);
-    const [formulas, pictures] = await Promise.all([this.formulas(lesson, files, equations, compiled), this.pictures(lesson, names, compiled)]);
+    const [formulas, pictures] = await Promise.all([this.formulas(lesson, files, equations, compiled), this.pictures(lesson, names, compiled, drawn)]);
     if (formulas.messages) return { messages: formulas.messages, log: formulas.log, tiers: [], first: null };
     const tiers = [{ name: "formulas", passed: formulas.passed, total: formulas.total }];
     if (names.length > 0) tiers.push({ name: "pictures", passed: pictures.passed, total: names.length });
@@ -278,10 +286,11 @@ export class Toolchain {
     return linked.program ? linked : { messages: linkMessages(linked.log), log: linked.log };
   }
 
-  async pictures(lesson, names, compiled) {
+  async pictures(lesson, names, compiled, drawn) {
     let passed = 0, first = null;
     const { program } = await compiled;
     if (!program) return { passed, first };
+    await Promise.race([drawn, new Promise((resolve) => setTimeout(resolve, 5000))]);
     for (const name of names) {
       const picture = this.lessons[lesson].pictures[name];
       let text;

@@ -298,7 +298,8 @@ class Editor {
     this.say("Compiling …");
     const asked = [this.start.compiled, { ...this.files }];
     const compiled = this.toolchain.compile(...asked);
-    const tests = this.sandbox ? null : this.toolchain.test(...asked, this.step || null);
+    const drawn = new Promise((resolve) => this.place.addEventListener("drawn", resolve, { once: true }));
+    const tests = this.sandbox ? null : this.toolchain.test(...asked, this.step || null, drawn);
     tests?.catch(() => {});  // nobody may wait for them
     const { messages, log, program, whole } = await compiled;
     if (isOld()) return;

@@ -15,6 +15,7 @@
 #include "05_textures/interpolation.hpp"
 #include "11_scenes/blending.hpp"
 #include "11_scenes/shaders.hpp"
+#include "12_visibility_buffer/shadow_parts.hpp"
 #include "12_visibility_buffer/views.hpp"
 #include "12_visibility_buffer/visibility_buffer.hpp"
 #include "12_visibility_buffer/visibility_options.hpp"
@@ -102,10 +103,7 @@ class VisibleShaders {
                                 std::span<FragmentToShade>, CounterPolicy&);
     };
 
-    explicit VisibleShaders(const ScenePlan& plan) {
-        for (const MaterialPlan& material : plan.materials)
-            of_material_.push_back(table[permutation_of(material)]);
-    }
+    explicit VisibleShaders(const ScenePlan& plan);
 
     const Shader& operator[](std::size_t material) const { return of_material_[material]; }
 
@@ -115,10 +113,17 @@ class VisibleShaders {
         return {Shader{&rasterbook::shade_pixels<all_permutations[i], Maps, CounterPolicy>,
                        &rasterbook::shade_fragments<all_permutations[i], Maps, CounterPolicy>}...};
     }
-    static constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
 
     std::vector<Shader> of_material_;
 };
+
+template <typename Maps, typename CounterPolicy>
+VisibleShaders<Maps, CounterPolicy>::VisibleShaders(const ScenePlan& plan) {
+    constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
+    for (const MaterialPlan& material : plan.materials)
+        of_material_.push_back(table[permutation_of(material)]);
+}
+extern template class VisibleShaders<ShadowMapsOnDemand, Counters>;  // visible_shading.cpp
 
 /// Draws the colours of all pixels in which a triangle is visible, each once: Eq. 12.5 says what
 /// that saves. Then the tile has no triangles any more.
