@@ -696,6 +696,7 @@ place.setProgram = async (program, options = null, completed = null) => {
   } catch (error) {
     say(error.message, true);
     place.dataset.state = "failed";
+    place.dispatchEvent(new Event("drawn"));
   }
 };
 

@@ -117,15 +117,15 @@ function headersOf(files, own) {
 /** Where a file of the reader's stands below mine/. */
 const pathOf = (name, lesson) => (name.includes("/") ? name : `${lesson}/${name}`);
 
-/** The names of the reader's files that a source is or includes, itself or by others. */
-function usedBy(source, lesson, files) {
+/** What a source is or includes, itself or by others: `files`, by their paths, and the names of those that are the reader's. */
+function includedBy(source, lesson, files) {
   const names = new Map(Object.keys(files).map((name) => [`lessons/${pathOf(name, lesson)}`, name]));
-  const used = new Set(), seen = new Set();
+  const own = new Set(), seen = new Set();
   const visit = (path) => {
     if (seen.has(path)) return;
     seen.add(path);
     const name = names.get(path);
-    if (name !== undefined) used.add(name);
+    if (name !== undefined) own.add(name);
     for (const { name: included } of includesOf(files[name] ?? texts.get(path) ?? "")) {
       const besides = path.replace(/[^/]*$/, "");
       const header = [besides, ...folders].map((folder) => folder + included).find((file) => names.has(file) || texts.has(file));
@@ -133,7 +133,21 @@ function usedBy(source, lesson, files) {
     }
   };
   visit(source);
-  return [...used];
+  return { files: seen, own };
+}
+
+/** Which of the sources a program is made of, and which of the reader's files each of them includes: a source belongs to the header of its name. */
+function usedBy(main, apart, lesson, files) {
+  const uses = {};
+  const headerOf = (source) => source.replace(/\.cpp$/, ".hpp");
+  const visit = (source) => {
+    const { files: included, own } = includedBy(source, lesson, files);
+    uses[source] = [...own];
+    for (const other of apart)
+      if (!(other in uses) && (included.has(headerOf(other)) || !texts.has(headerOf(other)))) visit(other);
+  };
+  visit(main);
+  return uses;
 }
 
 /** The reader's files in place of the course's. */
@@ -236,10 +250,10 @@ const tasks = {
     return { bytes: pchOf(textOf(headersOf(files, ofLessons))) };
   },
 
-  /** Precompiles what some files include; says which of the reader's files each source `uses`. */
-  precompile: async ({ lesson, files, like, sources }) => {
+  /** Precompiles what some files include; says which of the reader's files each source of the program `uses`. */
+  precompile: async ({ lesson, files, like, main, apart }) => {
     await precompile(headersOf(like, putOwn(lesson, files)));
-    return { uses: Object.fromEntries(sources.map((source) => [source, usedBy(source, lesson, files)])) };
+    return { uses: usedBy(main, apart, lesson, files) };
   },
 
   /**

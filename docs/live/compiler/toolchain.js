@@ -177,7 +177,7 @@ export class Toolchain {
     const { apart = this.apartOf(lesson) } = this.lessons[lesson] ?? {};
     const own = { lesson, files, like: this.likeThoseOf(lesson) };
     // What is precompiled takes longest when it is first asked for: one does it for both, the other takes it from the browser.
-    this.precompiled = this.compilers[0].ask({ task: "precompile", ...own, sources: [main, ...apart] }, mostCompileSeconds);
+    this.precompiled = this.compilers[0].ask({ task: "precompile", ...own, main, apart }, mostCompileSeconds);
     const { uses } = await this.precompiled;
     const compile = (compiler, sources, level) =>
       this.compilers[compiler].ask({ task: "compile", ...own, sources, level }, mostCompileSeconds);
@@ -187,7 +187,7 @@ export class Toolchain {
       const used = [...new Set(sources.flatMap((source) => uses[source]))].map((name) => [name, files[name]]);
       return kept.answer(JSON.stringify([lesson, sources, level, used]), () => compile(free++, sources, level));
     };
-    const changed = apart.filter((source) => uses[source].length > 0);  // the others are compiled already
+    const changed = apart.filter((source) => uses[source]?.length > 0);  // the others are not needed, or compiled already
     const isOfProbe = (source) => source.endsWith("/probe.cpp");
     const soon = changed.filter((source) => !isOfProbe(source)), later = changed.filter(isOfProbe);
     // From lesson 06 on there is much to draw: what draws is optimised, apart from the rest. From lesson 11 on, that is not main.cpp.
