@@ -226,6 +226,8 @@ def check_loop(page: EditorPage, build: Path) -> list[str]:
     page.run()
     if "Step 1 is not done yet" not in page.outcome or page.script("return standIn.step") != 1:
         problems.append(f"the first run says '{page.outcome}'")
+    if "And main.cpp is still lesson 01's" not in page.outcome:
+        problems.append("does not say that a wrong picture's main.cpp is as it was")
     if [tier.text for tier in page.all(".tiers li")] != ["formulas 5 of 9", "pictures 0 of 1"]:
         problems.append("does not count what passes")
     if not page.one(".failure").text.startswith("FAILED Lines.PictureOfTheLesson"):
