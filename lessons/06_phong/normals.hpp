@@ -4,7 +4,6 @@
 /// derivation: docs/derivations/06_phong.md.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -95,12 +94,12 @@ class SmoothNormals {
 ///
 /// @see Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", 1998
 inline void complete_normals(Mesh& mesh) {
-    const auto misses_one = [](const Triangle& triangle) {
-        return std::ranges::any_of(triangle.vertices,
-                                   [](const Vertex& vertex) { return vertex.normal == no_index; });
-    };
+    bool misses_one = false;
+    for (const Triangle& triangle : mesh.triangles)
+        for (const Vertex& vertex : triangle.vertices)
+            misses_one = misses_one || vertex.normal == no_index;
     std::optional<SmoothNormals> smooth;
-    if (std::ranges::any_of(mesh.triangles, misses_one)) smooth.emplace(mesh);
+    if (misses_one) smooth.emplace(mesh);
 
     std::vector<vec3> normals;  // one for each vertex of each triangle
     normals.reserve(3 * mesh.triangles.size());

@@ -47,7 +47,9 @@ inline std::vector<vec3> hull_normals(const Mesh& mesh) {
     std::vector<std::size_t> by_place(sums.size());
     std::iota(by_place.begin(), by_place.end(), std::size_t{0});
     // Sums are rounded: those of one position are added in their order in the mesh.
-    std::ranges::sort(by_place, {}, [&](std::size_t i) { return std::pair(place(i), i); });
+    std::sort(by_place.begin(), by_place.end(), [&](std::size_t i, std::size_t j) {
+        return std::pair(place(i), i) < std::pair(place(j), j);
+    });
     for (std::size_t begin = 0, end; begin < by_place.size(); begin = end) {
         vec3 sum(0);
         for (end = begin; end < by_place.size() && place(by_place[end]) == place(by_place[begin]);)

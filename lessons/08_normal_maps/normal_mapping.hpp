@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <tuple>
 #include <vector>
 
 #include "04_mvp/projection.hpp"
@@ -60,8 +59,9 @@ using TriangleNormalMap = NormalMapInputs<float>;
 inline TriangleNormalMap triangle_normal_map(const NormalMapVariant& variant, const Scene& scene,
                                              const NormalMaps& maps,
                                              const ProjectedTriangle& projected) {
-    const auto& [positions, indices, material] = std::tie(
-        projected.mesh.positions, projected.triangle.vertices, projected.triangle.material);
+    const std::vector<vec3>& positions = projected.mesh.positions;
+    const std::array<Vertex, 3>& indices = projected.triangle.vertices;
+    const std::size_t material = projected.triangle.material;
     TriangleNormalMap map{.texture = maps.textures[material].get()};
     if (map.texture == nullptr) return map;
     const TextureMap& named = normal_map_of(scene.materials[material]);

@@ -135,11 +135,12 @@ ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, cons
                             const ShadowBounds& bounds, std::span<const Light> lights,
                             std::span<const bool> casts, CounterPolicy& counters, Draw&& draw) {
     assert(lights.size() <= max_lights && casts.size() >= lights.size());
-    ShadowMaps shadow_maps{variant.radius(), variant.bias, {}};
+    ShadowMaps shadow_maps{variant.radius(), variant.bias,
+                           std::vector<LightShadowMaps>(lights.size())};
     const Bounds all = scene.bounds();
     std::size_t count = 0;
     for (std::size_t l = 0; l < lights.size(); ++l) {
-        LightShadowMaps of_light;
+        LightShadowMaps& of_light = shadow_maps.of_light[l];
         if (casts[l]) of_light = make_shadow_maps(lights[l], variant.size, bounds, all);
         of_light.is_drawn = !of_light.maps.empty();
         if (!of_light.is_drawn && all_effects)
@@ -152,7 +153,6 @@ ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, cons
             counters.add(Counter::shadow_passes);
             draw(map, of_light.is_drawn);
         }
-        shadow_maps.of_light.push_back(std::move(of_light));
     }
     return shadow_maps;
 }

@@ -56,7 +56,7 @@ class TransparentFragments {
     void blend_over(Image<vec3>& color) {
         order_.resize(fragments_.size());
         for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint32_t>(i);
-        std::ranges::sort(order_, [this](std::uint32_t a, std::uint32_t b) {
+        std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
             const TransparentFragment &first = fragments_[a], &second = fragments_[b];
             return std::tuple(first.pixel.y, first.pixel.x, second.depth, b) <
                    std::tuple(second.pixel.y, second.pixel.x, first.depth, a);

@@ -172,14 +172,14 @@ std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* const> 
          {std::pair{false, false}, {true, false}, {true, true}})
         for (const Culling culling : {Culling::back_faces, Culling::none}) {
             Pass pass{is_blended, is_glass, culling};
-            if (std::ranges::none_of(plan.materials, [&](const MaterialPlan& material) {
-                    return pass.takes(material);
-                }))
+            if (std::none_of(plan.materials.begin(), plan.materials.end(),
+                             [&](const MaterialPlan& material) { return pass.takes(material); }))
                 continue;  // no need to look at all triangles
             for (const Mesh* const mesh : meshes)
-                if (std::ranges::any_of(mesh->triangles, [&](const Triangle& triangle) {
-                        return pass.takes(plan.materials[triangle.material]);
-                    }))
+                if (std::any_of(mesh->triangles.begin(), mesh->triangles.end(),
+                                [&](const Triangle& triangle) {
+                                    return pass.takes(plan.materials[triangle.material]);
+                                }))
                     pass.meshes.push_back(mesh);
             if (!pass.meshes.empty()) passes.push_back(std::move(pass));
         }

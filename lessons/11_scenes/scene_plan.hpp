@@ -4,7 +4,6 @@
 /// derivation: docs/derivations/11_scenes.md.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -44,8 +43,9 @@ struct ScenePlan {
 
     /// Whether an effect runs for any material that is seen.
     bool any(Effect effect) const {
-        return std::ranges::any_of(
-            materials, [&](const MaterialPlan& plan) { return plan.is_seen && plan[effect]; });
+        for (const MaterialPlan& plan : materials)
+            if (plan.is_seen && plan[effect]) return true;
+        return false;
     }
 };
 

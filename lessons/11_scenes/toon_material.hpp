@@ -98,7 +98,7 @@ inline Scene with_outline_materials(Scene scene) {
 /// The first of these materials: those before it are the scene's own.
 inline std::size_t first_outline_material(std::span<const Material> materials) {
     return materials.size() -
-           static_cast<std::size_t>(std::ranges::count_if(materials, has_outline));
+           static_cast<std::size_t>(std::count_if(materials.begin(), materials.end(), has_outline));
 }
 
 /// The hulls of all meshes of a scene that has been given outlines' materials.

@@ -4,7 +4,6 @@
 /// Introduced in lesson 08; derivation: docs/derivations/08_normal_maps.md.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -51,7 +50,9 @@ inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, Wrap wrap) {
 /// Whether red, green and blue are the same in all texels. A `map_Bump` should be such a height
 /// map; some exporters write their normal maps there.
 inline bool is_gray(const Image<u8vec4>& image) {
-    return std::ranges::all_of(image.pixels(), [](u8vec4 c) { return c.r == c.g && c.g == c.b; });
+    for (const u8vec4 texel : image.pixels())
+        if (texel.r != texel.g || texel.g != texel.b) return false;
+    return true;
 }
 
 /// The third component of a normal of length 1 from the other two (Eq. 8.8); 0 where they are too

@@ -76,12 +76,13 @@ std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
     for (const Triangle& triangle : mesh.triangles)
         for (std::size_t vertex = 0; vertex < 3; ++vertex)
             shares.push_back(tangent_share(mesh, triangle, uvs_of(triangle), vertex));
-    std::ranges::sort(shares, {}, &TangentShare::key);
+    std::sort(shares.begin(), shares.end(),
+              [](const TangentShare& a, const TangentShare& b) { return a.key < b.key; });
 
     std::vector<vec4> tangents(mesh.normals.size(), vec4(0));
     for (auto begin = shares.begin(); begin != shares.end();) {
-        const auto end =
-            std::ranges::upper_bound(begin, shares.end(), begin->key, {}, &TangentShare::key);
+        auto end = begin;
+        while (end != shares.end() && end->key == begin->key) ++end;
         const int left_out_bits =
             static_cast<int>(std::bit_width(static_cast<std::size_t>(end - begin) >> 21));
         std::array<std::int64_t, 3> sum{};

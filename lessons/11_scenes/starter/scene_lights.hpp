@@ -71,7 +71,7 @@ inline SceneLights lights_of(const Scene& scene, LightKind key,
         const std::array raking = raking_lights(key, bounds);
         all.lights.assign(raking.begin(), raking.end());
         all.names = {"key light of the lesson", "sky of the lesson"};
-        std::ranges::copy(light_casts, all.casts.begin());
+        std::copy(light_casts.begin(), light_casts.end(), all.casts.begin());
         return all;
     }
     all.are_of_file = true;
