@@ -51,9 +51,11 @@ inline NormalMaps load_normal_maps(Scene& scene, const TextureOptions& options,
 inline void make_tangents(Scene& scene, const NormalMaps& maps, const NormalMapVariant& variant) {
     if (variant.frame != FrameOf::vertex) return;
     for (Mesh& mesh : scene.meshes)
-        if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& of) {
-                return maps.textures[of.material] && maps.spaces[of.material] == MapSpace::tangent;
-            }))
+        if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                        [&](const Triangle& triangle) {
+                            return maps.textures[triangle.material] &&
+                                   maps.spaces[triangle.material] == MapSpace::tangent;
+                        }))
             mesh.tangents = vertex_tangents(mesh, [&](const Triangle& triangle) {
                 return uvs_of(mesh, triangle, normal_map_of(scene.materials[triangle.material]));
             });
