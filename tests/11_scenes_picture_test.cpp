@@ -405,7 +405,7 @@ TEST(SceneFiles, HardCase_FilesWithoutCamerasAreFittedIntoThePicture) {
     look_up("Eq. 11.11");
     Scene scene = loaded("toon.glb");
     const auto name_of = [&](const lesson_11::Options& options) {
-        return camera_of_picture(options, options.scene.camera, scene).name;
+        return camera_of_picture(options, scene).name;
     };
     lesson_11::Options options = small_picture();
     EXPECT_EQ(name_of(options), "0 \"front\" of the file");

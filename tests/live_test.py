@@ -191,7 +191,7 @@ def check_probe(page: LivePage, address: str, lesson: str, build: Path, site: Pa
     # Where there are the background, the floor, and things on it in most scenes.
     for x, y in ((10, 5), (200, 135), (250, 120), (240, 180), (300, 250)):
         page.go(f"size=480x270&probe={x},{y}")
-        command = [build / lesson, "--size", "480x270", "--probe", f"{x},{y}"]
+        command = [build / f"{lesson}_complete", "--size", "480x270", "--probe", f"{x},{y}"]
         expected = subprocess.run(command, check=True, capture_output=True, encoding="utf-8").stdout
         reasons = page.all(".live .reasons")[0]
         text = page.browser.execute_script("return arguments[0].textContent", reasons)

@@ -226,7 +226,7 @@ TEST(Probe, OfTwoTrianglesItSaysWhichLostAndWhy) {
         EXPECT_EQ(result.exit_status, 0) << result.err;
         return result.out;
     };
-    const std::string text = probed("04_mvp", "34,34");
+    const std::string text = probed("04_mvp_complete", "34,34");
     EXPECT_TRUE(holds(text, "front #0 "));
     EXPECT_TRUE(holds(text, "written, and seen"));
     EXPECT_TRUE(holds(text, "behind: not nearer than "));
@@ -234,7 +234,7 @@ TEST(Probe, OfTwoTrianglesItSaysWhichLostAndWhy) {
     EXPECT_TRUE(holds(text, "front #1  "));
     EXPECT_TRUE(holds(text, "outside of edge ab by ")) << "of the first square's other triangle";
     EXPECT_TRUE(holds(text, "seen: front #0"));
-    const std::string background = probed("04_mvp", "0,0");
+    const std::string background = probed("04_mvp_complete", "0,0");
     EXPECT_TRUE(holds(background, "none"));
     EXPECT_TRUE(holds(background, "seen: the backdrop, since no triangle is written here"));
 }
@@ -253,7 +253,7 @@ TEST(Probe, OnASharedEdgeItSaysWhichTriangleOwnsThePixel) {
 
 TEST(Probe, InAShadowItSaysWhichDepthsAreCompared) {
     const auto probed = [](const std::string& pixel) {
-        return run_program("09_shadow_maps", {"--probe", pixel, "--pcf", "5"}).out;
+        return run_program("09_shadow_maps_complete", {"--probe", pixel, "--pcf", "5"}).out;
     };
     const std::string shadowed = probed("840,420");
     EXPECT_TRUE(holds(shadowed, " is behind "));
@@ -263,8 +263,9 @@ TEST(Probe, InAShadowItSaysWhichDepthsAreCompared) {
 
 TEST(Probe, TheLastLineIsThePicturesPixel) {
     const auto file = fresh_folder("probe") / "a.png";
-    const std::vector<std::vector<std::string>> lines = {
-        {"06_phong"}, {"04_mvp", "--depth"}, {"07_toon", "--samples", "4"}};
+    const std::vector<std::vector<std::string>> lines = {{"06_phong_complete"},
+                                                         {"04_mvp_complete", "--depth"},
+                                                         {"07_toon_complete", "--samples", "4"}};
     for (std::vector<std::string> options : lines) {
         const std::string program = options[0];
         options.insert(options.end(), {"--size", "160x90"});
@@ -285,32 +286,38 @@ TEST(Probe, TheLastLineIsThePicturesPixel) {
             EXPECT_EQ(last_line(result.out), hex) << program;
         }
     }
-    EXPECT_TRUE(holds(run_program("04_mvp", {"--depth", "--probe", "640,360"}).out,
+    EXPECT_TRUE(holds(run_program("04_mvp_complete", {"--depth", "--probe", "640,360"}).out,
                       "The picture has another colour"));
 }
 
 TEST(Probe, TheTextQuotesWhatIsPrinted) {
     const std::string page = read_text(root / "docs/troubleshooting.md");
     EXPECT_TRUE(holds(page, "\n./lessons/run 03 --probe 640,300\n"));
-    const std::string printed = run_program("03_z_buffer", {"--probe", "640,300"}).out;
+    const std::string printed = run_program("03_z_buffer_complete", {"--probe", "640,300"}).out;
     EXPECT_TRUE(holds(page, "```\n" + printed + "```"));
     std::vector<std::string> lines =
         parts_after(page.substr(page.find("  light 1  ")), "\n  ");  // all but the first one
     lines.resize(4);
-    const std::string shadowed = run_program("09_shadow_maps", {"--probe", "840,420"}).out;
+    const std::string shadowed = run_program("09_shadow_maps_complete", {"--probe", "840,420"}).out;
     for (const std::string& line : lines)
         EXPECT_TRUE(holds(shadowed, line.substr(0, line.find('\n'))));
 }
 
 TEST(Probe, HardCase_BadPixelsAreExitStatus2) {
     for (const char* pixel : {"", "5", "5,", ",5", "5,5,5", "5,5x", "x,5", "5 5", "99999999999,1"})
-        expect_error(run_program("03_z_buffer", {"--probe", pixel}), 2,
+        expect_error(run_program("03_z_buffer_complete", {"--probe", pixel}), 2,
                      "'" + std::string(pixel) + "' is not X,Y");
     for (const char* pixel : {"-1,0", "0,-1", "64,0", "0,48"})
         expect_error(
-            run_program("03_z_buffer", {"--size", "64x48", "--probe", pixel}), 2,
+            run_program("03_z_buffer_complete", {"--size", "64x48", "--probe", pixel}), 2,
             "'" + std::string(pixel) +
                 "' is outside of the picture, which has X from 0 to 63 and Y from 0 to 47");
-    expect_error(run_program("04_mvp", {"--probe", "1,1", "--frames", "3"}), 2, "--probe");
-    expect_error(run_program("01_bresenham_lines", {"--probe", "1,1"}), 2, "--probe");
+    expect_error(run_program("04_mvp_complete", {"--probe", "1,1", "--frames", "3"}), 2, "--probe");
+    expect_error(run_program("01_bresenham_lines_complete", {"--probe", "1,1"}), 2, "--probe");
+}
+
+TEST(Probe, AProgramWithoutItNamesTheOneThatHasIt) {
+    expect_error(run_program("09_shadow_maps", {"--probe", "1,1"}), 1,
+                 "--probe: this program is built without it; 09_shadow_maps_complete has it, and "
+                 "./lessons/run builds that one");
 }

@@ -80,7 +80,7 @@ def check_probe(page: Run, build: Path) -> list[str]:
     from selenium.webdriver.common.keys import Keys
 
     lesson = "09_shadow_maps"
-    command = [build / lesson, "--probe", "640,360"]
+    command = [build / f"{lesson}_complete", "--probe", "640,360"]
     course = subprocess.run(command, check=True, capture_output=True, encoding="utf-8").stdout.rstrip()
     files = solution(lesson)
     files["shadow_map.hpp"] = files["shadow_map.hpp"].replace("return lit / (side", "return (0 * lit + 4) / (side")

@@ -177,13 +177,17 @@ Tally make_picture(const LessonProgram& program, const FrameOptions& frame,
 
 /// Prints why a pixel has its colour.
 void print_probe(const LessonProgram& program) {
+    const PixelProbe probe = program.make_probe();
+    if (!probe)
+        throw std::runtime_error("--probe: this program is built without it; " + program.name +
+                                 "_complete has it, and ./lessons/run builds that one");
     const LessonOptions& options = program.options;
     Counters counters;
     const FrameOptions frame{program.orbit ? program.orbit->yaw_degrees : 0,
                              program.threads ? *program.threads : 1};
     const Image<u8vec3> drawn =
         srgb8_from_linear(averaged(program.render(frame, counters), options.samples_per_side));
-    std::cout << explained(program.make_probe(), *options.probed, options.samples_per_side,
+    std::cout << explained(probe, *options.probed, options.samples_per_side,
                            drawn[*options.probed]);
 }
 

@@ -146,8 +146,8 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 /// For run_lesson(): a lesson without --probe.
 struct NoProbe {};
 
-/// Whether programs have --probe. A reader's own goes without, so that its picture takes less time
-/// to come; ./lessons/run builds another when it is asked for.
+/// Whether programs know of --probe. A reader's own goes without, so that its picture takes less
+/// time to come; ./lessons/run builds another when it is asked for.
 #ifdef RASTERBOOK_WITHOUT_PROBE
 constexpr bool has_probe = false;
 #else

@@ -2,7 +2,6 @@
 #include "11_scenes/probe.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <numeric>
@@ -16,6 +15,8 @@
 #include "06_phong/report.hpp"
 #include "08_normal_maps/report.hpp"
 #include "09_shadow_maps/report.hpp"
+#include "10_threading/thread_pool.hpp"
+#include "10_threading/threaded_shadows.hpp"
 #include "11_scenes/blending.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/shaders.hpp"
@@ -24,11 +25,15 @@ namespace rasterbook {
 
 namespace {
 
-/// A transparent fragment, and where it comes from.
-struct SeenThrough {
+/// A fragment, and what the shader of its material makes of it.
+struct DrawnFragment {
     SeenFragment seen;
-    TransparentFragment fragment;
+    TransparentFragment drawn;  ///< Where it is opaque, its opacity is 1.
 };
+
+const MaterialPlan& plan_of(const Frame<>& frame, const SeenFragment& of) {
+    return frame.assets.plan.materials[of.projected->triangle.material];
+}
 
 /// Says how much light falls on a toon material.
 template <typename Visibility>
@@ -48,8 +53,9 @@ void report_toon(PixelReport& report, std::span<const Light> lights,
 }
 
 /// Says what the stages of a shader make of a fragment.
-void report_stages(PixelReport& report, const Frame<>& frame, const Permutation& with,
-                   TriangleInputs& inputs, const SeenFragment& seen) {
+void report_stages(PixelReport& report, const Frame<>& frame, const SeenFragment& seen) {
+    const Permutation& with = all_permutations[permutation_of(plan_of(frame, seen))];
+    TriangleInputs inputs = triangle_inputs(with, frame, *seen.projected);
     NoCounters uncounted;
     auto [surface, at, color] = report_surface(report, seen, inputs.surface, frame.filter);
     if (inputs.colors.are_there) {
@@ -91,34 +97,28 @@ void report_stages(PixelReport& report, const Frame<>& frame, const Permutation&
     }
 }
 
-/// The colour of a fragment.
+/// What a shader makes of a triangle in a pixel where nothing else is.
 ///
-/// @param report  Null: nothing is said.
-template <Permutation with>
-vec3 shaded_with(const Frame<>& frame, const SeenFragment& seen, PixelReport* report) {
-    NoCounters uncounted;
-    TriangleInputs inputs = triangle_inputs<with>(frame, *seen.projected);
-    if (report != nullptr) report_stages(*report, frame, with, inputs, seen);
-    return shaded<with>(frame, inputs, perspective_correct(inputs.setup, seen.on_screen),
-                        uncounted);
+/// @return  None in a hole.
+std::optional<TransparentFragment> draw_alone(const Frame<>& frame,
+                                              const Shaders<Counters>& shaders, ivec2 pixel,
+                                              const SeenFragment& of) {
+    TransparentFragments transparent;
+    Counters uncounted;
+    frame.depth.clear(pixel, pixel);
+    shaders[of.projected->triangle.material](frame, *of.projected, Tile{{pixel, pixel}},
+                                             transparent, uncounted);
+    if (!transparent.empty()) return transparent.fragments().front();
+    if (frame.depth.depths()[pixel] == DepthBuffer::cleared) return {};
+    return TransparentFragment{pixel, of.depth, 1, frame.color[pixel]};
 }
 
-vec3 shaded_color(const Frame<>& frame, const SeenFragment& seen, PixelReport* report) {
-    constexpr auto shaders = []<std::size_t... i>(std::index_sequence<i...>) {
-        return std::array{&shaded_with<all_permutations[i]>...};
-    }(std::make_index_sequence<all_permutations.size()>());
-    const MaterialPlan& plan = frame.assets.plan.materials[seen.projected->triangle.material];
-    return shaders[permutation_of(plan)](frame, seen, report);
-}
-
-/// The opacity of a fragment, by lesson 11's way to it: 1 where it is neither glass nor has holes.
-float opacity_of(const Frame<>& frame, const SeenFragment& seen) {
-    const MaterialPlan& plan = frame.assets.plan.materials[seen.projected->triangle.material];
-    if (!plan.is_glass && !plan[Effect::mask]) return 1;
+/// The alpha of a fragment, which decides whether there is a hole.
+float alpha_of(const Frame<>& frame, const SeenFragment& of) {
     NoCounters uncounted;
-    const TriangleInputs inputs = triangle_inputs<Permutation{}>(frame, *seen.projected);
+    const TriangleInputs inputs = triangle_inputs(Permutation{}, frame, *of.projected);
     return opacity_at(inputs.surface, inputs.colors,
-                      perspective_correct(inputs.setup, seen.on_screen), frame.filter, uncounted);
+                      perspective_correct(inputs.setup, of.on_screen), frame.filter, uncounted);
 }
 
 class SceneProbe {
@@ -126,21 +126,16 @@ class SceneProbe {
     SceneProbe(const SceneRendererOptions& options, const SceneAssets& assets)
         : options_(options),
           assets_(assets),
-          camera_(camera_of_picture(options, options.scene.camera, assets.scene).camera),
-          outlines_(outlines_of(assets, camera_)) {
-        NoCounters uncounted;
+          camera_(camera_of_picture(options, assets.scene).camera),
+          outlines_(outlines_of(assets, camera_)),
+          shaders_(assets.plan) {
         const Scene& scene = assets.scene;
-        const auto casts = [&](std::size_t material) {
-            return casts_shadows(scene.materials[material]);
-        };
-        shadow_maps_ =
-            draw_shadow_maps(options.shadow, options.shading.all_effects, scene,
-                             assets.shadow_bounds, assets.lit_by.lights, assets.lit_by.casts,
-                             uncounted, [&](ShadowMap& map, bool is_drawn) {
-                                 map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
-                                 for (const Mesh& mesh : scene.meshes)
-                                     if (is_drawn) draw_casters(map, mesh, casts, uncounted);
-                             });
+        ThreadPool pool(1);
+        WorkerCounters<Counters> counters(pool.size());
+        shadow_maps_ = draw_shadow_maps(pool, options.threads, options.shadow,
+                                        options.shading.all_effects, scene, assets.shadow_bounds,
+                                        assets.lit_by.lights, counters, assets.lit_by.casts);
+        NoCounters uncounted;
         const mat4 clip_from_world = camera_.clip_from_world(options.size);
         const std::vector<const Mesh*> meshes =
             seen_meshes(scene, outlines_, clip_from_world, uncounted);
@@ -157,107 +152,104 @@ class SceneProbe {
     }
 
     vec3 operator()(ivec2 pixel, PixelReport& report) const {
-        Image<vec3> color(
-            ivec2(1), assets_.is_on_paper ? paper_color : backdrop_color(pixel.y, options_.size.y));
+        Image<vec3> picture(options_.size, unset);  // but for one pixel, nobody looks at them
+        DepthBuffer depth(options_.size, unset);
+        const Frame<> frame = make_frame(options_, assets_, camera_, shadow_maps_, picture, depth);
         DepthBuffer nearest(ivec2(1));
-        const Frame<> frame = make_frame(options_, assets_, camera_, shadow_maps_, color, nearest);
         PixelHistory history;
-        std::optional<SeenFragment> seen;
-        std::vector<SeenThrough> transparent;
-        for_each_here(opaque_, pixel, frame, history, [&](const SeenFragment& of, float) {
-            test_depth(nearest, name(of), of.on_screen, of.depth, history);
+        std::optional<DrawnFragment> seen;
+        std::vector<DrawnFragment> transparent;
+        for (const ProjectedTriangle& projected : opaque_) {
+            const auto of = drawn_here(projected, pixel, frame, nearest, history);
+            if (!of) continue;
+            test_depth(nearest, name(of->seen), of->seen.on_screen, of->seen.depth, history);
             seen = of;
-        });
-        for_each_here(blended_, pixel, frame, history, [&](const SeenFragment& of, float opacity) {
-            history.lost(
-                name(of), of.on_screen, of.depth,
-                "blended over what lies behind, opacity " + words(opacity) + " (Eq. 11.7)");
-            transparent.push_back({of, {ivec2(0), of.depth, opacity, vec3(0)}});
-        });
+        }
+        for (const ProjectedTriangle& projected : blended_) {
+            const auto of = drawn_here(projected, pixel, frame, nearest, history);
+            if (!of) continue;
+            history.lost(name(of->seen), of->seen.on_screen, of->seen.depth,
+                         "blended over what lies behind, opacity " + words(of->drawn.opacity) +
+                             " (Eq. 11.7)");
+            transparent.push_back(*of);
+        }
         history.print(report, assets_.scene.meshes);
+        vec3 color = assets_.is_on_paper ? paper_color : backdrop_color(pixel.y, options_.size.y);
         if (seen) {
-            report_fragment(report, *seen, assets_.scene);
-            color[ivec2(0)] = shaded_color(frame, *seen, &report);
+            report_fragment(report, seen->seen, assets_.scene);
+            report_stages(report, frame, seen->seen);
+            color = seen->drawn.color;
         } else {
             report.section(assets_.is_on_paper ? "behind: the paper" : "behind: the backdrop");
         }
-        if (!transparent.empty()) blend(report, frame, transparent, color);
-        return color[ivec2(0)];
+        if (transparent.empty()) return color;
+        picture[pixel] = color;
+        blend(report, frame, transparent, pixel);
+        return picture[pixel];
     }
 
   private:
     std::string name(const SeenFragment& of) const { return name_of(*of.projected, assets_.scene); }
 
-    /// Notes why triangles are not drawn in a pixel, and visits the others.
-    ///
-    /// @param visit  Called as visit(SeenFragment, opacity).
-    template <typename Visit>
-    void for_each_here(std::span<const ProjectedTriangle> triangles, ivec2 pixel,
-                       const Frame<>& frame, PixelHistory& history, const Visit& visit) const {
-        for (const ProjectedTriangle& projected : triangles) {
-            if (!box_holds(projected.on_screen, pixel)) continue;
-            const MaterialPlan& plan = assets_.plan.materials[projected.triangle.material];
-            const auto at = covered(projected.on_screen, pixel);
-            if (!at) {
-                history.missed(name_of(projected, assets_.scene),
-                               why_not_covered(projected.on_screen, pixel));
-                continue;
-            }
-            const SeenFragment of{&projected, *at, projected.depth.at(*at)};
-            const auto lost = [&](const std::string& why) {
-                history.lost(name(of), *at, of.depth, why);
-            };
-            const float before = frame.depth.depths()[ivec2(0)];
-            if (projected.is_back_facing && !plan.two_sided) {
-                lost("faces away (Eq. 2.2)");
-            } else if (!(of.depth < before)) {
-                lost("behind: not nearer than " + words(before, 7) + " (Eq. 3.1)");
-            } else {
-                const float opacity = opacity_of(frame, of);
-                const float cutoff =
-                    assets_.scene.materials[projected.triangle.material].alpha_cutoff;
-                if (plan[Effect::mask] && !passes_alpha_test(opacity, cutoff))
-                    lost("a hole: alpha " + words(opacity) + " is below " + words(cutoff) +
-                         " (Eq. 11.7)");
-                else
-                    visit(of, plan[Effect::mask] ? 1.0f : opacity);
-            }
+    /// What is drawn of a triangle in a pixel; nothing, and a note of why, where it is not.
+    std::optional<DrawnFragment> drawn_here(const ProjectedTriangle& projected, ivec2 pixel,
+                                            const Frame<>& frame, const DepthBuffer& nearest,
+                                            PixelHistory& history) const {
+        if (!box_holds(projected.on_screen, pixel)) return {};
+        const auto at = covered(projected.on_screen, pixel);
+        if (!at) {
+            history.missed(name_of(projected, assets_.scene),
+                           why_not_covered(projected.on_screen, pixel));
+            return {};
         }
+        const SeenFragment of{&projected, *at, projected.depth.at(*at)};
+        const float before = nearest.depths()[ivec2(0)];
+        const Material& material = assets_.scene.materials[projected.triangle.material];
+        std::string why;
+        if (projected.is_back_facing && !plan_of(frame, of).two_sided)
+            why = "faces away (Eq. 2.2)";
+        else if (!(of.depth < before))
+            why = "behind: not nearer than " + words(before, 7) + " (Eq. 3.1)";
+        else if (const auto drawn = draw_alone(frame, shaders_, pixel, of))
+            return DrawnFragment{of, *drawn};
+        else
+            why = "a hole: alpha " + words(alpha_of(frame, of)) + " is below " +
+                  words(material.alpha_cutoff) + " (Eq. 11.7)";
+        history.lost(name(of), *at, of.depth, why);
+        return {};
     }
 
-    /// Shades transparent fragments, and blends them over what lies behind.
-    void blend(PixelReport& report, const Frame<>& frame, std::span<SeenThrough> transparent,
-               Image<vec3>& color) const {
+    /// Blends transparent fragments over what lies behind.
+    void blend(PixelReport& report, const Frame<>& frame,
+               std::span<const DrawnFragment> transparent, ivec2 pixel) const {
         std::vector<std::size_t> order(transparent.size());  // from back to front
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-            return std::pair(transparent[b].fragment.depth, b) <
-                   std::pair(transparent[a].fragment.depth, a);
+        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return std::pair(transparent[b].seen.depth, b) <
+                   std::pair(transparent[a].seen.depth, a);
         });
-        // What lies on top is said in full.
-        report.section("seen through, the nearest: " + name(transparent[order.back()].seen));
-        TransparentFragments fragments;
-        for (std::size_t i = 0; i < transparent.size(); ++i) {
-            auto& [of, fragment] = transparent[i];
-            fragment.color = shaded_color(frame, of, i == order.back() ? &report : nullptr);
-            fragments.add(fragment);
-        }
+        const SeenFragment& on_top = transparent[order.back()].seen;
+        report.section("seen through, the nearest: " + name(on_top));
+        report_stages(report, frame, on_top);
         report.section("blended from back to front (Eq. 11.8 and 11.9)");
-        vec3 behind = color[ivec2(0)];
+        vec3 behind = frame.color[pixel];
         report.line("behind", behind);
         for (const std::size_t i : order) {
-            const TransparentFragment& fragment = transparent[i].fragment;
-            behind = over(fragment.color, fragment.opacity, behind);
-            report.line("over it", words(fragment.color) + ", opacity " + words(fragment.opacity) +
+            const TransparentFragment& drawn = transparent[i].drawn;
+            behind = over(drawn.color, drawn.opacity, behind);
+            report.line("over it", words(drawn.color) + ", opacity " + words(drawn.opacity) +
                                        ": gives " + words(behind));
         }
-        fragments.blend_over(color);
+        TransparentFragments fragments;
+        for (const DrawnFragment& of : transparent) fragments.add(of.drawn);
+        fragments.blend_over(frame.color);
     }
 
     const SceneRendererOptions& options_;
     const SceneAssets& assets_;
     Camera camera_;
     std::vector<Mesh> outlines_;
+    Shaders<Counters> shaders_;
     ShadowMaps shadow_maps_{};
     std::vector<ProjectedTriangle> opaque_, blended_;  ///< In drawing order.
 };

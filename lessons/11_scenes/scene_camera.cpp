@@ -67,4 +67,19 @@ std::optional<std::size_t> chosen_camera(const Scene& scene, const std::string& 
                              "|" + fit_name);
 }
 
+NamedCamera camera_of_picture(const SceneRendererOptions& options, const Scene& scene) {
+    const std::string& asked = options.scene.camera;
+    const bool is_orbit_asked_for = options.frames.of_turn > 1 || options.orbit != Orbit();
+    if (const auto chosen = chosen_camera(scene, asked, is_orbit_asked_for))
+        return {camera_of(scene.cameras[*chosen]),
+                std::to_string(*chosen) + " \"" + scene.cameras[*chosen].name + "\" of the file"};
+    Orbit orbit = options.orbit;
+    const bool is_fitted =
+        asked == fit_name || (asked.empty() && scene.is_gltf && !is_orbit_asked_for);
+    if (is_fitted) orbit.distance = fitting_distance(orbit, scene.bounds(), options.size);
+    return {orbit_camera(orbit, scene.bounds()),
+            is_fitted ? "the lesson's own, so far away that all is seen"
+                      : "the lesson's own, around the scene"};
+}
+
 }  // namespace rasterbook

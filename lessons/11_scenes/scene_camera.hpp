@@ -9,6 +9,7 @@
 #include <string>
 
 #include "04_mvp/camera.hpp"
+#include "11_scenes/scene_options.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/model/mesh.hpp"
 
@@ -43,23 +44,6 @@ struct NamedCamera {
 
 /// As chosen_camera() has it. A glTF file without cameras is fitted into the picture, if no other
 /// orbit is asked for; an OBJ file is seen as in the earlier lessons.
-///
-/// @param options  LessonOptions with an `Orbit orbit`.
-/// @param asked    What --camera says.
-template <typename Options>
-NamedCamera camera_of_picture(const Options& options, const std::string& asked,
-                              const Scene& scene) {
-    const bool is_orbit_asked_for = options.frames.of_turn > 1 || options.orbit != Orbit();
-    if (const auto chosen = chosen_camera(scene, asked, is_orbit_asked_for))
-        return {camera_of(scene.cameras[*chosen]),
-                std::to_string(*chosen) + " \"" + scene.cameras[*chosen].name + "\" of the file"};
-    Orbit orbit = options.orbit;
-    const bool is_fitted =
-        asked == fit_name || (asked.empty() && scene.is_gltf && !is_orbit_asked_for);
-    if (is_fitted) orbit.distance = fitting_distance(orbit, scene.bounds(), options.size);
-    return {orbit_camera(orbit, scene.bounds()),
-            is_fitted ? "the lesson's own, so far away that all is seen"
-                      : "the lesson's own, around the scene"};
-}
+NamedCamera camera_of_picture(const SceneRendererOptions& options, const Scene& scene);
 
 }  // namespace rasterbook

@@ -32,8 +32,7 @@ int run_scene_lesson(int argc, char** argv, std::string name, std::string title,
             StepClock clock;
             Image<vec3> picture = render(options, assets, *pool, counters, clock);
             if (options.scene.explain)
-                explain(assets.scene, assets.plan,
-                        camera_of_picture(options, options.scene.camera, assets.scene).name,
+                explain(assets.scene, assets.plan, camera_of_picture(options, assets.scene).name,
                         lights_in_words(assets.lit_by, assets.plan), counters, clock);
             return picture;
         },

@@ -100,16 +100,17 @@ struct TriangleInputs {
     TriangleReceiver receiver;  ///< Keeps the biases that have been fitted.
 };
 
-template <Permutation with, typename Maps>
-TriangleInputs triangle_inputs(const Frame<Maps>& frame, const ProjectedTriangle& projected) {
+template <typename Maps>
+TriangleInputs triangle_inputs(const Permutation& with, const Frame<Maps>& frame,
+                               const ProjectedTriangle& projected) {
     const SceneAssets& assets = frame.assets;
     const EffectMask effects = assets.plan.materials[projected.triangle.material].effects;
     TriangleSurface surface = triangle_surface(assets.scene, assets.textures, effects, projected);
-    if constexpr (with.model == ShadingModel::toon)
+    if (with.model == ShadingModel::toon)
         surface.own_color.ambient =
             surface.material.toon->shade;  // toon paint has no ambient colour
     TriangleNormalMap normal_map;
-    if constexpr (with.normal_map)
+    if (with.normal_map)
         normal_map =
             triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
     return {surface, perspective_setup(projected), vertex_colors(effects, projected), normal_map,
@@ -166,7 +167,7 @@ template <Permutation with, typename CounterPolicy>
 void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, const Tile& tile,
                    TransparentFragments& transparent, CounterPolicy& counters) {
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
-    TriangleInputs triangle = triangle_inputs<with>(frame, projected);
+    TriangleInputs triangle = triangle_inputs(with, frame, projected);
     const bool is_masked = plan[Effect::mask], is_blended = plan[Effect::blend];
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         counters.add(Counter::fragments_tested);

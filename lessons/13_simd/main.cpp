@@ -30,7 +30,7 @@ template <typename Pool, typename CounterPolicy>
 static Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool,
                           CounterPolicy& total, StepClock& clock) {
     const auto& [scene, textures, normal_maps, bounds, lit_by, plan, hulls, is_on_paper] = assets;
-    const Camera camera = camera_of_picture(options, options.scene.camera, scene).camera;
+    const Camera camera = camera_of_picture(options, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     WorkerCounters<CounterPolicy> counters_of(pool.size());
     const WideDrawing<CounterPolicy> wide = drawing_of_width(options.wide.width);

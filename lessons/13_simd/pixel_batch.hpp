@@ -114,7 +114,7 @@ struct BatchTriangle {
     WideBarycentricPlanes<N> planes;
 
     BatchTriangle(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& triangle)
-        : inputs(triangle_inputs<with>(frame, triangle)), planes(triangle.on_screen) {}
+        : inputs(triangle_inputs(with, frame, triangle)), planes(triangle.on_screen) {}
 };
 
 /// Pixels that are shaded together, one in each lane: of one triangle, or of several that are of

@@ -46,7 +46,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
     const bool is_masked = plan[Effect::mask];
     std::optional<TriangleInputs> inputs;  // of the opacity, where it is not 1
     if (is_masked || plan.is_glass)
-        inputs.emplace(triangle_inputs<Permutation{}>(frame, projected));
+        inputs.emplace(triangle_inputs(Permutation{}, frame, projected));
     fill_tile<F>(
         projected.on_screen, tile, [&](ivec2 pixel, MaskOf<F> covered, const Vec3<F>& on_screen) {
             count(Counter::fragments_tested, covered);
@@ -124,7 +124,7 @@ void shade_fragments(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTria
         shade_fragments<with>(frame, projected, fragments, counters);
     } else {
         constexpr std::size_t N = width_of<F>;
-        TriangleInputs triangle = triangle_inputs<with>(frame, projected);
+        TriangleInputs triangle = triangle_inputs(with, frame, projected);
         LaneInputs<with, N> inputs(triangle);
         inputs.set(first_lanes<F>(N), triangle, frame.normal_map.frame, 0);
         for (std::size_t first = 0; first < fragments.size(); first += N) {

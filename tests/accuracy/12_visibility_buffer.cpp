@@ -51,7 +51,7 @@ std::size_t most_triangles(const lesson_12::Options& options, const SceneAssets&
     ThreadPool& pool = one_thread();
     WorkerCounters<NoCounters> counters(pool.size());
     NoCounters none;
-    const Camera camera = camera_of_picture(options, options.scene.camera, assets.scene).camera;
+    const Camera camera = camera_of_picture(options, assets.scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::vector<Mesh> outlines = outlines_of(assets, camera);
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());

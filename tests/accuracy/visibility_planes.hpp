@@ -34,7 +34,7 @@ inline std::vector<VisiblePart>* collected = nullptr;
 template <typename Planes, Permutation with, typename Maps, typename CounterPolicy>
 void shade_pixels_by(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                      std::span<const PixelRun> runs, CounterPolicy& counters) {
-    TriangleInputs triangle = triangle_inputs<with>(frame, projected);
+    TriangleInputs triangle = triangle_inputs(with, frame, projected);
     const Planes planes(projected.on_screen);
     for (const PixelRun& run : runs)
         planes.for_each_in(run, [&](ivec2 pixel, Barycentrics on_screen) {

@@ -217,7 +217,7 @@ DrawFrame frame_of_lesson(int lesson, const SceneRendererOptions& options,
 void compare(const std::string& name, const Arguments& arguments) {
     const SceneRendererOptions& options = arguments.options;
     const SceneAssets assets = make_scene_assets(scene_named(name), options);
-    const Camera camera = camera_of_picture(options, {}, assets.scene).camera;
+    const Camera camera = camera_of_picture(options, assets.scene).camera;
     const DrawFrame lesson = frame_of_lesson(arguments.lesson, options, assets);
     const GlScene gl(assets, camera, options, arguments.gl);
 

@@ -145,7 +145,7 @@ struct Parts {
 Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets& assets,
                             ThreadPool& pool, Counters& total, Parts& parts, bool again = true) {
     const auto& [scene, textures, normal_maps, bounds, lit_by, plan, hulls, is_on_paper] = assets;
-    const Camera camera = camera_of_picture(options, options.scene.camera, scene).camera;
+    const Camera camera = camera_of_picture(options, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     WorkerCounters<Counters> counters_of(pool.size());
     const WideDrawing<Counters> wide = drawing_of_width(options.wide.width);

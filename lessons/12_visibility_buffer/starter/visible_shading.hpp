@@ -35,7 +35,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
     const bool is_masked = plan[Effect::mask];
     std::optional<TriangleInputs> inputs;  // of the opacity, where it is not 1
     if (is_masked || plan.is_glass)
-        inputs.emplace(triangle_inputs<Permutation{}>(frame, projected));
+        inputs.emplace(triangle_inputs(Permutation{}, frame, projected));
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         counters.add(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
@@ -83,7 +83,7 @@ struct FragmentToShade {
 template <Permutation with, typename Maps, typename CounterPolicy>
 void shade_fragments(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                      std::span<FragmentToShade> fragments, CounterPolicy& counters) {
-    TriangleInputs triangle = triangle_inputs<with>(frame, projected);
+    TriangleInputs triangle = triangle_inputs(with, frame, projected);
     for (auto& [fragment, on_screen] : fragments) {
         counters.add(Counter::fragments_shaded);
         counters.add(Counter::blended_fragments);
