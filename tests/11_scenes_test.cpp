@@ -17,6 +17,7 @@
 
 #include "11_scenes/blending.hpp"
 #include "11_scenes/permutation.hpp"
+#include "11_scenes/scene_assets.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_lights.hpp"
 #include "11_scenes/scene_plan.hpp"

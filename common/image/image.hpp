@@ -74,8 +74,8 @@ class Image {
     const Pixel& operator[](ivec2 p) const { return pixels_[index(p)]; }
 
     /// All pixels, row by row.
-    std::span<Pixel> pixels() { return pixels_; }
-    std::span<const Pixel> pixels() const { return pixels_; }
+    std::span<Pixel> pixels() { return {pixels_.data(), pixels_.size()}; }
+    std::span<const Pixel> pixels() const { return {pixels_.data(), pixels_.size()}; }
 
     bool operator==(const Image&) const = default;
 

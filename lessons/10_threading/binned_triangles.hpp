@@ -47,10 +47,10 @@ class TriangleBatch {
         }
         for (std::size_t tile = 1; tile < begin_.size(); ++tile) begin_[tile] += begin_[tile - 1];
         indices_.resize(begin_.back());
-        auto next_large = large_.rbegin();
+        std::size_t large_left = large_.size();
         for (std::size_t i = triangles.size(); i-- > 0;)
-            if (next_large != large_.rend() && *next_large == i)
-                ++next_large;
+            if (large_left > 0 && large_[large_left - 1] == i)
+                --large_left;
             else
                 for_each_tile(triangles[i], [&](std::size_t tile) {
                     indices_[--begin_[tile]] = static_cast<std::uint32_t>(i);

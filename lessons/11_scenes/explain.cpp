@@ -6,14 +6,16 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <string_view>
 
 namespace rasterbook {
 
 namespace {
 
 /// Adds a word to a list in words.
-void add_word(std::string& words, const std::string& word) {
-    words += (words.empty() ? "" : ", ") + word;
+void add_word(std::string& words, std::string_view word) {
+    if (!words.empty()) words += ", ";
+    words += word;
 }
 
 }  // namespace
@@ -33,12 +35,12 @@ void explain(const Scene& scene, const ScenePlan& plan, const std::string& camer
         const MaterialPlan& material = plan.materials[i];
         if (!material.is_seen) continue;
         std::string on;
-        std::map<std::string, std::string> off;  // by the reason
+        std::map<std::string_view, std::string> off;  // by the reason
         for (std::size_t e = 0; e < effect_count; ++e)
             if (material[static_cast<Effect>(e)])
-                add_word(on, std::string(effect_names[e]));
+                add_word(on, effect_names[e]);
             else
-                add_word(off[material.why_not[e]], std::string(effect_names[e]));
+                add_word(off[material.why_not[e]], effect_names[e]);
         const std::string& name = scene.materials[i].name;
         out << "  " << (name.empty() ? "(no name)" : name) << ": "
             << (on.empty() ? "its own colour" : on) << "\n    skipped:";

@@ -2,18 +2,31 @@
 #include "11_scenes/scene_assets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "07_toon/outline.hpp"
 #include "08_normal_maps/assets.hpp"
+#include "11_scenes/scene_lights.hpp"
 
 namespace rasterbook {
 
 namespace {
+
+/// The material of a toon material's outline: unlit, of its colour.
+Material outline_material(const Material& of) {
+    Material material;
+    material.name = "outline of " + of.name;
+    material.illumination = 0;
+    material.diffuse = material.ambient = of.toon->outline_color;
+    return material;
+}
 
 /// Whether all that is seen of a scene has toon materials, and some of it an outline.
 bool is_all_toon(const Scene& scene) {
@@ -59,6 +72,77 @@ void leave_out_shadows(SceneLights& lit_by, const ShadowBounds& bounds, int shad
 }
 
 }  // namespace
+
+SceneLights lights_of(const Scene& scene, LightKind key, std::vector<std::string>& warnings) {
+    SceneLights all;
+    const Bounds bounds = scene.bounds();
+    if (scene.lights.empty()) {
+        const std::array raking = raking_lights(key, bounds);
+        all.lights.assign(raking.begin(), raking.end());
+        all.names = {"key light of the lesson", "sky of the lesson"};
+        std::copy(light_casts.begin(), light_casts.end(), all.casts.begin());
+        return all;
+    }
+    all.are_of_file = true;
+    all.exposure = exposure_of(scene.lights, bounds);
+    for (SceneLight light : scene.lights) {
+        if (all.lights.size() == max_lights) {
+            warnings.push_back("light \"" + light.name + "\" is left out: no more than " +
+                               std::to_string(max_lights) + " lights are drawn with");
+            continue;
+        }
+        all.casts[all.lights.size()] = true;
+        light.color *= all.exposure;
+        all.lights.push_back(light_of(light, bounds.radius()));
+        all.names.push_back(light.name);
+    }
+    return all;
+}
+
+Scene with_outline_materials(Scene scene) {
+    const std::size_t count = scene.materials.size();
+    for (std::size_t i = 0; i < count; ++i)
+        if (has_outline(scene.materials[i]))
+            scene.materials.push_back(outline_material(scene.materials[i]));
+    return scene;
+}
+
+std::size_t first_outline_material(std::span<const Material> materials) {
+    return materials.size() -
+           static_cast<std::size_t>(std::count_if(materials.begin(), materials.end(), has_outline));
+}
+
+std::vector<OutlineHull> outline_hulls(const Scene& scene) {
+    constexpr std::uint32_t none = 0;  // they come last, behind the scene's own materials
+    std::vector<std::uint32_t> outline_of(scene.materials.size(), none);
+    for (std::size_t i = 0, next = first_outline_material(scene.materials);
+         i < scene.materials.size(); ++i)
+        if (has_outline(scene.materials[i])) outline_of[i] = static_cast<std::uint32_t>(next++);
+    std::vector<OutlineHull> hulls;
+    for (const Mesh& mesh : scene.meshes) {
+        OutlineHull hull;
+        hull.widths.assign(mesh.positions.size(), 0.0f);
+        hull.on_screen.assign(mesh.positions.size(), false);
+        for (const Triangle& triangle : mesh.triangles) {
+            const std::uint32_t outline = outline_of[triangle.material];
+            if (outline == none) continue;
+            const auto& [a, b, c] = triangle.vertices;
+            const Vertex p{a.position}, q{b.position}, r{c.position};
+            hull.mesh.triangles.push_back({{p, r, q}, outline});
+            const ToonMaterial& look = *scene.materials[triangle.material].toon;
+            for (const Vertex vertex : {p, q, r}) {
+                hull.widths[vertex.position] = look.outline_width;
+                hull.on_screen[vertex.position] = look.outline == ToonMaterial::Outline::screen;
+            }
+        }
+        if (hull.mesh.triangles.empty()) continue;
+        hull.mesh.name = "outline of " + mesh.name;
+        hull.mesh.positions = hull.places = mesh.positions;
+        hull.normals = hull_normals(mesh);
+        hulls.push_back(std::move(hull));
+    }
+    return hulls;
+}
 
 ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
                      const NormalMaps& normal_maps, const PlanInputs& inputs) {

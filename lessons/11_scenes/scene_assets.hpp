@@ -3,6 +3,7 @@
 /// A scene of any file with all that it calls for. Introduced in lesson 11.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -13,18 +14,27 @@
 #include "04_mvp/clip.hpp"
 #include "05_textures/texture_variants.hpp"
 #include "06_phong/effects.hpp"
+#include "06_phong/light.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/split.hpp"
-#include "11_scenes/scene_lights.hpp"
 #include "11_scenes/scene_plan.hpp"
 #include "11_scenes/toon_material.hpp"
 #include "common/app/counters.hpp"
 #include "common/image/backdrop.hpp"
 
 namespace rasterbook {
+
+/// All lights that a scene is drawn in.
+struct SceneLights {
+    std::vector<Light> lights;  ///< At most max_lights.
+    std::vector<std::string> names;
+    std::array<bool, max_lights> casts{};  ///< Whether each casts shadows.
+    bool are_of_file = false;              ///< Else those of lesson 09.
+    float exposure = 1;                    ///< By which the file's have been multiplied.
+};
 
 /// A scene, its lights, its plan and its outlines.
 struct SceneAssets {
@@ -37,6 +47,21 @@ struct SceneAssets {
     std::vector<OutlineHull> hulls;
     bool is_on_paper;  ///< All materials are toon ones, some with outlines: paper lies behind.
 };
+
+/// The file's lights; where it has none, the raking lights of lesson 09.
+///
+/// @param key       Of these, the kind of the first.
+/// @param warnings  Takes the names of the lights beyond max_lights: they are left out.
+SceneLights lights_of(const Scene& scene, LightKind key, std::vector<std::string>& warnings);
+
+/// Adds the materials of outlines to a scene: behind all of its own, in their order.
+Scene with_outline_materials(Scene scene);
+
+/// The first of these materials: those before it are the scene's own.
+std::size_t first_outline_material(std::span<const Material> materials);
+
+/// The hulls of all meshes of a scene that has been given outlines' materials.
+std::vector<OutlineHull> outline_hulls(const Scene& scene);
 
 /// Makes of a scene, as its file has it, all that is drawn.
 ///

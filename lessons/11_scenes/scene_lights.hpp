@@ -5,17 +5,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "06_phong/light.hpp"
 #include "07_toon/toon.hpp"
-#include "09_shadow_maps/shadows.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
@@ -69,46 +64,6 @@ inline float exposure_of(std::span<const SceneLight> lights, const Bounds& bound
     }
     if (!(brightest > 2)) return 1;
     return std::max(static_cast<float>(1 / brightest), std::numeric_limits<float>::min());
-}
-
-/// All lights that a scene is drawn in.
-struct SceneLights {
-    std::vector<Light> lights;  ///< At most max_lights.
-    std::vector<std::string> names;
-    std::array<bool, max_lights> casts{};  ///< Whether each casts shadows.
-    bool are_of_file = false;              ///< Else those of lesson 09.
-    float exposure = 1;                    ///< By which the file's have been multiplied.
-};
-
-/// The file's lights; where it has none, the raking lights of lesson 09.
-///
-/// @param key       Of these, the kind of the first.
-/// @param warnings  Takes the names of the lights beyond max_lights: they are left out.
-inline SceneLights lights_of(const Scene& scene, LightKind key,
-                             std::vector<std::string>& warnings) {
-    SceneLights all;
-    const Bounds bounds = scene.bounds();
-    if (scene.lights.empty()) {
-        const std::array raking = raking_lights(key, bounds);
-        all.lights.assign(raking.begin(), raking.end());
-        all.names = {"key light of the lesson", "sky of the lesson"};
-        std::copy(light_casts.begin(), light_casts.end(), all.casts.begin());
-        return all;
-    }
-    all.are_of_file = true;
-    all.exposure = exposure_of(scene.lights, bounds);
-    for (SceneLight light : scene.lights) {
-        if (all.lights.size() == max_lights) {
-            warnings.push_back("light \"" + light.name + "\" is left out: no more than " +
-                               std::to_string(max_lights) + " lights are drawn with");
-            continue;
-        }
-        all.casts[all.lights.size()] = true;
-        light.color *= all.exposure;
-        all.lights.push_back(light_of(light, bounds.radius()));
-        all.names.push_back(light.name);
-    }
-    return all;
 }
 
 }  // namespace rasterbook

@@ -4,10 +4,7 @@
 /// earlier lessons.
 #pragma once
 
-#include <functional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "05_textures/texture_variants.hpp"
 #include "06_phong/shading_variants.hpp"
@@ -29,33 +26,12 @@ constexpr Quality fast_quality{Filter::bilinear, 1024, 3, 1};
 constexpr Quality balanced_quality{Filter::trilinear, 2048, 3, 1};
 constexpr Quality exact_quality{Filter::trilinear, 4096, 3, 4};
 
+/// Options that only scenes have.
 struct SceneOptions {
     std::string camera;
     bool explain = false;
 
-    /// To be called before the other knobs are declared: what they say counts more than --quality.
-    ///
-    /// @param options  LessonOptions with TextureOptions `texture` and ShadowVariant `shadow`.
-    template <typename Options>
-    void declare(Knobs& knobs, Options& options) {
-        const auto choose = [&options](const Quality& quality) {
-            options.texture.filter = quality.filter;
-            options.shadow.size = quality.shadow_size;
-            options.shadow.pcf = quality.pcf;
-            if (options.samples_per_side == LessonOptions().samples_per_side)
-                options.samples_per_side = quality.samples_per_side;
-        };
-        knobs.choice("--quality", "balanced",
-                     {{"fast", [=] { choose(fast_quality); }},
-                      {"balanced", [=] { choose(balanced_quality); }},
-                      {"exact", [=] { choose(exact_quality); }}},
-                     "Sets --filter, --shadow-size, --pcf and --samples together");
-        knobs.text(
-            "--camera", camera, "NAME|NUMBER|orbit|fit",
-            "One of the file's cameras, or our own [the first one, if no orbit is asked for]");
-        knobs.flag("--explain", explain,
-                   "Say what is drawn, what is left out and why, and how long it takes");
-    }
+    void declare(Knobs& knobs);
 };
 
 /// All that this lesson's program can be asked for.
@@ -70,10 +46,8 @@ struct SceneRendererOptions : LessonOptions {
     ThreadOptions threads;
 
     SceneRendererOptions() { model = "bumpy.glb"; }
-    void declare(Knobs& knobs) {
-        scene.declare(knobs, *this);
-        declare_all(knobs, texture, shading, normal_map, shadow, threads);
-    }
+
+    void declare(Knobs& knobs);
 };
 
 }  // namespace rasterbook

@@ -6,9 +6,7 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "06_phong/effects.hpp"
@@ -23,17 +21,17 @@ constexpr std::array<std::string_view, effect_count> effect_names = {
 /// A material's effects. Where one does not run, why.
 struct MaterialPlan {
     EffectMask effects;
-    std::array<std::string, effect_count> why_not;
+    std::array<std::string_view, effect_count> why_not;
     bool is_seen = false;   ///< A triangle has it.
     bool is_glass = false;  ///< Blended, also without --all-effects.
     bool two_sided = false;
 
     bool operator[](Effect effect) const { return effects[effect]; }
 
-    /// @param reason  Why it does not run; of no meaning if it does.
-    void set(Effect effect, bool is_on, std::string reason) {
+    /// @param reason  Why it does not run; of no meaning if it does. A literal: it is not copied.
+    void set(Effect effect, bool is_on, const char* reason) {
         effects.set(effect, is_on);
-        why_not[static_cast<std::size_t>(effect)] = is_on ? std::string() : std::move(reason);
+        why_not[static_cast<std::size_t>(effect)] = is_on ? "" : reason;
     }
 };
 

@@ -5,17 +5,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "04_mvp/camera.hpp"
 #include "06_phong/light.hpp"
-#include "07_toon/outline.hpp"
 #include "07_toon/toon.hpp"
 #include "common/math/functions.hpp"
 #include "common/model/mesh.hpp"
@@ -62,66 +58,10 @@ struct OutlineHull {
     std::vector<bool> on_screen;        ///< Whether its width is in heights of the picture.
 };
 
-/// The material of a toon material's outline: unlit, of its colour.
-inline Material outline_material(const Material& of) {
-    Material material;
-    material.name = "outline of " + of.name;
-    material.illumination = 0;
-    material.diffuse = material.ambient = of.toon->outline_color;
-    return material;
-}
-
 /// Whether a material has an outline of its own.
 inline bool has_outline(const Material& material) {
     return material.toon && material.toon->outline != ToonMaterial::Outline::none &&
            material.toon->outline_width > 0;
-}
-
-/// Adds the materials of outlines to a scene: behind all of its own, in their order.
-inline Scene with_outline_materials(Scene scene) {
-    const std::size_t count = scene.materials.size();
-    for (std::size_t i = 0; i < count; ++i)
-        if (has_outline(scene.materials[i]))
-            scene.materials.push_back(outline_material(scene.materials[i]));
-    return scene;
-}
-
-/// The first of these materials: those before it are the scene's own.
-inline std::size_t first_outline_material(std::span<const Material> materials) {
-    return materials.size() -
-           static_cast<std::size_t>(std::count_if(materials.begin(), materials.end(), has_outline));
-}
-
-/// The hulls of all meshes of a scene that has been given outlines' materials.
-inline std::vector<OutlineHull> outline_hulls(const Scene& scene) {
-    std::map<std::size_t, std::uint32_t> outline_of;
-    for (std::size_t i = 0, next = first_outline_material(scene.materials);
-         i < scene.materials.size(); ++i)
-        if (has_outline(scene.materials[i])) outline_of[i] = static_cast<std::uint32_t>(next++);
-    std::vector<OutlineHull> hulls;
-    for (const Mesh& mesh : scene.meshes) {
-        OutlineHull hull;
-        hull.widths.assign(mesh.positions.size(), 0.0f);
-        hull.on_screen.assign(mesh.positions.size(), false);
-        for (const Triangle& triangle : mesh.triangles) {
-            const auto outline = outline_of.find(triangle.material);
-            if (outline == outline_of.end()) continue;
-            const auto& [a, b, c] = triangle.vertices;
-            const Vertex p{a.position}, q{b.position}, r{c.position};
-            hull.mesh.triangles.push_back({{p, r, q}, outline->second});
-            const ToonMaterial& look = *scene.materials[triangle.material].toon;
-            for (const Vertex vertex : {p, q, r}) {
-                hull.widths[vertex.position] = look.outline_width;
-                hull.on_screen[vertex.position] = look.outline == ToonMaterial::Outline::screen;
-            }
-        }
-        if (hull.mesh.triangles.empty()) continue;
-        hull.mesh.name = "outline of " + mesh.name;
-        hull.mesh.positions = hull.places = mesh.positions;
-        hull.normals = hull_normals(mesh);
-        hulls.push_back(std::move(hull));
-    }
-    return hulls;
 }
 
 /// A hull as a camera is to see it: each point is pushed along its normal, by the outline's width
