@@ -34,6 +34,7 @@ WRONG = {
     "int main() { for (volatile int i = 0;;) i = i + 1; }\n": "did not end within",
     "volatile int n = 1;\nint deeper(int i) { return deeper(i + n) + n; }\nint main() { return deeper(1); }\n": "",
     EVERYTHING: "",
+    "#include <vector>\nint main() { return std::vector<int>(3).at(4); }\n": "out_of_range: vector",
     "#include <memory>\n#include <vector>\nint main() { std::vector<std::unique_ptr<int>> all(1); auto more = all; }\n": "main.cpp:3:",
 }
 

@@ -6,6 +6,7 @@
 // functions that are exported here. One picture is drawn at a time.
 #include <algorithm>
 #include <charconv>
+#include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #include <functional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -261,4 +263,15 @@ void LoadBudget::check_overdraw(double, ivec2, const std::filesystem::path&) con
 extern "C" void* __cxa_allocate_exception(std::size_t size) { return std::malloc(size); }
 extern "C" [[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)(void*)) {
     fail(static_cast<std::exception*>(thrown)->what());
+}
+
+// What the library itself would throw, in what the compiler of a page makes, such as "out_of_range
+// was thrown ... with message "%s"".
+void std::__libcpp_verbose_abort(const char* format, ...) {
+    const std::string_view text(format);
+    std::string said(text.substr(0, text.find(" was thrown")));
+    std::va_list arguments;
+    va_start(arguments, format);
+    if (text.find("%s") != text.npos) said.append(": ").append(va_arg(arguments, const char*));
+    fail(said.c_str());
 }

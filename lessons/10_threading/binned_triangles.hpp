@@ -59,7 +59,7 @@ class TriangleBatch {
 
     /// Indices into `triangles` of those in a tile's list, ascending.
     std::span<const std::uint32_t> of(std::size_t tile) const {
-        return {indices_.data() + begin_[tile], indices_.data() + begin_[tile + 1]};
+        return {indices_.data() + begin_[tile], begin_[tile + 1] - begin_[tile]};
     }
 
     /// How many triangles may reach into a tile.
@@ -161,7 +161,7 @@ class BinnedTriangles {
     /// @param counters   One for each worker of the pool.
     /// @throws InputError  When drawing them would take more than the scene's budget has.
     template <typename Pool, typename CounterPolicy>
-    BinnedTriangles(Pool& pool, const Scene& scene, std::span<const Mesh* const> meshes,
+    BinnedTriangles(Pool& pool, const Scene& scene, const std::vector<const Mesh*>& meshes,
                     const mat4& clip_from_world, const Tiling& tiling, Culling culling,
                     WorkerCounters<CounterPolicy>& counters)
         : BinnedTriangles(
@@ -174,7 +174,7 @@ class BinnedTriangles {
     ///                   triangles of it are taken.
     /// @param set_up     Does what project_triangles() does.
     template <typename Pool, typename Takes, typename CounterPolicy>
-    BinnedTriangles(Pool& pool, const Scene& scene, std::span<const Mesh* const> meshes,
+    BinnedTriangles(Pool& pool, const Scene& scene, const std::vector<const Mesh*>& meshes,
                     const mat4& clip_from_world, const Tiling& tiling, Culling culling,
                     const Takes& takes, WorkerCounters<CounterPolicy>& counters,
                     ProjectTriangles* set_up = project_triangles) {
@@ -198,20 +198,20 @@ class BinnedTriangles {
             std::vector<ProjectedTriangle>& triangles = batches[batch].triangles;
             triangles.reserve(begin_of_batch(batch + 1, first_triangle.back()) -
                               begin_of_batch(batch, first_triangle.back()));
-            for_each_run(
-                first_triangle, batch, [&](std::size_t mesh, std::size_t i, std::size_t end) {
-                    const std::span<const Triangle> of_mesh = meshes[mesh]->triangles;
-                    for (std::size_t next = i; i < end; i = next) {
-                        const std::size_t material = of_mesh[i].material;
-                        while (next < end && of_mesh[next].material == material) ++next;
-                        if (!takes(material)) continue;
-                        counters[worker].add(Counter::triangles_in, next - i);
-                        counters[worker].add(Counter::triangles_culled_by_facing,
-                                             set_up(*meshes[mesh], of_mesh.subspan(i, next - i),
-                                                    &positions_clip[first_position[mesh]],
-                                                    tiling.size(), culling, triangles));
-                    }
-                });
+            for_each_run(first_triangle, batch,
+                         [&](std::size_t mesh, std::size_t i, std::size_t end) {
+                             const std::vector<Triangle>& of_mesh = meshes[mesh]->triangles;
+                             for (std::size_t next = i; i < end; i = next) {
+                                 const std::size_t material = of_mesh[i].material;
+                                 while (next < end && of_mesh[next].material == material) ++next;
+                                 if (!takes(material)) continue;
+                                 counters[worker].add(Counter::triangles_in, next - i);
+                                 counters[worker].add(Counter::triangles_culled_by_facing,
+                                                      set_up(*meshes[mesh], {&of_mesh[i], next - i},
+                                                             &positions_clip[first_position[mesh]],
+                                                             tiling.size(), culling, triangles));
+                             }
+                         });
             for (const ProjectedTriangle& projected : triangles)
                 work[batch] += drawing_work(projected.on_screen);
         });

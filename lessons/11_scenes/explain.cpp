@@ -21,7 +21,7 @@ void add_word(std::string& words, std::string_view word) {
 }  // namespace
 
 void explain(const Scene& scene, const ScenePlan& plan, const std::string& camera,
-             std::span<const std::string> lights, const Counters& counters, StepClock& clock) {
+             const std::vector<std::string>& lights, const Counters& counters, StepClock& clock) {
     clock.end();
     std::ostringstream out;
     std::size_t triangles = 0;

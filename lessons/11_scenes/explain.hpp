@@ -4,7 +4,6 @@
 #pragma once
 
 #include <chrono>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +48,6 @@ class StepClock {
 /// @param counters  Of the picture.
 /// @param clock     Its last step ends now.
 void explain(const Scene& scene, const ScenePlan& plan, const std::string& camera,
-             std::span<const std::string> lights, const Counters& counters, StepClock& clock);
+             const std::vector<std::string>& lights, const Counters& counters, StepClock& clock);
 
 }  // namespace rasterbook

@@ -250,7 +250,7 @@ std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera) {
     return outlines;
 }
 
-std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* const> meshes) {
+std::vector<Pass> passes_of(const ScenePlan& plan, const std::vector<const Mesh*>& meshes) {
     std::vector<Pass> passes;
     for (const auto& [is_blended, is_glass] :
          {std::pair{false, false}, {true, false}, {true, true}})

@@ -95,7 +95,7 @@ std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera);
 
 /// What may be seen of a scene and its outlines. Only the scene's own meshes are counted.
 template <typename CounterPolicy>
-std::vector<const Mesh*> seen_meshes(const Scene& scene, std::span<const Mesh> outlines,
+std::vector<const Mesh*> seen_meshes(const Scene& scene, const std::vector<Mesh>& outlines,
                                      const mat4& clip_from_world, CounterPolicy& counters) {
     std::vector<const Mesh*> meshes = meshes_in_view(scene, clip_from_world, counters);
     for (const Mesh& mesh : outlines)
@@ -121,7 +121,7 @@ struct Pass {
 /// The passes that a scene calls for: what is opaque first, as glass is drawn over it.
 ///
 /// @param meshes  Those in the camera's view: of the scene, and of outlines.
-std::vector<Pass> passes_of(const ScenePlan& plan, std::span<const Mesh* const> meshes);
+std::vector<Pass> passes_of(const ScenePlan& plan, const std::vector<const Mesh*>& meshes);
 
 /// The triangles of a picture, binned by passes.
 struct BinnedPasses {
@@ -134,9 +134,9 @@ struct BinnedPasses {
 /// @param counters  One for each worker of the pool.
 /// @param set_up    Does what project_triangles() does.
 template <typename Pool, typename CounterPolicy>
-BinnedPasses bin_passes(Pool& pool, const SceneAssets& assets, std::span<const Mesh* const> meshes,
-                        const mat4& clip_from_world, const Tiling& tiling,
-                        WorkerCounters<CounterPolicy>& counters,
+BinnedPasses bin_passes(Pool& pool, const SceneAssets& assets,
+                        const std::vector<const Mesh*>& meshes, const mat4& clip_from_world,
+                        const Tiling& tiling, WorkerCounters<CounterPolicy>& counters,
                         ProjectTriangles* set_up = project_triangles) {
     BinnedPasses binned;
     for (const Pass& pass : passes_of(assets.plan, meshes))
@@ -149,7 +149,7 @@ BinnedPasses bin_passes(Pool& pool, const SceneAssets& assets, std::span<const M
 }
 
 /// How many triangles of several passes may reach into a tile.
-inline std::size_t count_in(std::span<const BinnedTriangles> passes, std::size_t tile) {
+inline std::size_t count_in(const std::vector<BinnedTriangles>& passes, std::size_t tile) {
     std::size_t count = 0;
     for (const BinnedTriangles& pass : passes) count += pass.count_in(tile);
     return count;
