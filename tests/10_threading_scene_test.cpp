@@ -146,7 +146,7 @@ TEST(Threading, Eq10_7_ABatchListsItsTrianglesByTiles) {
                          {0.1f, -0.5f, 0},
                          {0.5f, 0.5f, 0}},
                         {{0, 1, 2}, {0, 3, 2}, {4, 3, 5}});
-    const std::array<const Mesh*, 1> meshes = {&mesh};
+    const std::vector<const Mesh*> meshes = {&mesh};
     const Tiling tiling(Split::tiles, {32, 16}, 1, 16);
     ThreadPool pool(1);
     WorkerCounters<NoCounters> counters(1);
@@ -173,7 +173,7 @@ TEST(Threading, HardCase_LargeTrianglesAreInNoTilesList) {
                                {1, -1, 0},
                                {-1, 1, 0}},
                               {{0, 1, 2}, {3, 4, 5}, {0, 1, 2}, {3, 4, 5}, {0, 1, 2}});
-    const std::array<const Mesh*, 1> meshes = {&mesh};
+    const std::vector<const Mesh*> meshes = {&mesh};
     const Tiling tiling(Split::tiles, {512, 512}, 1, 8);
     ThreadPool pool(1);
     WorkerCounters<NoCounters> counters(1);
