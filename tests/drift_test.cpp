@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -37,6 +38,27 @@ TEST(Drift, EveryLessonHasAllItsParts) {
             EXPECT_NE(readme.find(part), std::string::npos) << name << ": " << part;
         EXPECT_NE(front.find("lessons/" + name + "/README.md"), std::string::npos) << name;
     }
+}
+
+TEST(Drift, StartersHaveTheFunctionsOfTheirHeaders) {
+    // Of the file or of a class, on one line: what the course's other files call must be there.
+    const std::regex function(
+        "(?: {4})?(?:[\\w:<>,*&]+ )*[\\w:<>,*&]+[ *&]+(\\w+)\\([^;={]*\\)(?: const)? \\{.*");
+    std::size_t count = 0;
+    for (const std::string& name : lessons())
+        for (const auto& starter : fs::directory_iterator(root / "lessons" / name / "starter")) {
+            const fs::path header = root / "lessons" / name / starter.path().filename();
+            const std::string text = read_text(starter.path());
+            std::istringstream lines(read_text(header));
+            std::smatch found;
+            for (std::string line; std::getline(lines, line);) {
+                if (!std::regex_match(line, found, function)) continue;
+                ++count;
+                EXPECT_NE(text.find(found.str(1) + '('), text.npos)
+                    << starter.path() << " has no " << found[1] << "()";
+            }
+        }
+    EXPECT_GT(count, 100u);
 }
 
 TEST(Drift, NoLessonIncludesALaterOne) {

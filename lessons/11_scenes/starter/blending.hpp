@@ -52,6 +52,7 @@ class TransparentFragments {
     void add(const TransparentFragment& fragment) { fragments_.push_back(fragment); }
 
     bool empty() const { return fragments_.empty(); }
+    const std::vector<TransparentFragment>& fragments() const { return fragments_; }
 
     /// Blends all of them over the picture (Eq. 11.9). Of two fragments at the same depth, the
     /// one that was added first lies on top: it is the first that stays in the depth buffer, too.
