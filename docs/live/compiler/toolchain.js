@@ -192,8 +192,9 @@ export class Toolchain {
     const soon = changed.filter((source) => !isOfProbe(source)), later = changed.filter(isOfProbe);
     // From lesson 06 on there is much to draw: what draws is optimised, apart from the rest. From lesson 11 on, that is not main.cpp.
     const draws = (source) => (source === main ? isLesson && lesson >= "06" && lesson < "11" : /(shaders|shadows)\.cpp$/.test(source));
-    const isLikeMain = (source) => draws(source) === draws(main);
-    const parts = [[...soon.filter(isLikeMain), main], soon.filter((source) => !isLikeMain(source))]
+    const unlikeMain = soon.filter((source) => draws(source) !== draws(main));
+    const beside = unlikeMain.length > 0 ? unlikeMain : soon;  // on the other core
+    const parts = [[...soon.filter((source) => !beside.includes(source)), main], beside]
       .filter((sources) => sources.length > 0)
       .map((sources, i) => object(this.objects[i], sources, draws(sources[0]) ? "-O1" : "-O0"));
     const all = Promise.all(parts);
