@@ -206,32 +206,52 @@ inline std::optional<vec3> flat_color(const Frame<ShadowMapsOnDemand>& frame,
     return unlit(surface_color(frame.assets.scene.materials[projected.triangle.material]));
 }
 
+/// Triangles of one colour that follow each other.
+struct FlatTriangles {
+    TriangleId first, end;
+    vec3 color;
+};
+
 /// Draws the colours of a tile if each of its triangles has one: then there is nothing to compute.
 ///
 /// @return  Whether they have.
-template <typename CounterPolicy>
+template <typename F, typename CounterPolicy>
 bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible,
                CounterPolicy& counters) {
-    std::vector<vec3> color_of;  // by id
+    std::vector<FlatTriangles> flat;
+    std::vector<std::size_t> flat_of;  // by id
     for (const ProjectedTriangle* before = nullptr;
          const ProjectedTriangle* triangle : visible.triangles()) {
+        const auto id = static_cast<TriangleId>(flat_of.size());
         if (before == nullptr || !are_alike(*before, *triangle)) {
             const std::optional<vec3> color = flat_color(frame, *triangle);
             if (!color) return false;
-            color_of.push_back(*color);
-        } else {
-            color_of.push_back(color_of.back());
+            flat.push_back({id, id, *color});
         }
+        flat.back().end = id + 1;
+        flat_of.push_back(flat.size() - 1);
         before = triangle;
     }
-    if (color_of.empty()) return true;
+    constexpr int N = width_of<F>;
     std::uint64_t count = 0;
     const auto [tile, row_step] = visible.tile();
-    for (int y = tile.first.y; y <= tile.last.y; y += row_step) {
-        const TriangleId* id = visible.ids_from({tile.first.x, y});
-        vec3* pixel = &frame.color[{tile.first.x, y}];
-        for (int x = tile.first.x; x <= tile.last.x; ++x, ++id, ++pixel)
-            if (*id != no_triangle) *pixel = color_of[*id], ++count;
+    const int width = tile.last.x - tile.first.x + 1;
+    for (int y = tile.first.y; !flat.empty() && y <= tile.last.y; y += row_step) {
+        const TriangleId* const ids = visible.ids_from({tile.first.x, y});
+        vec3* const pixels = &frame.color[{tile.first.x, y}];
+        for (int x = 0; x < width;) {
+            if (ids[x] == no_triangle) {
+                ++x;
+                continue;
+            }
+            const auto& [first, end, color] = flat[flat_of[ids[x]]];
+            if (are_within<N>(ids + x, first, end)) {  // behind a row there is no triangle
+                fill<F>(pixels + x, N, color);
+                x += N, count += N;
+            } else {
+                pixels[x++] = color, ++count;
+            }
+        }
     }
     counters.add(Counter::fragments_shaded, count);
     return true;
@@ -241,8 +261,8 @@ bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible,
 template <typename F, typename CounterPolicy>
 void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible, Show show,
                    HeatMap& heat, CounterPolicy& counters) {
-    if (width_of<F> > 1 && show == Show::picture && fill_flat(frame, visible, counters))
-        return visible.clear();
+    if constexpr (width_of<F> > 1)
+        if (show == Show::picture && fill_flat<F>(frame, visible, counters)) return visible.clear();
     std::vector<VisibleTriangle> triangles;
     visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelRun> runs) {
         triangles.push_back({&triangle, runs});

@@ -133,12 +133,12 @@ glm::vec<4, Floats<N>> sample_bilinear(const TextureLevel& level, Floats<N> x, F
          mean(std::integral_constant<int, 2>()), mean(std::integral_constant<int, 3>())});
 }
 
-/// Asks memory for most of the texels that sample_bilinear() would read, and waits for none.
+/// Asks memory for many of the texels that sample_bilinear() would read, and waits for none.
 template <int N>
 void prefetch_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
     const Ints<N> at = texels_around(level, x, y).upper_left;
     const vec4* const upper = level.texels.pixels().data();
-    for (int i = 0; i < N; i += 2) {  // a cache line has four texels of a row
+    for (int i = 0; i < N; i += 4) {  // a cache line has four texels of a row
         __builtin_prefetch(upper + at[i]);
         __builtin_prefetch(upper + at[i] + level.texels.size().x);
     }
@@ -182,18 +182,15 @@ template <int N>
     const F x_ahead = clamp(x + F(N) * uv.ddx.x, F(0.0f), F(1.0f));
     const F y_ahead = clamp(y - F(N) * uv.ddx.y, F(0.0f), F(1.0f));
     if (filter == Filter::bilinear) {
+        const glm::vec<4, F> color = sample_bilinear(texture.levels[0], x, y);
         prefetch_bilinear(texture.levels[0], x_ahead, y_ahead);
-        return sample_bilinear(texture.levels[0], x, y);
+        return color;
     }
     const F last(static_cast<float>(texture.levels.size() - 1));
     const F found = level_of_detail<N>(uv.ddx, uv.ddy, texture.levels[0].size);
     const F level = select(last < found, last, found);
     const Ints<N> finer = truncated(level);
     const F share = level - to_floats(finer);
-    const auto of_lane_0 = static_cast<std::size_t>(finer[0]);  // and of most others
-    prefetch_bilinear(texture.levels[of_lane_0], x_ahead, y_ahead);
-    if (of_lane_0 + 1 < texture.levels.size())
-        prefetch_bilinear(texture.levels[of_lane_0 + 1], x_ahead, y_ahead);
     glm::vec<4, F> color(F(0.0f));
     // All pixels between the same two levels together: mostly there are no others.
     for (Mask<N> left = first_lanes<F>(N); any_of(left);) {
@@ -207,6 +204,11 @@ template <int N>
         for (int c = 0; c < 4; ++c) color[c] = select(together, mean[c], color[c]);
         left = left & !together;
     }
+    // Asked for last: what is needed now must not wait for it.
+    const auto of_lane_0 = static_cast<std::size_t>(finer[0]);  // and of most others
+    prefetch_bilinear(texture.levels[of_lane_0], x_ahead, y_ahead);
+    if (of_lane_0 + 1 < texture.levels.size())
+        prefetch_bilinear(texture.levels[of_lane_0 + 1], x_ahead, y_ahead);
     return color;
 }
 

@@ -61,9 +61,11 @@ struct WideEdges {
 /// that the walk goes beyond its box: 100 * (131 + 100) * 65536 < 2^31.
 constexpr int pixels_in_32_bits = 100;
 
-/// Visits the pixels of a box that a triangle covers, N of a row at a time.
+/// Visits the pixels of a box that a triangle covers, N of a row at a time. Always inlined: then
+/// `emit` keeps in registers what it would otherwise load for each row.
 template <typename Whole, int N, typename Emit>
-void fill_box(std::array<EdgeWalk, 3> edges, float per_area, const PixelBox& box, Emit&& emit) {
+[[gnu::always_inline]] inline void fill_box(std::array<EdgeWalk, 3> edges, float per_area,
+                                            const PixelBox& box, Emit&& emit) {
     using F = Floats<N>;
     const Vec3<F> least(vec3(edges[0].least, edges[1].least, edges[2].least));
     for (int y = box.first.y; y <= box.last.y; ++y) {

@@ -39,6 +39,13 @@ inline auto shuffled(V a, V b, Place) {
     }(std::make_integer_sequence<int, n>());
 }
 
+/// Half of a vector's N elements: the first ones, 0, or the last ones, 1. It stays in a register;
+/// with std::memcpy, g++ would store the whole and load the half.
+template <int which, int N, typename V>
+inline auto half(V all) {
+    return shuffled<N / 2>(all, all, [](int i) constexpr { return which * (N / 2) + i; });
+}
+
 /// How many floats a register of this processor holds. With this many lanes, the peak of Eq. 13.6
 /// is highest.
 #if defined(__AVX512F__)
@@ -109,17 +116,13 @@ inline Ints<N> min(Ints<N> a, Ints<N> b) {
     return select(a < b, a, b);
 }
 
-/// The least of all numbers: halves of halves, as any_of() takes them.
+/// The least of all numbers.
 template <int N>
 inline std::int32_t least_of(Ints<N> x) {
-    if constexpr (N == 1) {
+    if constexpr (N == 1)
         return x[0];
-    } else {
-        Ints<N / 2> low, high;
-        std::memcpy(&low, &x, sizeof low);
-        std::memcpy(&high, reinterpret_cast<const char*>(&x) + sizeof low, sizeof high);
-        return least_of(min(low, high));
-    }
+    else
+        return least_of(min(Ints<N / 2>(half<0, N>(x.lanes)), Ints<N / 2>(half<1, N>(x.lanes))));
 }
 template <int N>
 inline std::int32_t greatest_of(Ints<N> x) {
@@ -296,6 +299,14 @@ inline void write_where(Mask<N> mask, std::uint32_t* to, std::uint32_t number) {
     std::memcpy(&before, to, sizeof before);
     const Ints<N> after = select(mask, Ints<N>(static_cast<std::int32_t>(number)), before);
     std::memcpy(to, &after, sizeof after);
+}
+
+/// Whether N numbers are all at least `first` and below `end`.
+template <int N>
+inline bool are_within(const std::uint32_t* numbers, std::uint32_t first, std::uint32_t end) {
+    Vector<std::uint32_t, N> all;
+    std::memcpy(&all, numbers, sizeof all);
+    return all_of(Mask<N>{all - first < end - first});
 }
 
 /// The number of one lane.

@@ -58,9 +58,11 @@ struct WideEdges {
 /// that the walk goes beyond its box: 100 * (131 + 100) * 65536 < 2^31.
 constexpr int pixels_in_32_bits = 100;
 
-/// Visits the pixels of a box that a triangle covers, N of a row at a time.
+/// Visits the pixels of a box that a triangle covers, N of a row at a time. Always inlined: then
+/// `emit` keeps in registers what it would otherwise load for each row.
 template <typename Whole, int N, typename Emit>
-void fill_box(std::array<EdgeWalk, 3> edges, float per_area, const PixelBox& box, Emit&& emit) {
+[[gnu::always_inline]] inline void fill_box(std::array<EdgeWalk, 3> edges, float per_area,
+                                            const PixelBox& box, Emit&& emit) {
     using F = Floats<N>;
     // TODO: step 2: the same by WideEdges, N pixels at a time. A lane is covered where all three
     // are at least their `least` (Eq. 13.2), and where its pixel is in the box. Emit each N pixels
