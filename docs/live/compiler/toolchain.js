@@ -344,7 +344,8 @@ function linkMessages(log) {
 function outcome(text, ended) {
   const said = text.split("\x01").slice(1).map((part) => part.match(/^(\w+) (\S+)\n([^]*)$/)).filter(Boolean);
   const of = (kind) => said.filter(([, is]) => is === kind);
-  const inOrder = of("failed").sort(([, , a], [, , b]) => a.localeCompare(b, "en", { numeric: true }));
+  const place = ([, , name, text]) => `${text.match(/^To read: .*?\.md, (.*)$/m)?.[1] ?? ""}~${name}`;  // as ./tests/run sorts them
+  const inOrder = of("failed").sort((a, b) => place(a).localeCompare(place(b), "en", { numeric: true }));
   const running = of("running").at(-1)?.[2];
   const finished = new Set([...of("passed"), ...of("failed")].map(([, , name]) => name));
   let first = inOrder.length > 0 ? { text: inOrder[0][3].trimEnd() } : null;
