@@ -39,8 +39,10 @@ inline auto shuffled(V a, V b, Place) {
     }(std::make_integer_sequence<int, n>());
 }
 
-/// Half of a vector's N elements: the first ones, 0, or the last ones, 1. It stays in a register;
-/// with std::memcpy, g++ would store the whole and load the half.
+/// Half of a vector of N elements. It stays in a register; with std::memcpy, g++ would store the
+/// whole and load the half.
+///
+/// @tparam which  0: the first half; 1: the second one.
 template <int which, int N, typename V>
 inline auto half(V all) {
     return shuffled<N / 2>(all, all, [](int i) constexpr { return which * (N / 2) + i; });
