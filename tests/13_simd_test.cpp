@@ -601,27 +601,28 @@ TEST(Simd, Eq13_2_EdgeFunctionsOfTheWorkedExample) {
     constexpr std::array next = {-16, 0, 16};
     const auto check = [&](auto whole) {
         using Whole = decltype(whole);
-        WideEdges<Whole, 4> wide(edges, 0);
+        WideEdges<Whole> wide(edges, 0);
         for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t l = 0; l < 4; ++l)
-                EXPECT_EQ(static_cast<double>(wide.at[i][l]) / 65536, expected.at(i).at(l))
+            for (int l = 0; l < 4; ++l) {
+                EXPECT_EQ(wide.at[i][l] / 65536.0, expected.at(i).at(static_cast<std::size_t>(l)))
                     << "edge function " << i << " at the pixel (" << 4 + l
                     << ", 1), in square pixels";
-            EXPECT_EQ(static_cast<double>(wide.to_next_pixels[i]) / 65536, next.at(i))
-                << "what is added to edge function " << i << " for the next four pixels";
+                EXPECT_EQ(wide.to_next_pixels[i][l] / 65536.0, next.at(i))
+                    << "what is added to edge function " << i << " for the next four pixels";
+            }
         }
         wide.advance();
-        const WideEdges<Whole, 4> from_column_4(edges, 4);
+        const WideEdges<Whole> from_column_4(edges, 4);
         for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t l = 0; l < 4; ++l) {
-                EXPECT_EQ(static_cast<double>(wide.at[i][l]) / 65536,
-                          expected.at(i).at(l) + next.at(i))
+            for (int l = 0; l < 4; ++l) {
+                EXPECT_EQ(wide.at[i][l] / 65536.0,
+                          expected.at(i).at(static_cast<std::size_t>(l)) + next.at(i))
                     << "edge function " << i << ", four pixels to the right";
                 EXPECT_EQ(from_column_4.at[i][l], wide.at[i][l])
                     << "edge function " << i << ", begun four pixels to the right";
             }
     };
-    check(std::int32_t{}), check(double{});
+    check(Ints<4>{}), check(Doubles<4>{});
     int vectors = 0;
     fill_triangle<Floats<4>>(
         triangle, first, {7, 1}, [&](ivec2 pixel, Mask<4> covered, const Vec3<Floats<4>>& at) {
@@ -730,9 +731,9 @@ TEST(Simd, Eq13_2_HardCase_TheLargestTrianglesOf32BitsDoNotOverflow) {
                                             EdgeWalk(v[0], v[1], winding, box.first)};
         const auto pixels_by = [&]<typename Whole>(Whole) {
             return pixels_of<Floats<16>>(
-                [&](auto&& emit) { fill_box<Whole, 16>(edges, 1.0f, box, emit); });
+                [&](auto&& emit) { fill_box<Whole>(edges, 1.0f, box, emit); });
         };
-        ASSERT_TRUE(are_the_same(pixels_by(std::int32_t{}), pixels_by(double{})))
+        ASSERT_TRUE(are_the_same(pixels_by(Ints<16>{}), pixels_by(Doubles<16>{})))
             << "in 32 bits, and in doubles (" << k << ")";
     }
     EXPECT_GT(greatest, 850'000'000) << "the largest edge function";

@@ -93,6 +93,8 @@ inline bool all_of(Mask<N> mask) {
 /// N whole numbers of 32 bits.
 template <int N>
 struct Ints {
+    using Number = std::int32_t;
+    static constexpr int width = N;
     Vector<std::int32_t, N> lanes;
 
     Ints() = default;
@@ -105,6 +107,7 @@ struct Ints {
     friend Ints operator+(Ints a, Ints b) { return {a.lanes + b.lanes}; }
     friend Ints operator-(Ints a, Ints b) { return {a.lanes - b.lanes}; }
     friend Ints operator*(Ints a, Ints b) { return {a.lanes * b.lanes}; }
+    Ints& operator+=(Ints b) { return *this = *this + b; }
     friend Mask<N> operator<(Ints a, Ints b) { return {a.lanes < b.lanes}; }
     friend Mask<N> operator==(Ints a, Ints b) { return {a.lanes == b.lanes}; }
 };
@@ -221,6 +224,35 @@ inline FloatParts<Floats<N>> float_parts(Floats<N> x) {
 template <int N>
 inline Floats<N> two_to_the(Floats<N> n) {
     return {std::bit_cast<Vector<float, N>>((truncated(n).lanes + 127) << 23)};
+}
+
+/// N doubles, in two halves: each fits into a register if N floats do. What is wider, g++ keeps in
+/// memory.
+template <int N>
+struct Doubles {
+    using Number = double;
+    static constexpr int width = N;
+    using Half = Vector<double, N / 2>;
+    Half low, high;
+
+    Doubles() = default;
+    Doubles(Half of_low, Half of_high) : low(of_low), high(of_high) {}
+    explicit Doubles(double x) : low(x - Half{}), high(low) {}
+    explicit Doubles(Ints<N> x)
+        : low(__builtin_convertvector(half<0, N>(x.lanes), Half)),
+          high(__builtin_convertvector(half<1, N>(x.lanes), Half)) {}
+
+    double operator[](int lane) const { return lane < N / 2 ? low[lane] : high[lane - N / 2]; }
+
+    friend Doubles operator+(Doubles a, Doubles b) { return {a.low + b.low, a.high + b.high}; }
+    friend Doubles operator*(Doubles a, Doubles b) { return {a.low * b.low, a.high * b.high}; }
+    Doubles& operator+=(Doubles b) { return *this = *this + b; }
+};
+template <int N>
+inline Floats<N> to_floats(Doubles<N> x) {
+    using Half = Vector<float, N / 2>;
+    return {shuffled<N>(__builtin_convertvector(x.low, Half), __builtin_convertvector(x.high, Half),
+                        [](int i) constexpr { return i; })};
 }
 
 /// The numbers 0, 1, 2 ...

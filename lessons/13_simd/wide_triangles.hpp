@@ -27,20 +27,23 @@ namespace rasterbook {
 
 /// The three edge functions of a triangle at N pixels of a row (Eq. 13.2).
 ///
-/// @tparam Whole  Holds all of these whole numbers exactly: std::int32_t for small triangles,
-///                double for others.
-template <typename Whole, int N>
+/// @tparam Whole  Holds all of these whole numbers exactly: Ints<N> for small triangles, Doubles<N>
+///                for others.
+template <typename Whole>
 struct WideEdges {
-    std::array<Vector<Whole, N>, 3> at;  ///< Inside > 0.
-    std::array<Whole, 3> to_next_pixels{};
+    static constexpr int N = Whole::width;
+    std::array<Whole, 3> at;  ///< Inside > 0.
+    std::array<Whole, 3> to_next_pixels;
 
     /// @param column  Of the first pixel, counted from where the edges are.
     WideEdges(const std::array<EdgeWalk, 3>& edges, std::int64_t column) {
-        const auto lanes = __builtin_convertvector(lane_numbers<N>().lanes, Vector<Whole, N>);
+        const auto in_all_lanes = [](std::int64_t x) {
+            return Whole(static_cast<typename Whole::Number>(x));
+        };
         for (std::size_t i = 0; i < 3; ++i) {
-            at[i] = static_cast<Whole>(edges[i].value + column * edges[i].step_x) +
-                    lanes * static_cast<Whole>(edges[i].step_x);
-            to_next_pixels[i] = static_cast<Whole>(N * edges[i].step_x);
+            at[i] = in_all_lanes(edges[i].value + column * edges[i].step_x) +
+                    Whole(lane_numbers<N>()) * in_all_lanes(edges[i].step_x);
+            to_next_pixels[i] = in_all_lanes(N * edges[i].step_x);
         }
     }
 
@@ -50,10 +53,7 @@ struct WideEdges {
 
     /// Rounding keeps the order: what is at least 0 or 1 stays so.
     Vec3<Floats<N>> as_floats() const {
-        const auto as_float = [](auto whole) {
-            return Floats<N>(__builtin_convertvector(whole, Vector<float, N>));
-        };
-        return {as_float(at[0]), as_float(at[1]), as_float(at[2])};
+        return {to_floats(at[0]), to_floats(at[1]), to_floats(at[2])};
     }
 };
 
@@ -63,17 +63,18 @@ constexpr int pixels_in_32_bits = 100;
 
 /// Visits the pixels of a box that a triangle covers, N of a row at a time. Always inlined: then
 /// `emit` keeps in registers what it would otherwise load for each row.
-template <typename Whole, int N, typename Emit>
+template <typename Whole, typename Emit>
 [[gnu::always_inline]] inline void fill_box(std::array<EdgeWalk, 3> edges, float per_area,
                                             const PixelBox& box, Emit&& emit) {
+    constexpr int N = Whole::width;
     using F = Floats<N>;
     const Vec3<F> least(vec3(edges[0].least, edges[1].least, edges[2].least));
     for (int y = box.first.y; y <= box.last.y; ++y) {
         std::int64_t first = 0, last = box.last.x - box.first.x;  // from box.first.x
         // A small triangle covers most of its box's few columns: not worth a division.
-        if constexpr (!std::is_same_v<Whole, std::int32_t>)
+        if constexpr (std::is_same_v<Whole, Doubles<N>>)
             for (const EdgeWalk& edge : edges) edge.narrow(first, last);
-        WideEdges<Whole, N> row(edges, first);
+        WideEdges<Whole> row(edges, first);
         for (std::int64_t x = first; x <= last; x += N) {
             const Vec3<F> share = row.as_floats();
             const Mask<N> covered = (share.x >= least.x) & (share.y >= least.y) &
@@ -118,9 +119,9 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
             static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
         const ivec2 size = around.last - around.first + 1;
         if (std::max(size.x, size.y) < pixels_in_32_bits)
-            fill_box<std::int32_t, width_of<F>>(edges, per_area, box, emit);
+            fill_box<Ints<width_of<F>>>(edges, per_area, box, emit);
         else if (std::ranges::none_of(edges, [&](auto& edge) { return is_outside(edge, box); }))
-            fill_box<double, width_of<F>>(edges, per_area, box, emit);
+            fill_box<Doubles<width_of<F>>>(edges, per_area, box, emit);
     }
 }
 

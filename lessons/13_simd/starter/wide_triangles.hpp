@@ -27,18 +27,22 @@ namespace rasterbook {
 
 /// The three edge functions of a triangle at N pixels of a row (Eq. 13.2).
 ///
-/// @tparam Whole  Holds all of these whole numbers exactly: std::int32_t for small triangles,
-///                double for others.
-template <typename Whole, int N>
+/// @tparam Whole  Holds all of these whole numbers exactly: Ints<N> for small triangles, Doubles<N>
+///                for others.
+template <typename Whole>
 struct WideEdges {
-    std::array<Vector<Whole, N>, 3> at;  ///< Inside > 0.
-    std::array<Whole, 3> to_next_pixels{};
+    static constexpr int N = Whole::width;
+    std::array<Whole, 3> at;  ///< Inside > 0.
+    std::array<Whole, 3> to_next_pixels;
 
     /// @param column  Of the first pixel, counted from where the edges are.
     WideEdges(const std::array<EdgeWalk, 3>& edges, std::int64_t column) {
         // TODO: step 2: Eq. 13.2: each edge's values at N pixels, and what they change by to the
         // next N pixels.
-        for (std::size_t i = 0; i < 3; ++i) at[i] = Vector<Whole, N>{};
+        const auto in_all_lanes = [](std::int64_t x) {
+            return Whole(static_cast<typename Whole::Number>(x));
+        };
+        for (std::size_t i = 0; i < 3; ++i) at[i] = to_next_pixels[i] = in_all_lanes(0);
     }
 
     void advance() {
@@ -47,10 +51,7 @@ struct WideEdges {
 
     /// Rounding keeps the order: what is at least 0 or 1 stays so.
     Vec3<Floats<N>> as_floats() const {
-        const auto as_float = [](auto whole) {
-            return Floats<N>(__builtin_convertvector(whole, Vector<float, N>));
-        };
-        return {as_float(at[0]), as_float(at[1]), as_float(at[2])};
+        return {to_floats(at[0]), to_floats(at[1]), to_floats(at[2])};
     }
 };
 
@@ -60,14 +61,16 @@ constexpr int pixels_in_32_bits = 100;
 
 /// Visits the pixels of a box that a triangle covers, N of a row at a time. Always inlined: then
 /// `emit` keeps in registers what it would otherwise load for each row.
-template <typename Whole, int N, typename Emit>
+template <typename Whole, typename Emit>
 [[gnu::always_inline]] inline void fill_box(std::array<EdgeWalk, 3> edges, float per_area,
                                             const PixelBox& box, Emit&& emit) {
+    constexpr int N = Whole::width;
     using F = Floats<N>;
     // TODO: step 2: the same by WideEdges, N pixels at a time. A lane is covered where all three
     // are at least their `least` (Eq. 13.2), and where its pixel is in the box. Emit each N pixels
-    // with their mask. Then the next N, the next row. Where Whole is double, begin and end each row
-    // as lesson 02 does: by narrow().
+    // with their mask. Then the next N, the next row. Where Whole is Doubles<N>, begin and end each
+    // row as lesson 02 does: by narrow().
+    //
     // Until then, a pixel at a time, in the first lane:
     for (int y = box.first.y; y <= box.last.y; ++y)
         for (int x = box.first.x; x <= box.last.x; ++x) {
@@ -116,9 +119,9 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
             static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
         const ivec2 size = around.last - around.first + 1;
         if (std::max(size.x, size.y) < pixels_in_32_bits)
-            fill_box<std::int32_t, width_of<F>>(edges, per_area, box, emit);
+            fill_box<Ints<width_of<F>>>(edges, per_area, box, emit);
         else if (std::ranges::none_of(edges, [&](auto& edge) { return is_outside(edge, box); }))
-            fill_box<double, width_of<F>>(edges, per_area, box, emit);
+            fill_box<Doubles<width_of<F>>>(edges, per_area, box, emit);
     }
 }
 
