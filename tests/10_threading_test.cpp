@@ -1,34 +1,26 @@
 // SPDX-License-Identifier: MIT
-// The pool, the tiles of a picture, and what a schedule predicts.
+// The pool of threads.
 #include "10_threading/thread_pool.hpp"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iostream>
-#include <map>
-#include <random>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "10_threading/schedule.hpp"
-#include "10_threading/split.hpp"
 #include "common/app/counters.hpp"
-#include "common/image/image.hpp"
 #include "support/look_up.hpp"
 #include "support/name_of_split.hpp"
-#include "support/printers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -43,72 +35,6 @@ struct Trouble : std::runtime_error {
     std::size_t task;
     std::vector<int> numbers;
 };
-
-/// How many tiles each pixel of a picture is in.
-Image<int> hits_of(const Tiling& tiling) {
-    Image<int> hits(tiling.size(), 0);
-    for (std::size_t i = 0; i < tiling.count(); ++i)
-        for_each_strip(tiling[i], [&](const PixelBox& strip) {
-            for (int y = strip.first.y; y <= strip.last.y; ++y)
-                for (int x = strip.first.x; x <= strip.last.x; ++x)
-                    if (hits.contains({x, y}))
-                        ++hits[{x, y}];
-                    else if (!testing::Test::HasFailure())
-                        ADD_FAILURE() << "tile " << i << " has the pixel (" << x << ", " << y
-                                      << "), which is outside of the picture of " << tiling.size().x
-                                      << " x " << tiling.size().y;
-        });
-    return hits;
-}
-
-/// "tile 2 of 7"
-std::string numbered(std::size_t tile, const Tiling& tiling) {
-    return "tile " + std::to_string(tile) + " of " + std::to_string(tiling.count());
-}
-
-/// "a picture of 65 x 63, interleaved rows, 7 workers, tile side 64"
-std::string named(ivec2 size, Split split, int workers, int side) {
-    return "a picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) + ", " +
-           name_of(split) + ", " + std::to_string(workers) + " workers, tile side " +
-           std::to_string(side);
-}
-
-/// "the triangle (3, 4), (5, 0), (1, 1) in pixels"
-std::string named(const ScreenTriangle& triangle) {
-    std::string name = "the triangle ";
-    for (const ivec2 vertex : triangle.vertices)
-        name += testing::PrintToString(vec2(vertex) / static_cast<float>(subpixels)) + ", ";
-    return name + "in pixels";
-}
-
-/// By definition, pixel by pixel: which tile a pixel is in.
-std::size_t tile_of(ivec2 pixel, Split split, ivec2 size, int workers, int side) {
-    const int n = std::min(workers, size.y);
-    if (split == Split::interleaved) return static_cast<std::size_t>(pixel.y % n);
-    if (split == Split::tiles)
-        return static_cast<std::size_t>((pixel.y / side) * ((size.x + side - 1) / side) +
-                                        pixel.x / side);
-    int tile = 0;
-    for (int y = 0, in_tile = 0; y < pixel.y; ++y)
-        if (++in_tile == size.y / n && tile < n - 1) ++tile, in_tile = 0;
-    return static_cast<std::size_t>(tile);
-}
-
-/// Any triangle around a picture: from a fraction of a pixel to far larger than it.
-ScreenTriangle any_triangle(std::mt19937& random, ivec2 size) {
-    std::uniform_real_distribution<float> any(-1, 1), power(-2, 3);
-    const float extent = std::pow(10.0f, power(random));
-    const auto coordinate = [&](int side) {
-        return 0.5f * static_cast<float>(side) * (1 + 1.2f * any(random));
-    };
-    const float x = coordinate(size.x), y = coordinate(size.y);
-    const auto vertex = [&] {
-        const float dx = any(random), dy = any(random);
-        return vec2(x, y) + extent * vec2(dx, dy);
-    };
-    const vec2 a = vertex(), b = vertex(), c = vertex();
-    return snap_triangle(a, b, c);
-}
 
 }  // namespace
 
@@ -367,273 +293,4 @@ TEST(Threading, HardCase_CountersOfTwoWorkersAreFarApart) {
     sum.add(Counter::fragments_lit);
     counters.add_to(sum);
     EXPECT_EQ(sum.values[static_cast<std::size_t>(Counter::fragments_lit)], 7u);
-}
-
-TEST(Threading, Eq10_3_EvenRowsLeaveTheRestToTheLast) {
-    // The worked example: 1080 rows, 7 workers.
-    const Tiling tiling(Split::rows, {1920, 1080}, 7, 64);
-    ASSERT_EQ(tiling.count(), 7u);
-    for (std::size_t i = 0; i < 7; ++i) {
-        const std::string where = numbered(i, tiling) + ", of 1080 rows";
-        ASSERT_EQ(tiling[i].box.first, ivec2(0, 154 * i)) << "first pixel of " << where;
-        ASSERT_EQ(tiling[i].box.last, ivec2(1919, i < 6 ? 154 * i + 153 : 1079))
-            << "last pixel of " << where << (i == 6 ? ": the rest is the last one's" : "");
-        ASSERT_EQ(tiling[i].row_step, 1) << where;
-    }
-    // The largest rest: 61 workers, 121 rows; one row for each, and 61 for the last.
-    const Tiling uneven(Split::rows, {10, 121}, 61, 64);
-    const char* const what =
-        "121 rows, 61 workers: one row for each, and the last one has the rest";
-    EXPECT_EQ(uneven[59].box.last.y, 59) << what;
-    EXPECT_EQ(uneven[60].box.first.y, 60) << what;
-    EXPECT_EQ(uneven[60].box.last.y, 120) << what;
-}
-
-TEST(Threading, Eq10_4_InterleavedRowsGoRound) {
-    const Tiling tiling(Split::interleaved, {5, 10}, 4, 64);
-    ASSERT_EQ(tiling.count(), 4u);
-    for (std::size_t i = 0; i < 4; ++i) {
-        std::vector<int> rows;
-        for_each_strip(tiling[i], [&](const PixelBox& strip) {
-            EXPECT_EQ(strip.first.x, 0);
-            EXPECT_EQ(strip.last, ivec2(4, strip.first.y))
-                << "the last pixel of a strip of " << numbered(i, tiling)
-                << ", interleaved rows of a picture of 5 x 10: it is one row, which begins at "
-                << testing::PrintToString(strip.first);
-            rows.push_back(strip.first.y);
-        });
-        const int first = static_cast<int>(i);
-        ASSERT_EQ(rows, i < 2 ? (std::vector{first, first + 4, first + 8})
-                              : (std::vector{first, first + 4}))
-            << "rows of " << numbered(i, tiling) << ", of 10 rows";
-    }
-}
-
-TEST(Threading, Eq10_5_TilesOfTheWorkedExample) {
-    const Tiling tiling(Split::tiles, {1920, 1080}, 7, 64);
-    ASSERT_EQ(tiling.count(), 30u * 17u)
-        << "tiles of 64 x 64 in 1920 x 1080 pixels: 30 columns, and 17 rows with the last in part";
-    EXPECT_EQ(tiling[1].box.first, ivec2(64, 0)) << "tile 1 is on the right of tile 0";
-    EXPECT_EQ(tiling[31].box.first, ivec2(64, 64)) << "tile 31 of 30 columns: column 1, row 1";
-    EXPECT_EQ(tiling[31].box.last, ivec2(127, 127)) << "tile 31: the last pixel is its own";
-    EXPECT_EQ(tiling[509].box.first, ivec2(1856, 1024)) << "the last tile";
-    EXPECT_EQ(tiling[509].box.last, ivec2(1919, 1079)) << "the last row of tiles is 56 pixels high";
-}
-
-TEST(Threading, HardCase_EachPixelIsInOneTile) {
-    look_up("Eq. 10.5");
-    for (const ivec2 size : {ivec2(1, 1), {1, 9}, {9, 1}, {64, 64}, {65, 63}, {33, 130}, {3, 60}})
-        for (const int workers : thread_counts)
-            for (const Split split : splits)
-                for (const int side : {1, 2, 8, 63, 64, 1000}) {
-                    const Tiling tiling(split, size, static_cast<std::size_t>(workers), side);
-                    const Image<int> hits = hits_of(tiling);
-                    const std::string where = named(size, split, workers, side);
-                    ASSERT_FALSE(HasFailure()) << where;
-                    for (int y = 0; y < size.y; ++y)
-                        for (int x = 0; x < size.x; ++x)
-                            ASSERT_EQ((hits[{x, y}]), 1) << "so many tiles have the pixel (" << x
-                                                         << ", " << y << ") of " << where;
-                    for (std::size_t i = 0; i < tiling.count(); ++i)
-                        for_each_strip(tiling[i], [&](const PixelBox& strip) {
-                            for (const ivec2 pixel : {strip.first, strip.last})
-                                ASSERT_EQ(i, tile_of(pixel, split, size, workers, side))
-                                    << "the tile of the pixel " << testing::PrintToString(pixel)
-                                    << " of " << where;
-                        });
-                    ASSERT_FALSE(HasFatalFailure());
-                }
-}
-
-TEST(Threading, HardCase_MoreWorkersThanRowsOrTiles) {
-    look_up("Eq. 10.3");
-    for (const Split split : {Split::rows, Split::interleaved}) {
-        ASSERT_EQ(Tiling(split, {100, 3}, 61, 64).count(), 3u)
-            << name_of(split) << " of a picture of 100 x 3, 61 workers";
-        ASSERT_EQ(Tiling(split, {100, 1}, 61, 64).count(), 1u)
-            << name_of(split) << " of a picture of 100 x 1, 61 workers";
-    }
-    EXPECT_EQ(Tiling(Split::tiles, {100, 3}, 61, 64).count(), 2u);
-    for (const Split split : splits)
-        for (const ivec2 size : {ivec2(0), ivec2(0, 5), ivec2(5, 0)}) {
-            const Tiling none(split, size, 4, 64);
-            EXPECT_EQ(none.count(), 0u) << "no pixels, no tiles";
-            none.for_each_in({{0, 0}, {5, 5}}, [](std::size_t) { ADD_FAILURE(); });
-        }
-}
-
-TEST(Threading, Eq10_6_ATriangleIsListedInJustTheTilesThatItsBoxMeets) {
-    // The worked example: a box of pixels from (100, 50) to (130, 70) meets four tiles.
-    std::vector<std::size_t> met;
-    Tiling(Split::tiles, {1920, 1080}, 4, 64)
-        .for_each_in({{100, 50}, {130, 70}}, [&](std::size_t i) { met.push_back(i); });
-    EXPECT_EQ(met, (std::vector<std::size_t>{1, 2, 31, 32}))
-        << "tiles of 64 x 64, 30 a row, that a box from (100, 50) to (130, 70) meets";
-
-    // Of a triangle: the pixels whose centres lie in its box.
-    const PixelBox known =
-        box_around(snap_triangle({1.25f, 2.75f}, {4.75f, 2.75f}, {1.25f, 5.25f}));
-    EXPECT_EQ(known.first, ivec2(1, 3)) << "the first pixel of the triangle (1.25, 2.75), "
-                                           "(4.75, 2.75), (1.25, 5.25): centres lie at 1/2";
-    EXPECT_EQ(known.last, ivec2(4, 4)) << "the last pixel of the triangle (1.25, 2.75), "
-                                          "(4.75, 2.75), (1.25, 5.25): centres lie at 1/2";
-
-    std::mt19937 random(1);
-    const ivec2 size(70, 50);
-    for (int k = 0; k < 2000; ++k) {
-        const ScreenTriangle triangle = any_triangle(random, size);
-        const PixelBox box = box_around(triangle);
-        fill_triangle(triangle, size, [&](ivec2 pixel, vec3) {
-            ASSERT_TRUE(glm::all(glm::greaterThanEqual(pixel, box.first)) &&
-                        glm::all(glm::lessThanEqual(pixel, box.last)))
-                << "the triangle has the pixel " << testing::PrintToString(pixel)
-                << ", and its box is from " << testing::PrintToString(box.first) << " to "
-                << testing::PrintToString(box.last) << ": " << named(triangle) << " (seed 1, " << k
-                << ")";
-        });
-        ASSERT_FALSE(HasFatalFailure());
-        const Split split = splits[random() % 3];
-        const int workers = thread_counts[random() % thread_counts.size()];
-        const int side = 1 + static_cast<int>(random() % 40);
-        std::set<std::size_t> expected;
-        for (int y = std::max(box.first.y, 0); y <= std::min(box.last.y, size.y - 1); ++y)
-            for (int x = std::max(box.first.x, 0); x <= std::min(box.last.x, size.x - 1); ++x)
-                expected.insert(tile_of({x, y}, split, size, workers, side));
-        std::set<std::size_t> actual;
-        Tiling(split, size, static_cast<std::size_t>(workers), side)
-            .for_each_in(box, [&](std::size_t tile) {
-                ASSERT_TRUE(actual.insert(tile).second) << "seed 1, triangle " << k << ": twice";
-            });
-        ASSERT_EQ(actual, expected)
-            << "tiles that the box from " << testing::PrintToString(box.first) << " to "
-            << testing::PrintToString(box.last) << " meets in " << named(size, split, workers, side)
-            << " (seed 1, " << k << ")";
-    }
-}
-
-TEST(Threading, Eq10_7_TilesTogetherAreTheWholeTriangleBitForBit) {
-    std::mt19937 random(2);
-    const ivec2 size(150, 90);
-    long pixels = 0;
-    for (int k = 0; k < 3000; ++k) {
-        const ScreenTriangle triangle = any_triangle(random, size);
-        std::map<std::tuple<int, int>, vec3> whole;
-        fill_triangle(triangle, size, [&](ivec2 pixel, vec3 barycentrics) {
-            whole[{pixel.y, pixel.x}] = barycentrics;
-        });
-        const Split split = splits[static_cast<std::size_t>(k) % 3];
-        const int workers = thread_counts[random() % thread_counts.size()];
-        const int side = 1 + static_cast<int>(random() % 80);
-        const Tiling tiling(split, size, static_cast<std::size_t>(workers), side);
-        for (std::size_t i = 0; i < tiling.count(); ++i)
-            fill_tile(triangle, tiling[i], [&](ivec2 pixel, vec3 barycentrics) {
-                const auto where = [&] {
-                    return "at the pixel " + testing::PrintToString(pixel) + " of " +
-                           named(triangle) + ", in " + numbered(i, tiling) + ", " +
-                           named(size, split, workers, side) + " (seed 2, " + std::to_string(k) +
-                           ")";
-                };
-                ASSERT_EQ(i, tile_of(pixel, split, size, workers, side)) << where();
-                const auto found = whole.find({pixel.y, pixel.x});
-                ASSERT_TRUE(found != whole.end())
-                    << "drawn twice, or not the triangle's, " << where();
-                ASSERT_EQ(barycentrics, found->second)
-                    << "as fill_tile() and as fill_triangle() have it, " << where();
-                whole.erase(found);
-                ++pixels;
-            });
-        ASSERT_FALSE(HasFatalFailure());
-        ASSERT_TRUE(whole.empty())
-            << whole.size() << " pixels of " << named(triangle) << " are in no tile of "
-            << named(size, split, workers, side) << ": the first is ("
-            << std::get<1>(whole.begin()->first) << ", " << std::get<0>(whole.begin()->first)
-            << ") (seed 2, " << k << ")";
-    }
-    EXPECT_GT(pixels, 100000);
-}
-
-TEST(Threading, Eq10_1_NoScheduleIsShorterThanItsWorkOrItsLongestTask) {
-    // The worked example: tasks of 4, 3, 2, 2 and 1.
-    const std::array times = {4.0, 3.0, 2.0, 2.0, 1.0};
-    EXPECT_EQ(schedule_of(times, 1).least(), 12) << "tasks of 4, 3, 2, 2, 1; one worker: all";
-    EXPECT_EQ(schedule_of(times, 2).least(), 6) << "tasks of 4, 3, 2, 2, 1; two workers: half";
-    EXPECT_EQ(schedule_of(times, 3).least(), 4) << "tasks of 4, 3, 2, 2, 1; three workers";
-    EXPECT_EQ(schedule_of(times, 5).least(), 4)
-        << "tasks of 4, 3, 2, 2, 1; five workers: the longest task";
-}
-
-TEST(Threading, Eq10_2_WhatIsLeftToOneWorkerBoundsAll) {
-    // The worked examples; in double, so within a few ulp of a rounded sum.
-    EXPECT_NEAR(amdahl_speedup(0.1, 2), 1 / 0.55, 1e-15);
-    EXPECT_NEAR(amdahl_speedup(0.1, 16), 6.4, 1e-14);
-    EXPECT_EQ(amdahl_speedup(0, 16), 16);
-    EXPECT_EQ(amdahl_speedup(1, 16), 1);
-    EXPECT_LT(amdahl_speedup(0.1, 1000000), 10);
-}
-
-TEST(Threading, Eq10_8_EachTaskGoesToWhoeverIsFreeFirst) {
-    // The worked example, and the same tasks with the shortest first.
-    EXPECT_EQ(schedule_of(std::array{4.0, 3.0, 2.0, 2.0, 1.0}, 2).finish, 6)
-        << "tasks of 4, 3, 2, 2, 1, two workers";
-    EXPECT_EQ(schedule_of(std::array{1.0, 2.0, 2.0, 3.0, 4.0}, 2).finish, 7)
-        << "tasks of 1, 2, 2, 3, 4, two workers";
-    EXPECT_EQ(schedule_of({}, 3).finish, 0) << "no tasks";
-
-    // Another way to the same: go through time in small steps; who is free takes the next task.
-    std::mt19937 random(3);
-    for (int k = 0; k < 300; ++k) {
-        std::vector<double> times(random() % 40);
-        for (double& t : times) t = static_cast<double>(random() % 9);
-        const std::size_t workers = 1 + random() % 9;
-        std::vector<double> busy_until(workers, 0);
-        std::size_t next = 0;
-        double finish = 0;
-        for (double now = 0; next < times.size(); ++now)
-            for (bool took = true; took;) {
-                took = false;
-                for (double& until : busy_until)
-                    if (until <= now && next < times.size()) {
-                        until = now + times[next++];
-                        finish = std::max(finish, until);
-                        took = true;
-                    }
-            }
-        ASSERT_EQ(schedule_of(times, workers).finish, finish)
-            << workers << " workers, tasks of " << testing::PrintToString(times)
-            << " (seed 3, case " << k << ")";
-    }
-}
-
-TEST(Threading, Eq10_9_TheBoundHoldsInAnyOrderAndIsMet) {
-    // The worked example: 12 tasks of 1, and one of 4 that comes last.
-    std::vector<double> worst(12, 1);
-    worst.push_back(4);
-    const Schedule met = schedule_of(worst, 4);
-    EXPECT_EQ(met.finish, 7) << "12 tasks of 1 and then one of 4; four workers";
-    EXPECT_EQ(met.most(), 7) << "12 tasks of 1 and then one of 4; four workers: no less would hold";
-    std::mt19937 random(4);
-    for (int k = 0; k < 3000; ++k) {
-        std::vector<double> times(1 + random() % 60);
-        for (double& t : times) t = static_cast<double>(random() % 1000) / 8;  // exact sums
-        const std::size_t workers = 1 + random() % 20;
-        const Schedule schedule = schedule_of(times, workers);
-        // 1e-9: a quotient by p and its product are rounded.
-        ASSERT_LE(schedule.finish, schedule.most() * (1 + 1e-9))
-            << workers << " workers, tasks of " << testing::PrintToString(times)
-            << " (seed 4, case " << k << ")";
-        ASSERT_GE(schedule.finish * (1 + 1e-9), schedule.least())
-            << workers << " workers, tasks of " << testing::PrintToString(times)
-            << " (seed 4, case " << k << ")";
-    }
-}
-
-TEST(Threading, Eq10_10_IdleShares) {
-    // The worked examples.
-    EXPECT_EQ(schedule_of(std::array{4.0, 3.0, 2.0, 2.0, 1.0}, 2).idle_share(), 0)
-        << "tasks of 4, 3, 2, 2, 1, two workers";
-    EXPECT_NEAR(schedule_of(std::array{1.0, 2.0, 2.0, 3.0, 4.0}, 2).idle_share(), 1.0 / 7, 1e-15)
-        << "tasks of 1, 2, 2, 3, 4, two workers";
-    EXPECT_EQ(schedule_of(std::array{5.0}, 4).idle_share(), 0.75) << "three have nothing to do";
-    EXPECT_EQ(schedule_of({}, 4).idle_share(), 0);
-    EXPECT_EQ(schedule_of(std::array{0.0, 0.0}, 4).idle_share(), 0);
 }

@@ -114,6 +114,12 @@ def starter(lesson: str) -> dict[str, str]:
     return {**files, "main.cpp": main}
 
 
+def numbers_in(equations: str) -> set[str]:
+    """Of "10.1-10.2 10.8" these are 10.1, 10.2 and 10.8."""
+    found = re.finditer(r"(\d+)\.(\d+)(?:-\d+\.(\d+))?", equations)
+    return {f"{part[1]}.{i}" for part in found for i in range(int(part[2]), int(part[3] or part[2]) + 1)}
+
+
 def pictures(lesson: str) -> dict[str, dict]:
     """The tests of pictures: the program's options, the golden picture, how many pixels may jump."""
     found = {}
@@ -149,14 +155,23 @@ def tests_of_formulas(lesson: str) -> list[Path]:
     return [file for file in sorted(ROOT.glob(f"tests/{lesson}_*test.cpp")) if is_one(file.read_text("utf-8"))]
 
 
+def equations_of_threads(lesson: str) -> set[str]:
+    """Those of which a test starts threads, which is none for a page."""
+    texts = [file.read_text("utf-8") for file in ROOT.glob(f"tests/{lesson}_*test.cpp")]
+    return {f"{found[1]}.{found[2]}" for text in texts if "std::this_thread" in text
+            for found in re.finditer(r"^TEST\(\w+, Eq(\d+)_(\d+)_", text, re.MULTILINE)}
+
+
 def described(lesson: str) -> dict:
     folder = ROOT / "lessons" / lesson
     given = starter(lesson)
+    of_threads = equations_of_threads(lesson)
     steps = []
     for mark in marks_of("step", lesson):
         equations, options, names, title = (part.strip() for part in mark.split("|"))
         steps.append({"title": title, "equations": equations.split(), "options": shlex.split(options),
-                      "pictures": [name for name in names.split() if name != "-"]})
+                      "pictures": [name for name in names.split() if name != "-"],
+                      "hasThreads": not of_threads.isdisjoint(numbers_in(equations))})
     return {
         "before": before(lesson), "starter": given, "steps": steps, "pictures": pictures(lesson),
         "solution": {name: (folder / name).read_text("utf-8") for name in given},

@@ -382,16 +382,15 @@ class Editor {
     const isUntouched = this.files["main.cpp"] === this.start.files["main.cpp"] && this.files["main.cpp"] !== this.start.solution["main.cpp"];
     const remind = (word) => this.status.append(` ${word} main.cpp is still lesson ${this.start.before.slice(0, 2)}'s: see `,
       element("a", { href: "#what-changes-in-maincpp", textContent: "what changes in it" }), ".");
-    if (isAll && tiers.length > 0) {
+    if (isAll) {
       const next = this.step > 0 && this.step < this.steps.length ? `Go on to step ${this.step + 1}` : this.step > 0 ? "Test the whole lesson" : "";
       this.say(`${what} is done; ${how}.`, "right");
       if (isUntouched) remind("But");
-      if (!next) this.status.append(" The hard cases are tested on the command line: ", element("code", { textContent: `./tests/run --mine ${number}` }));
+      const hasThreads = this.steps.slice(0, this.step || this.steps.length).some((step) => step.hasThreads);
+      const elsewhere = next ? "Threads" : hasThreads ? "Threads and the hard cases" : "The hard cases";
+      if (hasThreads || !next) this.status.append(` ${elsewhere} are tested on the command line: `, element("code", { textContent: `./tests/run --mine ${number}` }));
       this.onward.textContent = next;
       this.onward.hidden = next === "";
-    } else if (tiers.length === 0) {
-      this.say(`Compiled. Tests of ${this.step > 0 ? "this step" : "this lesson"} need what a browser has not: `);
-      this.status.append(element("code", { textContent: `./tests/run --mine ${number}` }), " runs them.");
     } else {
       this.say(`${what} is not done yet; ${how}.`, "wrong");
       if (isUntouched && first?.picture) remind("And");
