@@ -450,6 +450,13 @@ TEST(Simd, HardCase_WholeNumbersAndMasks) {
             ASSERT_TRUE(has_in_lanes(to_floats(wide_a),
                                      each([](int x, int) { return static_cast<float>(x); })))
                 << "a as floats" << of;
+            const Doubles<N> exact_a(wide_a), exact_b(wide_b);
+            ASSERT_TRUE(has_in_lanes(to_floats(exact_a + exact_b),
+                                     each([](double x, double y) { return float(x + y); })))
+                << "a + b in doubles, as floats" << of;
+            ASSERT_TRUE(has_in_lanes(to_floats(exact_a * exact_b),
+                                     each([](double x, double y) { return float(x * y); })))
+                << "a * b in doubles, as floats" << of;
             ASSERT_EQ(least_of(wide_a), *std::ranges::min_element(a)) << "the least" << of;
             ASSERT_EQ(greatest_of(wide_a), *std::ranges::max_element(a)) << "the greatest" << of;
 

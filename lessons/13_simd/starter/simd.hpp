@@ -226,8 +226,8 @@ inline Floats<N> two_to_the(Floats<N> n) {
     return {std::bit_cast<Vector<float, N>>((truncated(n).lanes + 127) << 23)};
 }
 
-/// N doubles, in two halves: each fits into a register if N floats do. What is wider, g++ keeps in
-/// memory.
+/// N doubles, in two halves: each fits into a register if N floats do. Wider vectors are kept in
+/// memory by g++.
 template <int N>
 struct Doubles {
     using Number = double;
