@@ -36,20 +36,22 @@ Image<u8vec3> side_by_side(const Image<u8vec4>& expected, const Image<u8vec4>& a
     return all;
 }
 
-std::filesystem::path actual_file_of(const std::string& golden) {
-    return std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_actual.png");
+std::filesystem::path actual_file_of(const std::string& drawing) {
+    return std::filesystem::path(RASTERBOOK_LESSONS) / (drawing + "_actual.png");
 }
 
-/// Compares the picture in actual_file_of(golden) with the golden one.
+/// Compares the picture in actual_file_of(drawing) with the golden one.
 ///
+/// @param drawing    What the files of the drawn picture are called.
 /// @param drawn      How, if not by default: "with --light spot, ".
 /// @param diagnosis  Called as diagnosis(actual, expected): what to say of pictures that differ.
 template <typename Diagnosis>
-testing::AssertionResult is_golden(const std::string& golden, std::size_t may_jump,
-                                   const std::string& drawn, const Diagnosis& diagnosis) {
+testing::AssertionResult is_golden(const std::string& golden, const std::string& drawing,
+                                   std::size_t may_jump, const std::string& drawn,
+                                   const Diagnosis& diagnosis) {
     const std::filesystem::path expected_file =
         std::filesystem::path(RASTERBOOK_GOLDEN) / (golden + ".png");
-    const std::filesystem::path actual_file = actual_file_of(golden);
+    const std::filesystem::path actual_file = actual_file_of(drawing);
     const auto replace_golden = [&] {
         std::filesystem::create_directories(RASTERBOOK_GOLDEN);
         std::filesystem::copy_file(actual_file, expected_file,
@@ -72,7 +74,7 @@ testing::AssertionResult is_golden(const std::string& golden, std::size_t may_ju
     }
     if (may_replace) return replace_golden();
     const auto comparison =
-        std::filesystem::path(RASTERBOOK_LESSONS) / (golden + "_comparison.png");
+        std::filesystem::path(RASTERBOOK_LESSONS) / (drawing + "_comparison.png");
     write_image(comparison, side_by_side(expected, actual));
     return testing::AssertionFailure()
            << drawn << difference.in_words(may_jump) << diagnosis(actual, expected)
@@ -84,22 +86,25 @@ testing::AssertionResult is_golden(const std::string& golden, std::size_t may_ju
 testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
                                        const std::vector<std::string>& arguments,
                                        std::size_t may_jump) {
+    // Several lessons draw the same picture, maybe just now.
+    const std::string drawing = golden.starts_with(lesson) ? golden : lesson + "_draws_" + golden;
     std::vector<std::string> all = {"--size", golden_size, "--out",
-                                    actual_file_of(golden).string()};
+                                    actual_file_of(drawing).string()};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const ProcessResult run = run_program(lesson, all);
     if (run.exit_status != 0)
         return testing::AssertionFailure() << lesson << " failed: " << run.err;
     if (const char* const folder = std::getenv("RASTERBOOK_KEEP_PICTURES"))
-        std::filesystem::copy(actual_file_of(golden), folder);
+        std::filesystem::copy(actual_file_of(drawing), folder);
     std::string drawn;
     for (const std::string& argument : arguments)
         drawn += (drawn.empty() ? "with " : " ") + argument;
     if (!drawn.empty()) drawn += ", ";
-    return is_golden(golden, may_jump, drawn, [&](const auto& actual, const auto& expected) {
-        return "\nThe picture: " +
-               diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()));
-    });
+    return is_golden(
+        golden, drawing, may_jump, drawn, [&](const auto& actual, const auto& expected) {
+            return "\nThe picture: " +
+                   diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()));
+        });
 }
 
 }  // namespace rasterbook::test
