@@ -114,10 +114,10 @@ def starter(lesson: str) -> dict[str, str]:
     return {**files, "main.cpp": main}
 
 
-def numbers_in(equations: str) -> set[str]:
-    """Of "10.1-10.2 10.8" these are 10.1, 10.2 and 10.8."""
+def names_of(equations: str) -> list[str]:
+    """As tests' names begin: of "10.1-10.2 10.8" with Eq10_1_, Eq10_2_ and Eq10_8_."""
     found = re.finditer(r"(\d+)\.(\d+)(?:-\d+\.(\d+))?", equations)
-    return {f"{part[1]}.{i}" for part in found for i in range(int(part[2]), int(part[3] or part[2]) + 1)}
+    return [f"Eq{part[1]}_{i}_" for part in found for i in range(int(part[2]), int(part[3] or part[2]) + 1)]
 
 
 def pictures(lesson: str) -> dict[str, dict]:
@@ -156,10 +156,10 @@ def tests_of_formulas(lesson: str) -> list[Path]:
 
 
 def equations_of_threads(lesson: str) -> set[str]:
-    """Those of which a test starts threads, which is none for a page."""
+    """Those of which a test starts threads: a page cannot run it."""
     texts = [file.read_text("utf-8") for file in ROOT.glob(f"tests/{lesson}_*test.cpp")]
-    return {f"{found[1]}.{found[2]}" for text in texts if "std::this_thread" in text
-            for found in re.finditer(r"^TEST\(\w+, Eq(\d+)_(\d+)_", text, re.MULTILINE)}
+    return {name for text in texts if "std::this_thread" in text
+            for name in re.findall(r"^TEST\(\w+, (Eq\d+_\d+_)", text, re.MULTILINE)}
 
 
 def described(lesson: str) -> dict:
@@ -169,9 +169,9 @@ def described(lesson: str) -> dict:
     steps = []
     for mark in marks_of("step", lesson):
         equations, options, names, title = (part.strip() for part in mark.split("|"))
-        steps.append({"title": title, "equations": equations.split(), "options": shlex.split(options),
+        steps.append({"title": title, "equations": names_of(equations), "options": shlex.split(options),
                       "pictures": [name for name in names.split() if name != "-"],
-                      "hasThreads": not of_threads.isdisjoint(numbers_in(equations))})
+                      "hasThreads": not of_threads.isdisjoint(names_of(equations))})
     return {
         "before": before(lesson), "starter": given, "steps": steps, "pictures": pictures(lesson),
         "solution": {name: (folder / name).read_text("utf-8") for name in given},

@@ -245,7 +245,7 @@ export class Toolchain {
     const { steps } = this.lessons[lesson];
     const done = step ? steps.slice(0, step) : steps;
     const isAll = !step || step === steps.length;
-    const equations = isAll ? "*" : done.flatMap(({ equations }) => equations.flatMap(numbersIn)).join(" ");
+    const equations = isAll ? "*" : done.flatMap(({ equations }) => equations).join(" ");
     const known = this.lessons[lesson].pictures;
     const names = step ? done.at(-1).pictures.filter((name) => name in known) : Object.keys(known);
     const [formulas, pictures] = await Promise.all([this.formulas(lesson, files, equations, compiled), this.pictures(lesson, names, compiled, drawn)]);
@@ -319,14 +319,6 @@ export class Toolchain {
   stop() {
     for (const helper of [...(this.compilers ?? []), this.drawing, this.testing]) helper?.stop();
   }
-}
-
-/** "5.4-5.5" as "Eq5_4_" and "Eq5_5_". */
-function numbersIn(range) {
-  const [from, to = from] = range.split("-");
-  const [lesson, first] = from.split(".");
-  const last = to.split(".").at(-1);
-  return Array.from({ length: last - first + 1 }, (_, i) => `Eq${lesson}_${+first + i}_`);
 }
 
 /** An error of no place. */

@@ -372,7 +372,7 @@ class Editor {
   }
 
   report(tiers, first, how) {
-    const isAll = tiers.every(({ passed, total }) => passed === total) && !first;
+    const isAll = tiers.length > 0 && tiers.every(({ passed, total }) => passed === total) && !first;
     this.tiers.replaceChildren(...tiers.map(({ name, passed, total }) => {
       const bar = element("meter", { min: 0, max: Math.max(total, 1), value: passed, "aria-label": name });
       return element("li", { className: passed === total ? "right" : "" }, element("span", { textContent: `${name} ${passed} of ${total}` }), bar);
