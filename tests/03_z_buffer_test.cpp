@@ -108,27 +108,27 @@ constexpr ivec2 origin(0, 0);
 
 }  // namespace
 
-TEST(ZBuffer, Eq3_1_KeepsTheLeastOfAFewDepths) {
+TEST(ZBuffer, Eq3_1_KeepsTheGreatestOfAFewDepths) {
     DepthBuffer depth({1, 1});
-    EXPECT_EQ(depth.depths()[origin], 1.0f) << "in a new buffer";
-    EXPECT_TRUE(depth.test_and_write(origin, 0.5f)) << "the first: 0.5 is nearer than 1";
+    EXPECT_EQ(depth.depths()[origin], 0.0f) << "in a new buffer";
+    EXPECT_TRUE(depth.test_and_write(origin, 0.5f)) << "the first: 0.5 is nearer than 0";
     EXPECT_EQ(depth.depths()[origin], 0.5f) << "kept after 0.5";
-    EXPECT_FALSE(depth.test_and_write(origin, 0.75f)) << "0.75 lies behind 0.5";
-    EXPECT_EQ(depth.depths()[origin], 0.5f) << "kept after 0.5 and 0.75";
-    EXPECT_TRUE(depth.test_and_write(origin, 0.25f)) << "0.25 is nearer than 0.5";
-    EXPECT_EQ(depth.depths()[origin], 0.25f) << "kept after 0.5, 0.75 and 0.25";
+    EXPECT_FALSE(depth.test_and_write(origin, 0.25f)) << "0.25 lies behind 0.5";
+    EXPECT_EQ(depth.depths()[origin], 0.5f) << "kept after 0.5 and 0.25";
+    EXPECT_TRUE(depth.test_and_write(origin, 0.75f)) << "0.75 is nearer than 0.5";
+    EXPECT_EQ(depth.depths()[origin], 0.75f) << "kept after 0.5, 0.25 and 0.75";
 }
 
-TEST(ZBuffer, Eq3_1_KeepsTheLeastOfManyDepths) {
+TEST(ZBuffer, Eq3_1_KeepsTheGreatestOfManyDepths) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(0, 1);
     DepthBuffer depth({1, 1});
-    float least = 1;
+    float greatest = 0;
     for (int i = 0; i < 1000; ++i) {
         const float z = any(random);
-        ASSERT_EQ(depth.test_and_write(origin, z), z < least) << z << " after " << least;
-        least = std::min(least, z);
-        ASSERT_EQ(depth.depths()[origin], least) << "kept after " << z;
+        ASSERT_EQ(depth.test_and_write(origin, z), z > greatest) << z << " after " << greatest;
+        greatest = std::max(greatest, z);
+        ASSERT_EQ(depth.depths()[origin], greatest) << "kept after " << z;
     }
 }
 
@@ -139,10 +139,10 @@ TEST(ZBuffer, Eq3_2_DepthOfTheWorkedExample) {
         << "the barycentrics 1/4, 3/8, 3/8 of the depths 0.25, 0.5, 0.75";
 }
 
-TEST(ZBuffer, Eq3_3_MeasuredFromTheNearestVertexIsTheSameDepth) {
+TEST(ZBuffer, Eq3_3_MeasuredFromTheFarthestVertexIsTheSameDepth) {
     EXPECT_EQ(TriangleDepth(vec3(0.25f, 0.5f, 0.75f)).at(vec3(0.25f, 0.375f, 0.375f)), 0.53125f);
     EXPECT_EQ(TriangleDepth(vec3(0.75f, 0.25f, 0.5f)).at(vec3(0.375f, 0.25f, 0.375f)), 0.53125f)
-        << "here the second vertex is the nearest";
+        << "here the second vertex is the farthest";
 }
 
 TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
@@ -182,11 +182,11 @@ TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {
 }
 
 TEST(ZBuffer, HardCase_OfEqualDepthsTheFirstStays) {
-    look_up("Eq. 3.1: less, not less or equal");
+    look_up("Eq. 3.1: greater, not greater or equal");
     DepthBuffer depth({1, 1});
     EXPECT_TRUE(depth.test_and_write(origin, 0.5f));
     EXPECT_FALSE(depth.test_and_write(origin, 0.5f)) << "0.5 after 0.5: the first stays";
-    EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(0.5f, 0.0f))) << "1 ulp nearer";
+    EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(0.5f, 1.0f))) << "1 ulp nearer";
 }
 
 TEST(ZBuffer, HardCase_OfOneTriangleInThreeOrdersTheFirstStays) {
@@ -201,20 +201,32 @@ TEST(ZBuffer, HardCase_OfOneTriangleInThreeOrdersTheFirstStays) {
 }
 
 TEST(ZBuffer, HardCase_ClearValueZeroOneAndMinusZero) {
-    look_up("Eq. 3.1: the buffer starts at 1");
+    look_up("Eq. 3.1: the buffer starts at 0");
     DepthBuffer depth({1, 1});
-    EXPECT_EQ(depth.depths()[origin], 1.0f) << "in a new buffer";
-    EXPECT_FALSE(depth.test_and_write(origin, 1.0f)) << "the far plane itself is not drawn";
-    EXPECT_TRUE(depth.test_and_write(origin, std::nextafter(1.0f, 0.0f)));
-    EXPECT_TRUE(depth.test_and_write(origin, 0.0f));
-    EXPECT_FALSE(depth.test_and_write(origin, -0.0f)) << "-0 equals 0, and the first stays";
+    EXPECT_EQ(depth.depths()[origin], 0.0f) << "in a new buffer";
+    EXPECT_FALSE(depth.test_and_write(origin, 0.0f)) << "infinitely far away: not drawn";
+    EXPECT_FALSE(depth.test_and_write(origin, -0.0f)) << "-0 equals 0";
+    EXPECT_TRUE(depth.test_and_write(origin, FLT_TRUE_MIN)) << "the least there is";
+    EXPECT_TRUE(depth.test_and_write(origin, 1.0f)) << "on the near plane";
     EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()))
-        << "NaN is not nearer than 0";
-    EXPECT_EQ(depth.depths()[origin], 0.0f);
+        << "NaN is not nearer than 1";
+    EXPECT_EQ(depth.depths()[origin], 1.0f);
+}
+
+TEST(ZBuffer, HardCase_WhatIsNotNearerThanTheFarthestIsNeverDrawn) {
+    look_up("Eq. 3.1: what the buffer is cleared to");
+    DepthBuffer depth({2, 1}, unset, 0.25f);
+    depth.clear(ivec2(0), ivec2(1, 0));
+    EXPECT_FALSE(depth.test_and_write(origin, 0.25f)) << "at the farthest depth, 0.25";
+    EXPECT_TRUE(depth.test_and_write(origin, 0.5f));
+    const Image<vec3> shown = depth_picture(depth);
+    EXPECT_EQ(shown[origin], vec3(1));
+    EXPECT_EQ(shown[ivec2(1, 0)], vec3(0)) << "an empty pixel of depth 0.25";
+    EXPECT_EQ((DepthBuffer({1, 1}, 0.25f).depths()[origin]), 0.25f) << "in a new buffer";
 }
 
 TEST(ZBuffer, HardCase_ClearsAPartAndNothingElse) {
-    look_up("Eq. 3.1: the buffer starts at 1");
+    look_up("Eq. 3.1: the buffer starts at 0");
     const ivec2 size(7, 5);
     for (const auto& [first, last] : {std::pair(ivec2(0), size - 1),
                                       {ivec2(2, 1), ivec2(4, 3)},
@@ -231,7 +243,7 @@ TEST(ZBuffer, HardCase_ClearsAPartAndNothingElse) {
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 const bool is_in = x >= first.x && y >= first.y && x <= last.x && y <= last.y;
-                ASSERT_EQ((depth.depths()[{x, y}]), is_in ? 1.0f : 0.25f)
+                ASSERT_EQ((depth.depths()[{x, y}]), is_in ? 0.0f : 0.25f)
                     << "pixel (" << x << ", " << y << "), of all 0.25, after clearing from "
                     << testing::PrintToString(first) << " to " << testing::PrintToString(last);
             }
@@ -242,8 +254,8 @@ TEST(ZBuffer, HardCase_NotANumberIsNeverNearer) {
     look_up("Eq. 3.1; every comparison with NaN is false");
     DepthBuffer depth({1, 1});
     EXPECT_FALSE(depth.test_and_write(origin, std::numeric_limits<float>::quiet_NaN()))
-        << "NaN is not nearer than 1";
-    EXPECT_EQ(depth.depths()[origin], 1.0f) << "kept after NaN";
+        << "NaN is not nearer than 0";
+    EXPECT_EQ(depth.depths()[origin], 0.0f) << "kept after NaN";
 }
 
 TEST(ZBuffer, HardCase_DrawOrderDoesNotChangeThePicture) {
@@ -342,7 +354,7 @@ TEST(ZBuffer, HardCase_InterpenetratingTrianglesMeetOnTheExactLine) {
         int first_in_front = 0;
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
-                const long double behind = exact_depth(q, {x, y}) - exact_depth(p, {x, y});
+                const long double behind = exact_depth(p, {x, y}) - exact_depth(q, {x, y});
                 first_in_front += behind > 0;
                 if (std::abs(behind) <= depth_tolerance(p) + depth_tolerance(q)) continue;
                 ASSERT_EQ((ids[{x, y}]), behind > 0 ? 0 : 1)
@@ -356,12 +368,13 @@ TEST(ZBuffer, HardCase_InterpenetratingTrianglesMeetOnTheExactLine) {
 
 TEST(ZBuffer, NearestIsShownWhiteTheFarthestDarkAndEmptyBlack) {
     look_up("Eq. 3.1: what the buffer holds in the end");
-    for (const float extent : {0.5f, 0x1p-19f}) {  // as many greys for depths that differ little
-        SCOPED_TRACE("depths from 0.25 to 0.25 + " + test::text_of(extent));
+    for (const float extent : {0.5f, 0x1p-19f, 0x1p-100f}) {  // as many greys for little depths
+        const float least = extent == 0x1p-100f ? extent : 0.25f;
+        SCOPED_TRACE("depths from " + test::text_of(least) + " on by " + test::text_of(extent));
         DepthBuffer depth({2, 2});
-        depth.test_and_write({0, 0}, 0.25f);
-        depth.test_and_write({1, 0}, 0.25f + extent / 2);
-        depth.test_and_write({1, 1}, 0.25f + extent);
+        depth.test_and_write({0, 0}, least + extent);
+        depth.test_and_write({1, 0}, least + extent / 2);
+        depth.test_and_write({1, 1}, least);
         const Image<vec3> shown = depth_picture(depth);
         EXPECT_EQ(shown[ivec2(0, 0)], vec3(1)) << "the nearest";
         EXPECT_EQ(shown[ivec2(0, 1)], vec3(0)) << "an empty pixel";

@@ -23,12 +23,13 @@ namespace {
 
 using Vertices = std::array<vec4, 3>;
 
-/// The oracle for Eq. 4.10: left and right are w + x and w - x, and so on.
+/// The oracle for Eq. 4.10: left and right are w + x and w - x, and so on; near is w - z, far z.
 Sum distance_inside(int plane, lvec4 point) {
     constexpr int axes[] = {0, 0, 1, 1, 2, 2};
-    constexpr int signs[] = {1, -1, 1, -1, 1, -1};
+    constexpr int signs[] = {1, -1, 1, -1, -1, 1};
     Sum sum;
-    sum.add(point.w), sum.add(signs[plane] * point[axes[plane]]);
+    if (plane != 5) sum.add(point.w);
+    sum.add(signs[plane] * point[axes[plane]]);
     return sum;
 }
 
@@ -211,7 +212,7 @@ TEST(Mvp, Eq4_14_RandomBoxesOfAllSizes) {
         mat4 clip_from_world;
         for (int column = 0; column < 4; ++column) clip_from_world[column] = any.homogeneous();
         if (i % 2)
-            clip_from_world = perspective(1.0f, 1.5f, 1e-3f * any.positive(), 1e12f) *
+            clip_from_world = perspective(1.0f, 1.5f, 1e-3f * any.positive()) *
                               look_at(any.vector(), any.vector(), vec3(0, 1, 0));
         std::array<bool, frustum_planes> is_beyond, reaches_in;  // of each plane
         is_beyond.fill(true), reaches_in.fill(false);

@@ -233,7 +233,7 @@ TEST(Mvp, Eq4_14_AnInstanceIsCulledByWhereItStands) {
     mesh.triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0}};
     for (const vec3 position : mesh.positions) mesh.bounds.add(position);
     const vec3 eye(100, 0, 5), center(100, 0, 0);
-    const Camera camera = {eye, look_at(eye, center, vec3(0, 1, 0)), 1, 1, 10, center};
+    const Camera camera = {eye, look_at(eye, center, vec3(0, 1, 0)), 1, 1, center};
     const auto visited = [&](const mat4& world_from_model) {
         int count = 0;
         NoCounters ignored;

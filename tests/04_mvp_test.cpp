@@ -280,81 +280,67 @@ TEST(Mvp, Eq4_6_EqualsTwoTurnsOfTheZAxis) {
 }
 
 TEST(Mvp, Eq4_7_SimilarTrianglesOfTheWorkedExample) {
-    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
+    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f);
     const vec4 clip = clip_from_view * vec4(1, 1, -1, 1);
     // tan(pi/4) in float and a division
     EXPECT_NEAR(clip.x, 0.5f, 4 * FLT_EPSILON)
         << "x of (1, 1, -1) by 90 degrees, with the aspect 2";
     EXPECT_NEAR(clip.y, 1, 4 * FLT_EPSILON) << "y of (1, 1, -1) by 90 degrees, with the aspect 2";
     EXPECT_EQ(clip.w, 1) << "w of (1, 1, -1) is its distance, -z";
-    EXPECT_NEAR(perspective(glm::radians(60.0f), 1.0f, 1.0f, 3.0f)[1][1], std::sqrt(3.0f),
+    EXPECT_NEAR(perspective(glm::radians(60.0f), 1.0f, 1.0f)[1][1], std::sqrt(3.0f),
                 4 * FLT_EPSILON)
         << "f for 60 degrees is 1 / tan(30 degrees)";
 }
 
-TEST(Mvp, Eq4_8_NearFarAndBetweenOfTheWorkedExample) {
-    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
-    EXPECT_NEAR(clip_from_view[2][2], -2, 4 * FLT_EPSILON) << "A for near 1 and far 3";
-    EXPECT_NEAR(clip_from_view[3][2], -3, 4 * FLT_EPSILON) << "B for near 1 and far 3";
-    EXPECT_NEAR((clip_from_view * vec4(1, 1, -1, 1)).z, -1, 4 * FLT_EPSILON)
-        << "z of (1, 1, -1), which is on the near plane";
-    const auto z_ndc = [&](float distance) {
+TEST(Mvp, Eq4_8_NearAndFarAwayOfTheWorkedExample) {
+    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f);
+    EXPECT_EQ((clip_from_view * vec4(1, 1, -1, 1)).z, 1) << "z of any point is near, 1";
+    const auto depth = [&](float distance) {
         const vec4 clip = clip_from_view * vec4(0, 0, -distance, 1);
         EXPECT_EQ(clip.w, distance) << "w of what is so far away";
         return clip.z / clip.w;
     };
-    constexpr float tolerance = 8 * FLT_EPSILON;  // A and B are within 2 eps of 2 and 3
-    EXPECT_NEAR(z_ndc(1), -1, tolerance) << "z/w on the near plane";
-    EXPECT_NEAR(z_ndc(1.5f), 0, tolerance) << "z/w at a distance of 1.5";
-    EXPECT_NEAR(z_ndc(3), 1, tolerance) << "z/w on the far plane";
+    EXPECT_EQ(depth(1), 1) << "z/w on the near plane";
+    EXPECT_EQ(depth(1.5f), 1 / 1.5f) << "z/w at a distance of 1.5";
+    EXPECT_EQ(depth(4), 0.25f) << "z/w at a distance of 4";
+    EXPECT_EQ(depth(FLT_MAX), 1 / FLT_MAX) << "z/w as far away as floats go";
 }
 
 TEST(Mvp, Eq4_8_RandomViewsEqualGlm) {
     AnySize any(6, 8);
     constexpr float below_pi = 3.1415925f;  // the next float is above
     for (int i = 0; i < cases; ++i) {
-        const float aspect = any.positive(), near_ = any.positive(),
-                    next = std::nextafter(near_, infinity),
-                    far_ = std::max(near_ * (1 + any.positive()), next);
+        const float aspect = any.positive(), near_ = any.positive();
         float fov = any.positive();
         if (fov > below_pi) fov = below_pi - 0.3f / fov;  // the same up to pi
-        // The error of near/far is up to a quarter of an eps, and so is that of 1 - near/far: of
-        // that, it is the share d. A divisor off by a share of d makes the quotient off by
-        // d / (1 - d). To that come the rest of the roundings, half an eps each: A has the sum, of
-        // which near/far makes a quarter more, the difference and the division.
-        const double d = 0.25 * double{FLT_EPSILON} / (1 - double{near_} / far_);
-        const double of_depth = 1.75 * double{FLT_EPSILON} + d / (1 - d);
         // 1 ulp of the tangent, a division, one more by the aspect.
         const double of_sides = 2 * double{FLT_EPSILON};
-        const dmat4 exact =
-            glm::perspectiveRH_NO(double{fov}, double{aspect}, double{near_}, double{far_});
-        ASSERT_TRUE(near<4>(perspective(fov, aspect, near_, far_), exact,
+        dmat4 exact = glm::perspectiveRH_NO(double{fov}, double{aspect}, 1.0, 2.0);
+        exact[2].z = 0, exact[3].z = near_;  // where GLM has a far plane
+        ASSERT_TRUE(near<4>(perspective(fov, aspect, near_), exact,
                             [&](int row, int column) {
-                                return std::abs(exact[column][row]) * (row < 2    ? of_sides
-                                                                       : row == 2 ? of_depth
-                                                                                  : 0);
+                                return std::abs(exact[column][row]) * (row < 2 ? of_sides : 0);
                             }))
-            << "field of view " << fov << ", aspect " << aspect << ", near " << near_ << ", far "
-            << far_ << "; seed 6, case " << i;
+            << "field of view " << fov << ", aspect " << aspect << ", near " << near_
+            << "; seed 6, case " << i;
     }
 }
 
 TEST(Mvp, Eq4_8_TheLeftHandedFormIsOursWithZMirrored) {
-    const double fov = 1, aspect = 1.5, near_ = 0.5, far_ = 7;
-    const dmat4 left_handed = glm::perspectiveLH_NO(fov, aspect, near_, far_);
+    const double fov = 1, aspect = 1.5, near_ = 0.5, far_ = 1e20;
+    const dmat4 left_handed = glm::perspectiveLH_ZO(fov, aspect, far_, near_);  // reversed
     EXPECT_EQ((left_handed * dvec4(0, 0, 3, 1)).w, 3) << "there w is z, not -z";
-    EXPECT_TRUE(near<4>(perspective(fov, aspect, near_, far_) * scaling(dvec3(1, 1, -1)),
-                        left_handed, [](int, int) { return 4 * DBL_EPSILON; }));
+    EXPECT_TRUE(near<4>(perspective(fov, aspect, near_) * scaling(dvec3(1, 1, -1)), left_handed,
+                        [](int, int) { return 4 * DBL_EPSILON; }));
 }
 
 TEST(Mvp, Eq4_8_TheCameraFirstViewsThenProjects) {
-    const Camera camera = {{0, 0, 5}, translation(vec3(0, 0, -5)), quarter_turn, 1, 9};
+    const Camera camera = {{0, 0, 5}, translation(vec3(0, 0, -5)), quarter_turn, 1};
     const vec4 clip = camera.clip_from_world({300, 200}) * vec4(2, 1, 3, 1);
     EXPECT_EQ(clip.w, 2)
         << "what lies at z = 3 is 2 in front of the camera at z = 5: the view acts "
            "first (Eq. 4.4), perspective on what it makes";
-    EXPECT_TRUE(is_point(vec3(clip), {4.0f / 3, 1, -10.0f / 8 * -2 - 18.0f / 8},
-                         8 * FLT_EPSILON));  // five roundings
+    EXPECT_TRUE(is_point(vec3(clip), {4.0f / 3, 1, 1}, 8 * FLT_EPSILON));  // five roundings
 }
 
 TEST(Mvp, Eq4_7_TheOneParameterFormDiffersByAScale) {
@@ -362,7 +348,7 @@ TEST(Mvp, Eq4_7_TheOneParameterFormDiffersByAScale) {
     const double c = 3, fov = 1, f = 1 / std::tan(fov / 2);
     dmat4 one_parameter(1);
     one_parameter[2][3] = -1 / c;
-    const dmat4 ours = perspective(fov, 1.0, 0.5, 7.0) * translation(dvec3(0, 0, -c));
+    const dmat4 ours = perspective(fov, 1.0, 0.5) * translation(dvec3(0, 0, -c));
     std::mt19937 random(7);
     std::uniform_real_distribution<double> any(-2, 2);
     for (int i = 0; i < 1000; ++i) {
@@ -377,24 +363,24 @@ TEST(Mvp, Eq4_7_TheOneParameterFormDiffersByAScale) {
 
 TEST(Mvp, Eq4_9_CornersAndMiddleOfTheViewport) {
     const mat4 screen_from_ndc = viewport<float>({4, 2});
-    EXPECT_EQ(moved(screen_from_ndc, {-1, 1, -1}), vec3(0, 0, 0))
+    EXPECT_EQ(moved(screen_from_ndc, {-1, 1, 1}), vec3(0, 0, 1))
         << "the upper left corner, near, of 4 x 2 pixels";
-    EXPECT_EQ(moved(screen_from_ndc, {0, 0, 0}), vec3(2, 1, 0.5f)) << "the middle of 4 x 2 pixels";
-    EXPECT_EQ(moved(screen_from_ndc, {1, -1, 1}), vec3(4, 2, 1))
-        << "the lower right corner, far, of 4 x 2 pixels";
-    EXPECT_EQ(moved(viewport<float>({5, 3}), {0, 0, 0}), vec3(2.5f, 1.5f, 0.5f));
+    EXPECT_EQ(moved(screen_from_ndc, {0, 0, 0.5f}), vec3(2, 1, 0.5f))
+        << "the middle of 4 x 2 pixels";
+    EXPECT_EQ(moved(screen_from_ndc, {1, -1, 0}), vec3(4, 2, 0))
+        << "the lower right corner, far away, of 4 x 2 pixels";
+    EXPECT_EQ(moved(viewport<float>({5, 3}), {0, 0, 0}), vec3(2.5f, 1.5f, 0));
 }
 
 TEST(Mvp, Eq4_9_ScreenIsTheViewportAfterTheDivision) {
-    EXPECT_EQ(screen_from_clip({-3, 3, -3, 3}, {4, 2}), vec3(0, 0, 0))
-        << "(-1, 1, -1) times a w of 3: the upper left corner, near";
-    EXPECT_EQ(screen_from_clip({0, 0, 0, 3}, {4, 2}), vec3(2, 1, 0.5f)) << "the middle";
-    EXPECT_EQ(screen_from_clip({3, -3, 3, 3}, {4, 2}), vec3(4, 2, 1))
-        << "(1, -1, 1) times a w of 3: the lower right corner, far";
-    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f, 3.0f);
-    EXPECT_NEAR(screen_from_clip(clip_from_view * vec4(0, 0, -1.5f, 1), {4, 2}).z, 0.5f,
-                8 * FLT_EPSILON)
-        << "the depth at a distance of 1.5, between 1 and 3";
+    EXPECT_EQ(screen_from_clip({-3, 3, 3, 3}, {4, 2}), vec3(0, 0, 1))
+        << "(-1, 1, 1) times a w of 3: the upper left corner, near";
+    EXPECT_EQ(screen_from_clip({0, 0, 1.5f, 3}, {4, 2}), vec3(2, 1, 0.5f)) << "the middle";
+    EXPECT_EQ(screen_from_clip({3, -3, 0, 3}, {4, 2}), vec3(4, 2, 0))
+        << "(1, -1, 0) times a w of 3: the lower right corner, far away";
+    const mat4 clip_from_view = perspective(quarter_turn, 2.0f, 1.0f);
+    EXPECT_EQ(screen_from_clip(clip_from_view * vec4(0, 0, -2, 1), {4, 2}).z, 0.5f)
+        << "the depth at twice the near plane's distance";
     std::mt19937 random(8);
     std::uniform_real_distribution<float> any(-1, 1);
     constexpr ivec2 size(1279, 719);
@@ -572,48 +558,41 @@ TEST(Mvp, HardCase_LookAtOverTinyAndHugeDistances) {
 }
 
 TEST(Mvp, HardCase_PerspectiveAtItsLimits) {
-    look_up("Eq. 4.7 and 4.8, with one quotient in place of near and far");
+    look_up("Eq. 4.7 and 4.8");
     for (const float fov_degrees : {1e-3f, 1.0f, 90.0f, 179.9f})
         for (const float aspect : {1e-4f, 1.0f, 16384.0f})
-            for (const float near_ : {1e-6f, 1.0f})
-                for (const float far_ : {1.001f, 1e6f, 1e30f, infinity}) {
-                    const mat4 m = perspective(glm::radians(fov_degrees), aspect, near_, far_);
-                    std::ostringstream text;
-                    text << "field of view " << fov_degrees << " degrees, aspect " << aspect
-                         << ", near " << near_ << ", far " << far_ << ": "
-                         << testing::PrintToString(m);
-                    const std::string of_case = text.str();
-                    for (int column = 0; column < 4; ++column)
-                        for (int row = 0; row < 4; ++row)
-                            ASSERT_TRUE(std::isfinite(m[column][row])) << of_case;
-                    ASSERT_GT(m[0][0], 0) << of_case;
-                    ASSERT_GT(m[1][1], 0) << of_case;
-                    // As in Eq4_8_RandomViewsEqualGlm, of two terms up to 2 / (1 - near/far).
-                    const float tolerance =
-                        8 * FLT_EPSILON / ((1 - near_ / far_) * (1 - near_ / far_));
-                    const vec4 on_near = m * vec4(0, 0, -near_, 1);
-                    ASSERT_NEAR(on_near.z / on_near.w, -1, tolerance) << of_case;
-                    if (far_ == infinity) continue;
-                    const vec4 on_far = m * vec4(0, 0, -far_, 1);
-                    ASSERT_NEAR(on_far.z / on_far.w, 1, tolerance) << of_case;
-                }
+            for (const float near_ : {1e-30f, 1e-6f, 1.0f, 1e30f}) {
+                const mat4 m = perspective(glm::radians(fov_degrees), aspect, near_);
+                std::ostringstream text;
+                text << "field of view " << fov_degrees << " degrees, aspect " << aspect
+                     << ", near " << near_ << ": " << testing::PrintToString(m);
+                const std::string of_case = text.str();
+                for (int column = 0; column < 4; ++column)
+                    for (int row = 0; row < 4; ++row)
+                        ASSERT_TRUE(std::isfinite(m[column][row])) << of_case;
+                ASSERT_GT(m[0][0], 0) << of_case;
+                ASSERT_GT(m[1][1], 0) << of_case;
+                const vec4 on_near = m * vec4(0, 0, -near_, 1);
+                ASSERT_EQ(on_near.z / on_near.w, 1) << of_case;
+                const vec4 far_away = m * vec4(0, 0, -8 * near_, 1);
+                ASSERT_EQ(far_away.z / far_away.w, 0.125f) << of_case;
+            }
 }
 
-TEST(Mvp, HardCase_InfinitelyFarPlane) {
-    look_up("Eq. 4.8 for an infinite far");
-    const mat4 m = perspective(1.0f, 1.0f, 0.5f, infinity);
-    EXPECT_EQ(m[2][2], -1);
-    EXPECT_EQ(m[3][2], -1);
-    float before = -1;
-    for (float distance = 1; distance < 1e6f; distance *= 2) {
-        const vec4 clip = m * vec4(0, 0, -distance, 1);
-        ASSERT_GT(clip.z / clip.w, before) << "z/w at a distance of " << distance;
-        ASSERT_LT(clip.z / clip.w, 1) << "z/w at a distance of " << distance;
-        before = clip.z / clip.w;
+TEST(Mvp, HardCase_DepthTellsApartWhatDiffersByTwoMillionthsHoweverFarAway) {
+    look_up("Eq. 4.8: floats are finest near 0");
+    for (const float near_ : {1e-5f, 0.1f, 1e4f}) {
+        const mat4 m = perspective(1.0f, 1.0f, near_);
+        const auto depth = [&](float distance) {
+            return screen_from_clip(m * vec4(0, 0, -distance, 1), {1, 1}).z;
+        };
+        for (float distance = near_; distance < 1e25f; distance *= 1.7f)
+            ASSERT_GT(depth(distance), depth(1.0000003f * distance))
+                << "at a distance of " << distance << ", near " << near_;
     }
 }
 
-TEST(Mvp, HardCase_WholeSceneLiesBetweenNearAndFar) {
+TEST(Mvp, HardCase_WholeSceneLiesBehindTheNearPlane) {
     look_up("Eq. 4.6: the scene in a sphere around its centre");
     std::mt19937 random(14);
     std::uniform_real_distribution<float> yaw(-720, 720), pitch(-90, 90), power(0, 6),
@@ -633,8 +612,8 @@ TEST(Mvp, HardCase_WholeSceneLiesBetweenNearAndFar) {
              << testing::PrintToString(bounds.max) << ", yaw " << orbit.yaw_degrees << ", pitch "
              << orbit.pitch_degrees << ", distance " << orbit.distance << "; seed 14, case " << i;
         const std::string of_case = text.str();
-        ASSERT_TRUE(0 < camera.near && camera.near < camera.far)
-            << "near " << camera.near << ", far " << camera.far << "; " << of_case;
+        ASSERT_GT(camera.near, 0) << of_case;
+        ASSERT_EQ(camera.farthest_depth(), 0) << of_case;
         ASSERT_TRUE(is_rigid(camera.view_from_world)) << of_case;
         for (int corner = 0; corner < 8; ++corner) {
             const dvec4 world(corner & 1 ? bounds.max.x : bounds.min.x,
@@ -642,7 +621,6 @@ TEST(Mvp, HardCase_WholeSceneLiesBetweenNearAndFar) {
                               corner & 4 ? bounds.max.z : bounds.min.z, 1);
             const double distance = -(dmat4(camera.view_from_world) * world).z;
             ASSERT_GE(distance, camera.near) << "of a corner; " << of_case;
-            ASSERT_LE(distance, camera.far) << "of a corner; " << of_case;
         }
         const vec4 middle = camera.clip_from_world({16, 9}) * vec4(bounds.center(), 1);
         // The eye is as far from the origin as 100 radii more than its distance: some eps of that.
@@ -663,7 +641,6 @@ TEST(Mvp, HardCase_OrbitAroundScenesOfNoSize) {
                     8 * FLT_EPSILON);
         EXPECT_TRUE(is_rigid(camera.view_from_world));
         EXPECT_NEAR(camera.near, 0.999f * (Orbit().distance - 1), 4 * FLT_EPSILON);
-        EXPECT_NEAR(camera.far, 1.001f * (Orbit().distance + 1), 4 * FLT_EPSILON);
     }
 }
 
@@ -680,7 +657,6 @@ TEST(Mvp, HardCase_OrbitAroundTinyAndHugeScenes) {
         ASSERT_EQ(camera.position_world, size * expected.position_world)
             << "a scene " << size << " times as large";
         ASSERT_EQ(camera.near, size * expected.near) << "a scene " << size << " times as large";
-        ASSERT_EQ(camera.far, size * expected.far) << "a scene " << size << " times as large";
         ASSERT_EQ(mat3(camera.view_from_world), mat3(expected.view_from_world))
             << "a scene " << size << " times as large";
     }
@@ -694,9 +670,7 @@ TEST(Mvp, HardCase_OrbitFromInsideTheScene) {
         Orbit orbit;
         orbit.distance = distance;
         const Camera camera = orbit_camera(orbit, bounds);
-        ASSERT_GE(camera.near, 0.0009f * camera.far)
-            << "or the depths have no digits left; " << distance << " radii from the center";
-        ASSERT_GE(camera.far, (1 + distance) * std::sqrt(3.0f))
+        ASSERT_NEAR(camera.near, 0.001f * (1 + distance) * std::sqrt(3.0f), 1e-4f)
             << distance << " radii from the center";
     }
 }

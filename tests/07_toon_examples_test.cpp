@@ -149,7 +149,7 @@ TEST(Toon, Eq7_8_ExampleOfTwoFaces) {
 TEST(Toon, Eq7_9_ExampleOfFivePixels) {
     const ivec2 size(400, 200);
     constexpr float tolerance = 2 * FLT_EPSILON;  // of numbers from 1 to 2
-    const mat4 clip_from_view = perspective(glm::radians(90.0f), 2.0f, 1.0f, 3.0f);
+    const mat4 clip_from_view = perspective(glm::radians(90.0f), 2.0f, 1.0f);
     const vec4 position = clip_from_view * vec4(1.2f, 1.6f, -2, 1);
     const vec4 moved = pushed(position, clip_from_view * vec4(0.48f, 0.64f, 0.6f, 0), 5, size);
     const char* what =
@@ -194,9 +194,9 @@ TEST(Toon, Eq7_10_AnExampleOfEitherSide) {
 }
 
 TEST(Toon, Eq7_11_ExampleOfADepth) {
-    const Camera one_to_three{vec3(0), mat4(1), 1, 1, 3};
-    EXPECT_NEAR(inverse_w(0.5f, one_to_three), 2 / 3.0, FLT_EPSILON) << "near 1, far 3";
-    EXPECT_EQ(inverse_w(DepthBuffer::cleared, one_to_three), 0) << "where nothing is seen";
+    const Camera near_2{vec3(0), mat4(1), 1, 2};
+    EXPECT_EQ(inverse_w(0.5f, near_2), 0.25f) << "near 2, at a distance of 4";
+    EXPECT_EQ(inverse_w(DepthBuffer::cleared, near_2), 0) << "where nothing is seen";
 }
 
 TEST(Toon, Eq7_12_ExampleOfAFloorAndAStep) {
@@ -268,7 +268,7 @@ TEST(Toon, HardCase_TheHullAlsoDrawsLinesWithinThePicture) {
 TEST(Toon, HardCase_SmallBallsAreInkAllOver) {
     look_up("Eq. 7.14, small round bodies");
     // Balls in orthographic projection, of radius R pixels, with lines of 2 r pixels.
-    const Camera one_to_100{vec3(0), mat4(1), 1, 1, 100};
+    const Camera near_1{vec3(0), mat4(1), 1, 1};
     for (const int r : {1, 2, 3})
         for (const auto& [radius_over_r, is_all_ink] : {std::pair{6.2f, true}, {6.35f, false}}) {
             const float radius = radius_over_r * static_cast<float>(r);
@@ -283,7 +283,7 @@ TEST(Toon, HardCase_SmallBallsAreInkAllOver) {
                     depth.test_and_write(p, 0.5f);
                 }
             NoCounters none;
-            draw_edges(depth, normals, one_to_100, 2 * static_cast<float>(r), {}, color, none);
+            draw_edges(depth, normals, near_1, 2 * static_cast<float>(r), {}, color, none);
             int bare = 0;
             for (ivec2 p(0); p.y < size.y; ++p.y)
                 for (p.x = 0; p.x < size.x; ++p.x) bare += normals[p] != vec3(0) && color[p] != ink;

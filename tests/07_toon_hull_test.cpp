@@ -259,7 +259,7 @@ TEST(Toon, HardCase_TheHullIsAsWideAtAnyDistanceAndSize) {
 TEST(Toon, HardCase_TheRimOfABodyOutsideReachesIn) {
     look_up("Eq. 7.9");
     // A cube just outside of the picture, to the left.
-    Camera camera{vec3(0), mat4(1), glm::radians(90.0f), 1, 100};
+    Camera camera{vec3(0), mat4(1), glm::radians(90.0f), 1};
     const ivec2 size(64);
     Mesh cube = cube_mesh(true);
     cube.bounds = {};

@@ -90,16 +90,17 @@ std::vector<PointOn> points_on(const Mesh& mesh, std::mt19937& random, int of_ea
     return points;
 }
 
-/// Of a plane z_ndc = (a x_ndc + b y_ndc) / 2 in a map of so many texels over the cube from -1
-/// to 1.
+/// Of a plane z_ndc = 1/2 + (a x_ndc + b y_ndc) / 4 in a map whose clip space is the world.
 Vertices plane_in_cube(float a, float b) {
-    const auto vertex = [&](float x, float y) { return vec3(x, y, 0.5f * (a * x + b * y)); };
+    const auto vertex = [&](float x, float y) {
+        return vec3(x, y, 0.5f + 0.25f * (a * x + b * y));
+    };
     return {vertex(-1, -1), vertex(1, -1), vertex(0, 1)};
 }
 
 ShadowMap map_of_cube(int size) { return {mat4(1), false, size, {vec3(-1), vec3(1)}}; }
 
-constexpr vec3 to_the_light(0, 0, -1);  ///< As map_of_cube() is seen.
+constexpr vec3 to_the_light(0, 0, 1);  ///< As map_of_cube() is seen.
 
 /// Roundings, snapping: what a bias has above the ideal formula, in the tests' maps.
 constexpr double beyond_ideal = 0.02;
@@ -111,7 +112,8 @@ TEST(ShadowMaps, Eq9_8_SlopesOfAKnownPlane) {
     const vec2 slope =
         receiver(map_of_cube(512), Bias::plane, 0, plane_in_cube(1, -2), to_the_light).slope;
     const char* const where =
-        "a plane with z = x / 2 - y in NDC, seen by a map of 512 texels: depth from a texel to the "
+        "a plane with z = 1/2 + x / 4 - y / 2 in NDC, seen by a map of 512 texels: depth from a "
+        "texel to the "
         "next one";
     EXPECT_NEAR(slope.x, 0.5 / 512, 1e-9) << where << " on its right";
     EXPECT_NEAR(slope.y, 1.0 / 512, 1e-9) << where << " below";
@@ -148,7 +150,7 @@ TEST(ShadowMaps, Eq9_4_SlopesOfAPlaneInAPerspective) {
 }
 
 TEST(ShadowMaps, Eq9_9_TheBiasIsHalfATexelTimesTheSlopes) {
-    // The worked example: 512 texels over 2, and z_ndc rises by x / 2: by 1/4 of x_ndc in depth.
+    // The worked example: 512 texels over 2, and the depth rises by 1/4 of x.
     constexpr int size = 512;
     const ShadowMap map = map_of_cube(size);
     for (const auto& [a, b] : {std::pair{1.0f, 0.0f}, {1.0f, 2.0f}, {-1.0f, 0.5f}}) {
@@ -242,7 +244,8 @@ TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
     constexpr int size = 512;
     const ShadowMap map = map_of_cube(size);
     const Receiver at = receiver(map, Bias::plane, 3, plane_in_cube(1, -2), to_the_light);
-    EXPECT_NEAR(at.slope.x, 0.5 / size, 1e-9) << "of z = x / 2 - y in NDC, a texel to the right";
+    EXPECT_NEAR(at.slope.x, 0.5 / size, 1e-9)
+        << "of z = 1/2 + x / 4 - y / 2 in NDC, a texel to the right";
     EXPECT_NEAR(at.slope.y, 1.0 / size, 1e-9) << "a texel down; down is -y";
     // Snapping and roundings are left, whatever the radius.
     EXPECT_LT(at.bias + at.bias_per_w, (1.0 / 512 + beyond_ideal) * 1.5 / size);
@@ -258,10 +261,10 @@ TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
     for (int y = 200; y < 300; ++y)
         for (int x = 200; x < 300; ++x)
             with_plate.depths.test_and_write(ivec2(x, y) + max_pcf_radius,
-                                             depth_of_plane({x, y}) - gap);
+                                             depth_of_plane({x, y}) + gap);
     for (const float side : {-0.45f, 0.0f, 0.45f}) {
         const vec2 in_map = vec2(250.5f + side, 250.5f - side) * (2.0f / size) - 1.0f;
-        const vec3 point(in_map.x, -in_map.y, 0.5f * (in_map.x + 2 * in_map.y));
+        const vec3 point(in_map.x, -in_map.y, 0.5f + 0.25f * (in_map.x + 2 * in_map.y));
         EXPECT_EQ(pcf_visibility<3>(with_plate, at, point), 0)
             << "a plate a tenth of a texel's slope in front of a tilted plane shadows it: at "
             << testing::PrintToString(point);
@@ -275,21 +278,21 @@ TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
 
 TEST(ShadowMaps, Eq9_12_TheOffsetAlongTheNormal) {
     // The map's texels are 2/512 wide: a point of a plane that is tilted by 3 : 4 along x moves by
-    // (r + 1/2) 2/512 3/5, and nothing is taken off its depth.
+    // (r + 1/2) 2/512 3/5, and nothing is added to its depth.
     constexpr int size = 512;
     const ShadowMap map = map_of_cube(size);
-    const Receiver at = receiver(map, Bias::normal, 1, plane_in_cube(1.5f, 0), to_the_light);
+    const Receiver at = receiver(map, Bias::normal, 1, plane_in_cube(3, 0), to_the_light);
     EXPECT_EQ(at.bias, 0);
     const dvec3 offset = dvec3(at.offset) + dvec3(at.offset_times_w);
     const std::string where = "the offset is " + testing::PrintToString(vec3(offset)) +
                               "; texels of 2/512, radius 1, a plane tilted by 3 : 4 along x";
-    EXPECT_NEAR(glm::dot(glm::normalize(offset), dvec3(0.6, 0, -0.8)), 1, 1e-6)
-        << "its direction and the normal on the light's side, (0.6, 0, -0.8); " << where;
+    EXPECT_NEAR(glm::dot(glm::normalize(offset), dvec3(-0.6, 0, 0.8)), 1, 1e-6)
+        << "its direction and the normal on the light's side, (-0.6, 0, 0.8); " << where;
     EXPECT_GE(glm::length(offset), 1.5 * 2 / size * 0.6) << where;
     EXPECT_LE(glm::length(offset), (1.5 + beyond_ideal) * 2 / size * 0.6) << where;
     // Even edge-on it is no longer than that of two sides of a texel.
     const Vertices edge_on = {vec3(0), vec3(1, 1, 0), vec3(0, 0, 1)};
-    const Receiver steep = receiver(map, Bias::normal, 1, edge_on, {1, -1, -1e-3f});
+    const Receiver steep = receiver(map, Bias::normal, 1, edge_on, {1, -1, 1e-3f});
     EXPECT_LE(glm::length(steep.offset + steep.offset_times_w), 1.51 * std::sqrt(2) * 2 / size);
 }
 
@@ -314,7 +317,7 @@ TEST(ShadowMaps, Eq9_12_ThePointMovedInAPerspectiveIsNearerByTheBias) {
         const double of_plane = here.z / here.w + glm::dot(dvec2(at.slope), shift);
         const double bias = sloped.bias + sloped.bias_per_w / there.w;
         // 1e-3: points in float lie beside their plane; the term that stands in 1 - K g is more.
-        ASSERT_NEAR((of_plane - there.z / there.w) / bias, 1, 1e-3)
+        ASSERT_NEAR((there.z / there.w - of_plane) / bias, 1, 1e-3)
             << "the moved point's depth in front of the plane, in biases of Eq. 9.10; the point "
             << testing::PrintToString(p.point) << " is moved by "
             << testing::PrintToString(vec3(offset)) << " (seed 5, case " << i << ")";
@@ -410,7 +413,7 @@ TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
     for (int i = 0; i < 64; ++i) map.depths.test_and_write(ivec2(i) + max_pcf_radius, 0.3f);
     for (const auto& [vertices, is_edge_on] : triangles)
         for (const Bias bias : {Bias::none, Bias::constant, Bias::slope, Bias::plane, Bias::normal})
-            for (const vec3 outward : {to_the_light, vec3(0, 1, -1), vec3(0)}) {
+            for (const vec3 outward : {to_the_light, vec3(0, 1, 1), vec3(0)}) {
                 const Receiver at = receiver(map, bias, 3, vertices, outward);
                 for (const float number :
                      {at.slope.x, at.slope.y, at.bias, at.bias_per_w, at.offset.x, at.offset.y,
@@ -418,12 +421,12 @@ TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
                     ASSERT_TRUE(std::abs(number) <= 3)
                         << name_of(bias) << ": " << number << ", expected at most 3";
                 for (const float depth : {0.0f, 0.3f, 1.0f}) {
-                    const float visibility = pcf_visibility<3>(map, at, {0, 0, 2 * depth - 1});
+                    const float visibility = pcf_visibility<3>(map, at, {0, 0, depth});
                     ASSERT_TRUE(visibility >= 0 && visibility <= 1)
                         << name_of(bias) << ": visibility " << visibility;
                 }
                 if (is_edge_on && (bias == Bias::slope || bias == Bias::plane)) {
-                    ASSERT_EQ(pcf_visibility<3>(map, at, {0, 0, 1}), 1)
+                    ASSERT_EQ(pcf_visibility<3>(map, at, {0, 0, 0}), 1)
                         << "a triangle that the light sees edge-on is lit: "
                         << testing::PrintToString(vertices[0]) << ", "
                         << testing::PrintToString(vertices[1]) << ", "
@@ -436,7 +439,7 @@ TEST(ShadowMaps, HardCase_ATriangleTurnedAwayIsLeftToItsNormals) {
     look_up("Eq. 9.8");
     ShadowMap map = map_of_cube(8);
     for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x) map.depths.test_and_write(ivec2(x, y) + max_pcf_radius, 0.0f);
+        for (int x = 0; x < 8; ++x) map.depths.test_and_write(ivec2(x, y) + max_pcf_radius, 1.0f);
     const vec3 point(0.1f, 0.1f, 0.5f);
     for (const Bias bias : fitted) {
         const auto visibility = [&](vec3 outward) {

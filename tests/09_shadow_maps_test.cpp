@@ -61,17 +61,17 @@ class Anywhere {
     std::mt19937 random_;
 };
 
-/// A map of 4 x 4 texels over the cube from -1 to 1, seen along -z: x = 2 (x_world + 1),
-/// y = 2 (1 - y_world), depth = (z_world + 1) / 2.
-ShadowMap small_map() { return {mat4(1), false, 4, box(vec3(-1), vec3(1))}; }
+/// A map of 4 x 4 texels whose clip space is the world: x = 2 (x_world + 1), y = 2 (1 - y_world),
+/// depth = z_world.
+ShadowMap small_map() { return {mat4(1), false, 4, box({-1, -1, 0}, vec3(1))}; }
 
 /// Where the texel's centre is, at a depth.
 vec3 at_texel(float column, float row, float depth) {
-    return {(column + 0.5f) / 2 - 1, 1 - (row + 0.5f) / 2, 2 * depth - 1};
+    return {(column + 0.5f) / 2 - 1, 1 - (row + 0.5f) / 2, depth};
 }
 
 void put(ShadowMap& map, ivec2 texel, float depth) {
-    map.depths.test_and_write(texel + max_pcf_radius, depth);
+    map.depths.depths()[texel + max_pcf_radius] = depth;
 }
 
 /// The share of a floor's points in the shadow of a roof far larger than it that are lit, as they
@@ -111,15 +111,14 @@ testing::AssertionResult is_dark_under_a_large_roof(const Light& light, int size
 }  // namespace
 
 TEST(ShadowMaps, Eq9_1_ALightFromTheRight) {
-    // It shines along -x: so z of NDC, which grows away from the light, grows as x gets smaller.
+    // It shines along -x: so z of NDC, which grows towards the light, grows with x.
     const Bounds all = box(vec3(-1), vec3(1));
     const LightViews views = light_views(directional_light({1, 0, 0}), all, all, 256);
     ASSERT_EQ(views.count, 1u) << "maps";
     const dvec3 near = ndc(views.clip_from_world[0], {0.5, 0.25, -0.5});
     const dvec3 far = ndc(views.clip_from_world[0], {-0.5, 0.25, -0.5});
-    EXPECT_LT(near.z, far.z) << "NDC of (0.5, 0.25, -0.5), which is nearer to the light, has to "
-                                "have less z than that of "
-                                "(-0.5, 0.25, -0.5)";
+    EXPECT_GT(near.z, far.z) << "NDC of (0.5, 0.25, -0.5), which is nearer to the light, has to "
+                                "have more z than that of (-0.5, 0.25, -0.5)";
     EXPECT_NEAR(near.x, far.x, float_tolerance) << "both lie on one ray: in the same texel";
     EXPECT_NEAR(near.y, far.y, float_tolerance) << "both lie on one ray: in the same texel";
     const dvec3 higher = ndc(views.clip_from_world[0], {0.5, 0.75, -0.5});
@@ -146,7 +145,7 @@ TEST(ShadowMaps, Eq9_1_PointsOnOneRayOfADirectionalLightShareATexel) {
                                   " (seed 1, case " + std::to_string(i) + ")";
         ASSERT_NEAR(here.x, nearer.x, float_tolerance) << where;
         ASSERT_NEAR(here.y, nearer.y, float_tolerance) << where;
-        ASSERT_LT(nearer.z, here.z) << where;
+        ASSERT_GT(nearer.z, here.z) << where;
         // Right-handed, up is up: as a camera would see it.
         const dvec3 higher = ndc(views.clip_from_world[0], point + dvec3(0, 1, 0));
         ASSERT_GT(higher.y, here.y - float_tolerance) << "seed 1, case " << i;
@@ -154,16 +153,16 @@ TEST(ShadowMaps, Eq9_1_PointsOnOneRayOfADirectionalLightShareATexel) {
     }
 }
 
-TEST(ShadowMaps, Eq9_2_TheBoxFillsTheCube) {
+TEST(ShadowMaps, Eq9_2_TheBoxFillsNdc) {
     const dmat4 m = crop({2, -1, 10}, {6, 1, 30});
     const auto cropped = [&](dvec3 p) { return dvec3(m * dvec4(p, 1)); };
     const char* const of_box = "the box from (2, -1, 10) to (6, 1, 30)";
-    EXPECT_EQ(cropped({2, -1, 10}), dvec3(-1)) << of_box;
+    EXPECT_EQ(cropped({2, -1, 10}), dvec3(-1, -1, 0)) << of_box;
     EXPECT_EQ(cropped({6, 1, 30}), dvec3(1)) << of_box;
-    EXPECT_EQ(cropped({5, 0, 20}), dvec3(0.5, 0, 0)) << of_box;  // the worked example
+    EXPECT_EQ(cropped({5, 0, 20}), dvec3(0.5, 0, 0.5)) << of_box;  // the worked example
     // Clip space: what is cropped is the quotient, and w stays.
     const dvec4 clip = m * dvec4(3.0 * dvec3(5, 0, 20), 3);
-    EXPECT_EQ(clip, dvec4(1.5, 0, 0, 3)) << of_box << ": the same point with w = 3";
+    EXPECT_EQ(clip, dvec4(1.5, 0, 1.5, 3)) << of_box << ": the same point with w = 3";
 }
 
 TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
@@ -192,15 +191,15 @@ TEST(ShadowMaps, Eq9_3_TheMapHoldsWhatCastsOnWhatReceives) {
         }
         // Inside, and no more than the half percent beside it that rounding is allowed.
         for (int axis = 0; axis < 3; ++axis) {
-            const double most = axis == 2 ? 1 : end;
+            const double most = axis == 2 ? 1 : end, least = axis == 2 ? 0 : -end;
             const std::string where = std::string("the casters' ") + "xyz"[axis] +
                                       " in NDC is from " + std::to_string(low[axis]) + " to " +
-                                      std::to_string(high[axis]) + ", expected just inside of -" +
-                                      std::to_string(most) + " to " + std::to_string(most) +
+                                      std::to_string(high[axis]) + ", expected just inside of " +
+                                      std::to_string(least) + " to " + std::to_string(most) +
                                       (axis == 2 ? "" : " (a margin of 4 texels of 256)") +
                                       "; seed 2, case " + std::to_string(i);
-            ASSERT_TRUE(low[axis] >= -most && low[axis] < -0.99 * most) << where;
-            ASSERT_TRUE(high[axis] <= most && high[axis] > 0.99 * most) << where;
+            ASSERT_TRUE(low[axis] >= least && low[axis] < least + 0.01) << where;
+            ASSERT_TRUE(high[axis] <= most && high[axis] > most - 0.01) << where;
         }
     }
 }
@@ -242,7 +241,8 @@ TEST(ShadowMaps, HardCase_AFlatCasterEdgeOnHasAMap) {
         const LightViews views = light_views(light, sheet, floor, 64);
         ASSERT_EQ(views.count, 1u);
         const dvec3 in_ndc = ndc(views.clip_from_world[0], {0, 1.5, 0.5});
-        EXPECT_TRUE(std::abs(in_ndc.x) < 1 && std::abs(in_ndc.y) < 1 && std::abs(in_ndc.z) < 1)
+        EXPECT_TRUE(std::abs(in_ndc.x) < 1 && std::abs(in_ndc.y) < 1 && in_ndc.z > 0 &&
+                    in_ndc.z < 1)
             << testing::PrintToString(vec3(in_ndc));
     }
 }
@@ -254,7 +254,8 @@ TEST(ShadowMaps, HardCase_ASceneOfOnePointHasAMap) {
     ASSERT_EQ(views.count, 1u);
     const dvec3 in_ndc = ndc(views.clip_from_world[0], dvec3(point.min));
     // Not a number where the map's box has no size.
-    EXPECT_LT(glm::length(in_ndc), float_tolerance) << "the point is the box's centre";
+    EXPECT_LT(glm::distance(in_ndc, dvec3(0, 0, 0.5)), float_tolerance)
+        << "the point is the box's centre";
 }
 
 TEST(ShadowMaps, Eq9_4_ASpotlightsMapReachesToTheBorderOfItsCone) {
@@ -286,23 +287,22 @@ TEST(ShadowMaps, Eq9_4_ASpotlightsMapReachesToTheBorderOfItsCone) {
         }
 }
 
-TEST(ShadowMaps, Eq9_4_DepthsReachALittleBeyondWhatTheyAreFor) {
-    const DepthRange range = depth_range(2, 10);
-    EXPECT_TRUE(range.near < 2 && range.near > 1.98) << range.near << " for a caster at 2";
-    EXPECT_TRUE(range.far > 10 && range.far < 10.1) << range.far << " for casters up to 10";
-    EXPECT_GT(depth_range(0, 10).near, 0) << "the light is in a caster";
+TEST(ShadowMaps, Eq9_4_TheNearPlaneLiesALittleBeforeTheNearestCaster) {
+    const double near = near_plane(2, 10);
+    EXPECT_TRUE(near < 2 && near > 1.98) << near << " for a caster at 2";
+    EXPECT_NEAR(near_plane(0, 10), 0.01, 1e-6) << "a thousandth of 10: the light is in a caster";
 }
 
-TEST(ShadowMaps, Eq9_4_ASpotlightsDepthsRunFromItsNearToItsFarPlane) {
+TEST(ShadowMaps, Eq9_4_ASpotlightsDepthsAreNearOverDistance) {
     const Bounds around = box({-1, -2, -1}, {1, 1, 1});
     const LightViews views = light_views(spotlight({0, 5, 0}, {0, 0, 0}, 40), around, around, 64);
     ASSERT_EQ(views.count, 1u);
-    const DepthRange range = depth_range(4, 7);
+    const double near = near_plane(4, 7);
     const auto depth_at = [&](double distance) {
         return ndc(views.clip_from_world[0], {0, 5 - distance, 0}).z;
     };
-    EXPECT_NEAR(depth_at(range.near), -1, float_tolerance) << "the near plane, as fitted";
-    EXPECT_NEAR(depth_at(range.far), 1, float_tolerance) << "the far plane, as fitted";
+    EXPECT_NEAR(depth_at(near), 1, float_tolerance) << "the near plane, as fitted";
+    EXPECT_NEAR(depth_at(4 * near), 0.25, float_tolerance) << "four times as far away";
 }
 
 TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsCutDownToCastersAndReceivers) {
@@ -320,10 +320,10 @@ TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsCutDownToCastersAndReceivers) {
     EXPECT_NEAR(corner.x, end, 0.005) << what;
     EXPECT_NEAR(corner.y, end, 0.005) << what;
     const double nearest = ndc(clip, {0, 5, 0}).z, farthest = ndc(clip, {0, 4, 0}).z;
-    EXPECT_TRUE(nearest >= -1 && nearest < -0.95)
-        << nearest << ": z in NDC of the plate's top, expected just above -1";
-    EXPECT_TRUE(farthest <= 1 && farthest > 0.95)
-        << farthest << ": z in NDC of the plate's underside, expected just below 1";
+    EXPECT_TRUE(nearest <= 1 && nearest > 0.99)
+        << nearest << ": z in NDC of the plate's top, expected just below 1";
+    EXPECT_NEAR(farthest, nearest * 5 / 6, float_tolerance)
+        << "z in NDC of the plate's underside, 6 below the light; its top is 5 below";
 }
 
 TEST(ShadowMaps, Eq9_4_ASpotlightsMapIsNoWiderThanItsCone) {
@@ -382,7 +382,7 @@ TEST(ShadowMaps, Eq9_5_EachDirectionLiesWellInsideOfItsFace) {
             testing::PrintToString(vec3(in_ndc)) + " (seed 4, case " + std::to_string(i) + ")";
         ASSERT_LE(std::abs(in_ndc.x), most) << where;
         ASSERT_LE(std::abs(in_ndc.y), most) << where;
-        ASSERT_LE(std::abs(in_ndc.z), 1) << where;
+        ASSERT_TRUE(in_ndc.z >= 0 && in_ndc.z <= 1) << where;
         greatest = std::max({greatest, std::abs(in_ndc.x), std::abs(in_ndc.y)});
     }
     EXPECT_GT(greatest, most - 0.01);  // and no wider than that
@@ -398,7 +398,7 @@ TEST(ShadowMaps, Eq9_5_APointLightsMapsReachToTheFarthestCorner) {
             const vec3 corner(i & 1 ? 3 : -1, i & 2 ? 2 : -2, i & 4 ? 1 : -3);
             const dvec3 in_ndc =
                 ndc(views.clip_from_world[cube_face(corner - position)], dvec3(corner));
-            EXPECT_LE(std::abs(in_ndc.z), 1)
+            EXPECT_TRUE(in_ndc.z > 0 && in_ndc.z <= 1)
                 << "depth of the box's corner " << testing::PrintToString(corner)
                 << " as a point light at " << testing::PrintToString(position) << " sees it";
         }
@@ -420,9 +420,9 @@ TEST(ShadowMaps, HardCase_ASmallMapSeesTheNearestCasterInItsCorners) {
         const LightViews views = light_views(point_light({0, 0, 0}), plate, around, 16);
         ASSERT_EQ(views.count, 6u);
         const double depth = ndc(views.clip_from_world[5], direction).z;
-        EXPECT_TRUE(depth >= -1 && depth <= 1) << corner << ": " << depth;
+        EXPECT_TRUE(depth >= 0 && depth <= 1) << corner << ": " << depth;
         if (corner > 1.9f) {
-            EXPECT_LT(depth, -0.85) << "nor is it any farther from the border than need be";
+            EXPECT_GT(depth, 0.925) << "nor is it any farther from the border than need be";
         }
     }
 }
@@ -444,8 +444,8 @@ TEST(ShadowMaps, HardCase_LightParallelToUp) {
         // The map sees the casters from inside of it, with an area.
         const dvec3 o = ndc(clip, {0, 1, 0}), x = ndc(clip, {1, 1, 0}), z = ndc(clip, {0, 1, -1});
         for (const dvec3 in_ndc : {o, x, z})
-            EXPECT_TRUE(std::abs(in_ndc.x) <= 1 && std::abs(in_ndc.y) <= 1 &&
-                        std::abs(in_ndc.z) <= 1)
+            EXPECT_TRUE(std::abs(in_ndc.x) <= 1 && std::abs(in_ndc.y) <= 1 && in_ndc.z >= 0 &&
+                        in_ndc.z <= 1)
                 << testing::PrintToString(vec3(in_ndc));
         const double area = (x.x - o.x) * (z.y - o.y) - (x.y - o.y) * (z.x - o.x);
         EXPECT_GT(std::abs(area), 0.1);
@@ -455,28 +455,27 @@ TEST(ShadowMaps, HardCase_LightParallelToUp) {
 TEST(ShadowMaps, Eq9_6_PositionsAndDepthsInTheMap) {
     const ShadowMap map = small_map();
     const vec4 in_map = map.texels_from_world * vec4(0.25f, -0.5f, 0.5f, 1);
-    EXPECT_EQ(in_map, vec4(2.5f, 3, 0.75f, 1))  // the worked example
+    EXPECT_EQ(in_map, vec4(2.5f, 3, 0.5f, 1))  // the worked example
         << "texels_from_world of (0.25, -0.5, 0.5), in a map of 4 x 4 texels whose clip space is "
            "the world: column, row (down), depth, w";
     EXPECT_EQ(map.depths.depths().size(), ivec2(4 + 2 * max_pcf_radius));
-    for (const float depth : map.depths.depths().pixels()) ASSERT_EQ(depth, 1) << "before drawing";
+    for (const float depth : map.depths.depths().pixels()) ASSERT_EQ(depth, 0) << "before drawing";
 }
 
 TEST(ShadowMaps, Eq9_6_TheNearestCasterIsDrawn) {
     // Plates at depths 0.25 and 0.75, both on the left half of the map, the nearer one first.
-    const auto plate = [](float depth) {
-        const float z = 2 * depth - 1;
+    const auto plate = [](float z) {
         return mesh_of({{-1, -1, z}, {0, -1, z}, {0, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}});
     };
     ShadowMap map = small_map();
     NoCounters none;
-    for (const float depth : {0.25f, 0.75f})
+    for (const float depth : {0.75f, 0.25f})
         draw_casters(map, plate(depth), [](std::size_t) { return true; }, none);
     for (int y = -max_pcf_radius; y < 4 + max_pcf_radius; ++y)
         for (int x = -max_pcf_radius; x < 4 + max_pcf_radius; ++x) {
             const bool is_covered = x >= 0 && x < 2 && y >= 0 && y < 4;
             ASSERT_EQ((map.depths.depths()[ivec2(x, y) + max_pcf_radius]),
-                      is_covered ? 0.25f : 1.0f)
+                      is_covered ? 0.75f : 0.0f)
                 << "texel (" << x << ", " << y << ") of a map of 4 x 4 texels, which begins "
                 << max_pcf_radius << " texels from its memory's corner; casters at depths 0.25 and "
                 << "0.75 cover the columns 0 and 1";
@@ -484,7 +483,7 @@ TEST(ShadowMaps, Eq9_6_TheNearestCasterIsDrawn) {
     ShadowMap empty = small_map();
     draw_casters(empty, plate(0.25f), [](std::size_t) { return false; }, none);
     for (const float depth : empty.depths.depths().pixels())
-        ASSERT_EQ(depth, 1) << "of a material that casts no shadow, nothing is drawn";
+        ASSERT_EQ(depth, 0) << "of a material that casts no shadow, nothing is drawn";
 }
 
 TEST(ShadowMaps, Eq9_7_LitIsWhatIsNotBehindTheMap) {
@@ -496,42 +495,42 @@ TEST(ShadowMaps, Eq9_7_LitIsWhatIsNotBehindTheMap) {
         const float found = pcf_visibility<0>(map, none, at_texel(column, row, depth));
         return (found == static_cast<float>(expected) ? testing::AssertionSuccess()
                                                       : testing::AssertionFailure())
-               << "the map has depth 0.5 in column 1, row 2 and 1 elsewhere; of a point in column "
+               << "the map has depth 0.5 in column 1, row 2 and 0 elsewhere; of a point in column "
                << column << ", row " << row << ", at depth " << depth << " with bias " << none.bias
                << " the visibility is " << found << ", expected " << expected;
     };
-    EXPECT_TRUE(has_light(1, 2, 0.25f, 1));
-    EXPECT_TRUE(has_light(1, 2, 0.75f, 0));
+    EXPECT_TRUE(has_light(1, 2, 0.75f, 1));
+    EXPECT_TRUE(has_light(1, 2, 0.25f, 0));
     EXPECT_TRUE(has_light(1, 2, 0.5f, 1)) << "equal depths: it is lit";
-    EXPECT_TRUE(has_light(1, 2, 0.5001f, 0));
-    EXPECT_TRUE(has_light(1, 2, 7.0f, 0)) << "far behind";
-    EXPECT_TRUE(has_light(1, 2, -7.0f, 1)) << "far in front";
+    EXPECT_TRUE(has_light(1, 2, 0.4999f, 0));
+    EXPECT_TRUE(has_light(1, 2, -7.0f, 0)) << "far behind";
+    EXPECT_TRUE(has_light(1, 2, 7.0f, 1)) << "far in front";
     none.bias = 0.01f;
-    EXPECT_TRUE(has_light(1, 2, 0.505f, 1));
-    EXPECT_TRUE(has_light(1, 2, 0.515f, 0));
-    put(map, {1, 2}, 0.995f);
-    const float behind_the_map = pcf_visibility<0>(map, none, at_texel(1, 2, 7));
-    EXPECT_EQ(behind_the_map, 0) << "at depth 7, behind a caster at 0.995, with bias 0.01: the "
-                                    "minimum with 1 comes after the bias";
+    EXPECT_TRUE(has_light(1, 2, 0.495f, 1));
+    EXPECT_TRUE(has_light(1, 2, 0.485f, 0));
+    put(map, {1, 2}, 0.005f);
+    const float behind_the_map = pcf_visibility<0>(map, none, at_texel(1, 2, -7));
+    EXPECT_EQ(behind_the_map, 0) << "at depth -7, behind a caster at 0.005, with bias 0.01: the "
+                                    "maximum with 0 comes after the bias";
     put(map, {1, 2}, 0.5f);
     none.bias = 0;
     // All of the texel, and none of its neighbours.
     for (const float side : {-0.49f, 0.49f}) {
-        ASSERT_TRUE(has_light(1 + side, 2 - side, 0.75f, 0));
-        ASSERT_TRUE(has_light(1 + 1.1f * side, 2, 0.75f, 1));
-        ASSERT_TRUE(has_light(1, 2 + 1.1f * side, 0.75f, 1));
+        ASSERT_TRUE(has_light(1 + side, 2 - side, 0.25f, 0));
+        ASSERT_TRUE(has_light(1 + 1.1f * side, 2, 0.25f, 1));
+        ASSERT_TRUE(has_light(1, 2 + 1.1f * side, 0.25f, 1));
     }
-    for (const float depth : {0.75f, 1.0f, 1.5f, 1e30f})
+    for (const float depth : {0.25f, 0.0f, -0.5f, -1e30f})
         ASSERT_TRUE(has_light(2, 2, depth, 1)) << "nothing is in front";
 }
 
 TEST(ShadowMaps, Eq9_7_InPerspectiveThePositionIsDividedByW) {
-    const mat4 clip(perspective(glm::radians(90.0), 1.0, 1.0, 9.0));
+    const mat4 clip(perspective(glm::radians(90.0), 1.0, 1.0));
     ShadowMap map(clip, true, 4, box({-9, -9, -9}, {9, 9, -1}));
-    put(map, {2, 1}, 0);
+    put(map, {2, 1}, 1);
     EXPECT_EQ(pcf_visibility<0>(map, {}, {0.5f, 0.5f, -2}), 0)
         << "a spotlight at 0 looks along -z, 45 degrees to each side; its map of 4 x 4 texels has "
-           "depth 0 in column 2, row 1, and 1 elsewhere. The point (0.5, 0.5, -2) has w = 2, and "
+           "depth 1 in column 2, row 1, and 0 elsewhere. The point (0.5, 0.5, -2) has w = 2, and "
            "lies at (0.25, 0.25) in NDC: in column 2, row 1";
     EXPECT_EQ(pcf_visibility<0>(map, {}, {-0.5f, 0.5f, -2}), 1)
         << "the same map: the point (-0.5, 0.5, -2) lies in column 1, row 1";
@@ -558,7 +557,7 @@ TEST(ShadowMaps, HardCase_OutsideOfTheMapAllIsLit) {
     look_up("Eq. 9.7");
     ShadowMap map = small_map();
     for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) put(map, {x, y}, 0);
+        for (int x = 0; x < 4; ++x) put(map, {x, y}, 1);
     EXPECT_EQ(pcf_visibility<3>(map, {}, at_texel(1, 1, 0.5f)), 33 / 49.0f);
     EXPECT_EQ(pcf_visibility<0>(map, {}, at_texel(0, 3, 0.5f)), 0);
     for (const float beyond : {-0.6f, -3.0f, -1e9f, -1e38f, 3.6f, 4.0f, 1e9f, 1e38f, infinity,
@@ -577,7 +576,7 @@ TEST(ShadowMaps, HardCase_BehindASpotlightAllIsLit) {
     ASSERT_EQ(views.count, 1u);
     ShadowMap map(views.clip_from_world[0], true, 16, around);
     for (int y = 0; y < 16; ++y)
-        for (int x = 0; x < 16; ++x) put(map, {x, y}, 0);
+        for (int x = 0; x < 16; ++x) put(map, {x, y}, 1);
     EXPECT_EQ(pcf_visibility<0>(map, {}, {0, 0, -2}), 0);
     EXPECT_EQ(pcf_visibility<0>(map, {}, {0, 0, 2}), 1);
     EXPECT_EQ(pcf_visibility<0>(map, {}, {0, 0, 0}), 1) << "in the light itself";
@@ -609,15 +608,15 @@ TEST(ShadowMaps, Eq9_13_AShareOfTexelsIsLit) {
     ShadowMap map = small_map();
     for (const ivec2 texel : {ivec2(0, 0), ivec2(1, 1), ivec2(2, 1), ivec2(3, 3)})
         put(map, texel, 0.5f);
-    const vec3 point = at_texel(1.3f, 0.8f, 0.75f);
+    const vec3 point = at_texel(1.3f, 0.8f, 0.25f);
     const char* const where =
-        "a point at depth 0.75 in texel (1, 1); the texels (0, 0), (1, 1), (2, 1) and (3, 3) have "
-        "0.5, all others 1";
+        "a point at depth 0.25 in texel (1, 1); the texels (0, 0), (1, 1), (2, 1) and (3, 3) have "
+        "0.5, all others 0";
     EXPECT_EQ(pcf_visibility<0>(map, {}, point), 0) << where;
     EXPECT_EQ(pcf_visibility<1>(map, {}, point), 6 / 9.0f) << where;  // the worked example
     EXPECT_EQ(pcf_visibility<2>(map, {}, point), 21 / 25.0f) << where;
     EXPECT_EQ(pcf_visibility<3>(map, {}, point), 45 / 49.0f) << where;
-    EXPECT_EQ(pcf_visibility<1>(map, {}, at_texel(0, 3, 0.75f)), 1) << "at the map's corner";
+    EXPECT_EQ(pcf_visibility<1>(map, {}, at_texel(0, 3, 0.25f)), 1) << "at the map's corner";
     // Comparisons, not depths, are averaged: the point in front is lit, however near the others.
-    EXPECT_EQ(pcf_visibility<1>(map, {}, at_texel(1, 1, 0.4f)), 1);
+    EXPECT_EQ(pcf_visibility<1>(map, {}, at_texel(1, 1, 0.6f)), 1);
 }

@@ -471,7 +471,7 @@ TEST(Threading, HardCase_MapsHaveTheSameBitsAndNothingAroundThem) {
                         ShadowMap map = map_of(i);
                         const ivec2 all = map.depths.depths().size();
                         for (int y = 0; y < all.y; ++y)
-                            for (int x = 0; x < all.x; ++x) map.depths.test_and_write({x, y}, -1);
+                            for (int x = 0; x < all.x; ++x) map.depths.depths()[{x, y}] = 2;
                         ShuffledPool pool(5, 9);
                         WorkerCounters<Counters> counters(5);
                         draw_map(pool, map, scene, Tiling(split, ivec2(size), 5, 13), is_drawn,

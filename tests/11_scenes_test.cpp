@@ -354,16 +354,16 @@ TEST(Scenes, Eq11_8_OverIsExactAtBothEnds) {
 }
 
 TEST(Scenes, Eq11_9_FragmentsAreBlendedBackToFrontInWhateverOrderTheyCome) {
-    // The worked example: glass of red at 0.3, of blue at 0.6, both of a half, over white.
+    // The worked example: glass of red at 0.6, of blue at 0.3, both of a half, over white.
     for (const bool red_first : {true, false}) {
         TransparentFragments panes;
-        const TransparentFragment red{{0, 0}, 0.3f, 0.5f, {1, 0, 0}},
-            blue{{0, 0}, 0.6f, 0.5f, {0, 0, 1}};
+        const TransparentFragment red{{0, 0}, 0.6f, 0.5f, {1, 0, 0}},
+            blue{{0, 0}, 0.3f, 0.5f, {0, 0, 1}};
         panes.add(red_first ? red : blue), panes.add(red_first ? blue : red);
         Image<vec3> white({1, 1}, vec3(1));
         panes.blend_over(white);
         ASSERT_EQ((white[{0, 0}]), vec3(0.75f, 0.25f, 0.5f))
-            << "over white, blue glass at depth 0.6 and red glass at 0.3, both of opacity 0.5; "
+            << "over white, blue glass at depth 0.3 and red glass at 0.6, both of opacity 0.5; "
             << (red_first ? "red" : "blue") << " is added first";
     }
     // Of equal depths, the first one lies on top.
@@ -393,7 +393,7 @@ TEST(Scenes, Eq11_9_FragmentsAreBlendedBackToFrontInWhateverOrderTheyCome) {
                 while (!left.empty()) {  // the farthest, and of equals the last
                     std::size_t far = 0;
                     for (std::size_t i = 1; i < left.size(); ++i)
-                        if (transparent[left[i]].depth >= transparent[left[far]].depth) far = i;
+                        if (transparent[left[i]].depth <= transparent[left[far]].depth) far = i;
                     const TransparentFragment& fragment = transparent[left[far]];
                     vec3& pixel = expected[{x, y}];
                     pixel = fragment.opacity * fragment.color + (1 - fragment.opacity) * pixel;

@@ -453,12 +453,12 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
             const auto is_asked = [&](ivec2 part) {
                 return asked[static_cast<std::size_t>(part.y * columns + part.x)];
             };
-            float nearest = 1, farthest = 0;
+            float nearest = 0, farthest = 1;
             for (int y = 0; y < texels; ++y)
                 for (int x = 0; x < texels; ++x)
                     if (const float depth = depth_of({x, y});
-                        is_asked(part_at({x, y})) && depth < 1)
-                        nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+                        is_asked(part_at({x, y})) && depth > 0)
+                        nearest = std::max(nearest, depth), farthest = std::min(farthest, depth);
             const int side = std::min(size.x, size.y);
             const ivec2 corner = (size - side) / 2;
             int blue = 0, black = 0, gray = 0;
@@ -472,8 +472,8 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
                         const float depth = depth_of(texel);
                         if (!is_asked(part)) {
                             expected = vec3(0.05f, 0.12f, 0.35f), ++blue;
-                        } else if (depth < 1) {
-                            const float shade = 1 - 0.9f * (depth - nearest) / (farthest - nearest);
+                        } else if (depth > 0) {
+                            const float shade = 1 - 0.9f * (nearest - depth) / (nearest - farthest);
                             expected = vec3(shade * shade), ++gray;
                         } else {
                             ++black;

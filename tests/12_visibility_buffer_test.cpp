@@ -100,10 +100,10 @@ Image<int> ids_drawn(const std::vector<ProjectedTriangle>& triangles, const Tili
     return numbers;
 }
 
-/// By definition: of all triangles the first whose depth is the least, if that is below 1.
+/// By definition: of all triangles the first whose depth is the greatest, if that is above 0.
 int nearest_in(ivec2 pixel, const std::vector<ProjectedTriangle>& triangles) {
     int nearest = -1;
-    float least = DepthBuffer::cleared;
+    float greatest = DepthBuffer::cleared;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         auto [a, b, c] = triangles[i].on_screen.vertices;
         const ivec2 p = exact_center(pixel);
@@ -120,7 +120,7 @@ int nearest_in(ivec2 pixel, const std::vector<ProjectedTriangle>& triangles) {
         const Barycentrics at(static_cast<float>(share(b, c)), static_cast<float>(share(c, a)),
                               static_cast<float>(share(a, b)));
         const float depth = triangles[i].depth.at(at * per_area);
-        if (depth < least) least = depth, nearest = static_cast<int>(i);
+        if (depth > greatest) greatest = depth, nearest = static_cast<int>(i);
     }
     return nearest;
 }
@@ -137,7 +137,7 @@ std::vector<ProjectedTriangle> coarse_triangles(Dice& dice, ivec2 size) {
         for (vec4& vertex : vertices) {
             const auto coarse = [&] { return 0.25f * static_cast<float>(dice.below(13)) - 1.5f; };
             const float x = coarse(), y = coarse(), w = dice.one_in(4) ? 2.0f : 1.0f;
-            vertex = {x, y, 0.5f * static_cast<float>(dice.below(5)) - 1, w};
+            vertex = {x, y, 0.25f * static_cast<float>(dice.below(5)), w};
         }
         if (dice.one_in(3))  // facing the camera
             for (vec4& vertex : vertices) vertex.z = vertices[0].z / vertices[0].w * vertex.w;
@@ -219,19 +219,18 @@ TEST(VisibilityBuffer, Eq12_1_TheFirstOfTheNearestStays) {
         int visible;
     };
     for (const auto& [depths, visible] :
-         {Case{{0.75f, 0.25f, 0.5f, 0.25f}, 1}, Case{{0.5f, 0.25f, 0.25f}, 1},
-          Case{{0.25f, 0.25f, 0.25f}, 0}, Case{{1.0f, 0.5f}, 1}, Case{{1.0f, 1.0f}, -1},
+         {Case{{0.25f, 0.75f, 0.5f, 0.75f}, 1}, Case{{0.5f, 0.75f, 0.75f}, 1},
+          Case{{0.25f, 0.25f, 0.25f}, 0}, Case{{0.0f, 0.5f}, 1}, Case{{0.0f, 0.0f}, -1},
           Case{{}, -1}}) {
         std::vector<ProjectedTriangle> triangles;
-        for (const float depth : depths) {
-            const float z = 2 * depth - 1;
+        for (const float z : depths) {
             triangles.push_back(projected(
                 {{{{-1, -1, z, 1}, {1, 0, 0}}, {{3, -1, z, 1}, {0, 1, 0}}, {{-1, 3, z, 1}, {}}}},
                 ivec2(1)));
         }
         ASSERT_EQ((ids_drawn(triangles, Tiling(Split::tiles, {1, 1}, 1, 8))[{0, 0}]), visible)
             << "the triangle that is visible (-1: none), of triangles at the depths "
-            << testing::PrintToString(depths) << "; a pixel is cleared to depth 1";
+            << testing::PrintToString(depths) << "; a pixel is cleared to depth 0";
     }
 }
 

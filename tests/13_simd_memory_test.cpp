@@ -81,12 +81,12 @@ ShadowMap any_map(Dice& dice, bool is_perspective) {
     bounds.add(vec3(-1)), bounds.add(vec3(1));
     mat4 clip(1);
     if (is_perspective)  // looks down z from (0, 0, 2)
-        clip = perspective(1.2f, 1.0f, 0.2f, 10.0f) * translation(vec3(0, 0, -2));
+        clip = perspective(1.2f, 1.0f, 0.2f) * translation(vec3(0, 0, -2));
     ShadowMap map(clip, is_perspective, 8 + static_cast<int>(dice.below(40)), bounds);
     const ivec2 all = map.depths.depths().size();
     for (int y = 0; y < all.y; ++y)
         for (int x = 0; x < all.x; ++x)
-            map.depths.test_and_write({x, y}, dice.one_in(5) ? 1 : dice.between(0, 1));
+            map.depths.test_and_write({x, y}, dice.one_in(5) ? 0 : dice.between(0, 1));
     return map;
 }
 
@@ -306,11 +306,11 @@ TEST(Simd, ShadowTestsFollowTheReceiversPlane) {
         WideReceiver<N> receiver{};
         receiver.set(all, Receiver{.slope = {0.125f, 0.25f}});
         for (const float below : {0.0f, 1.0f / 64}) {
-            const Vec3<Floats<N>> point(vec3(-0.375f, -0.375f, 2 * below));
+            const Vec3<Floats<N>> point(vec3(-0.375f, -0.375f, 0.5f - below));
             const WidePcfKernel<N> kernel = pcf_kernel(map, receiver, point, all);
             ASSERT_TRUE(has_in_lanes(kernel.column, [](int) { return 1; })) << "the texel's column";
             ASSERT_TRUE(has_in_lanes(kernel.row, [](int) { return 2; })) << "the texel's row";
-            ASSERT_TRUE(has_in_lanes(kernel.depth, [&](int) { return 15.0f / 32 + below; }))
+            ASSERT_TRUE(has_in_lanes(kernel.depth, [&](int) { return 15.0f / 32 - below; }))
                 << "the depth at the texel's centre, " << below << " below the plane";
             ASSERT_TRUE(has_in_lanes(pcf_visibility(map, 1, kernel),
                                      [&](int) { return below > 0 ? 0.0f : 1.0f; }))

@@ -60,8 +60,8 @@ std::vector<Named> numbers_of(const ProjectedTriangle& projected) {
         add("the screen's place" + of, projected.on_screen.vertices.at(v));
     }
     numbers.push_back({"twice the area", static_cast<double>(projected.on_screen.twice_area)});
-    numbers.push_back({"the least depth", projected.depth.nearest()});
-    add("what is added to the least depth", projected.depth.beyond_nearest());
+    numbers.push_back({"the least depth", projected.depth.farthest()});
+    add("what is added to the least depth", projected.depth.above_farthest());
     numbers.push_back({"whether it faces away", projected.is_back_facing ? 1.0 : 0.0});
     return numbers;
 }
@@ -152,19 +152,26 @@ TEST(Simd, HardCase_TrianglesOnTheFrustumsBorderAreNotClipped) {
     look_up("Eq. 4.10");
     TrianglesInClipSpace on_border;
     for (int i = 0; i < 4; ++i)
-        on_border.add({vec4(-2, -2, -2, 2), vec4(1, -1, 1, 1), vec4(-0.5f, 0.5f, 0, 0.5f)});
+        on_border.add({vec4(-2, -2, 2, 2), vec4(1, -1, 0, 1), vec4(-0.5f, 0.5f, 0.25f, 0.5f)});
     for_each_width([&]<int N>() {
         const std::vector some(std::size_t{N}, on_border.mesh.triangles[0]);
         const auto on_screen = project_plain<N>(some, on_border.positions.data(), {64, 64});
         EXPECT_TRUE(all_of(on_screen.is_plain)) << "its corners are three of the frustum's";
     });
-    on_border.positions[0].x = std::nextafter(-2.0f, -3.0f);
-    for_each_width([&]<int N>() {
-        const std::vector some(std::size_t{N}, on_border.mesh.triangles[0]);
-        const auto on_screen = project_plain<N>(some, on_border.positions.data(), {64, 64});
-        EXPECT_FALSE(any_of(on_screen.is_plain)) << "a vertex is an ulp to the left of the frustum";
-    });
-    compare(on_border, {64, 64});
+    for (const auto& [vertex, outside, where] :
+         {std::tuple(0, vec4(std::nextafter(-2.0f, -3.0f), -2, 2, 2), "to the left of"),
+          std::tuple(0, vec4(-2, -2, std::nextafter(2.0f, 3.0f), 2), "before"),
+          std::tuple(1, vec4(1, -1, -0x1p-149f, 1), "beyond")}) {
+        TrianglesInClipSpace across = on_border;
+        across.positions[static_cast<std::size_t>(vertex)] = outside;
+        for_each_width([&]<int N>() {
+            const std::vector some(std::size_t{N}, across.mesh.triangles[0]);
+            const auto on_screen = project_plain<N>(some, across.positions.data(), {64, 64});
+            EXPECT_FALSE(any_of(on_screen.is_plain))
+                << "a vertex is an ulp " << where << " the frustum";
+        });
+        compare(across, {64, 64});
+    }
 }
 
 TEST(Simd, HardCase_TrianglesThatAreClippedAreLesson10s) {

@@ -916,14 +916,13 @@ TEST(Simd, Eq13_2_HardCase_BehindARowNothingOfTheNextIsTouched) {
             << "floats from a row's first pixel to the next row's, in a tile of " << width
             << " columns";
         depths.test_and_write<Floats<16>>({4 + width, 3}, first_lanes<Floats<16>>(1),
-                                          Floats<16>(0.25f));
+                                          Floats<16>(0.125f));
         // What lies beyond may be anything, and must not come back as a depth of the tile.
         depths.test_and_write<Floats<16>>({4 + width, 3}, first_lanes<Floats<16>>(16),
-                                          Floats<16>(0.125f));
+                                          Floats<16>(0.25f));
         for (int x = 0; x < width; ++x) {
-            EXPECT_EQ(second[x], 1.0f) << "column " << x << " of the second row";
-            EXPECT_EQ(first[x], x == width - 1 ? 0.125f : 1.0f)
-                << "column " << x << " of the first";
+            EXPECT_EQ(second[x], 0.0f) << "column " << x << " of the second row";
+            EXPECT_EQ(first[x], x == width - 1 ? 0.25f : 0.0f) << "column " << x << " of the first";
         }
         Image<float> image({width + 20, 3}, -1);
         depths.copy_to(image, {{{5, 3}, {4 + width, 4}}}, ivec2(-5, -3));

@@ -82,30 +82,31 @@ TEST(Conventions, C3_RightHandedAndTheCameraLooksAlongMinusZ) {
     EXPECT_EQ(look_at(vec3(0, 0, 5), vec3(0), vec3(0, 1, 0)), view_from_world);
 }
 
-TEST(Conventions, C4_ClipSpaceIsTheCubeOfOpenGl) {
-    const float near = 0.5f, far = 20.0f;
-    const mat4 clip_from_view = glm::perspectiveRH_NO(glm::radians(60.0f), 1.0f, near, far);
-    const mat4 ours = perspective(glm::radians(60.0f), 1.0f, near, far);
+TEST(Conventions, C4_ClipSpaceIsThatOfReversedZ) {
+    // GLM's matrix for z from 0 to 1, with near and far exchanged: near / distance, but for what a
+    // far plane at 10^9 changes.
+    const float near = 0.5f, far = 1e9f;
+    const mat4 clip_from_view = glm::perspectiveRH_ZO(glm::radians(60.0f), 1.0f, far, near);
+    const mat4 ours = perspective(glm::radians(60.0f), 1.0f, near);
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             EXPECT_NEAR(ours[column][row], clip_from_view[column][row], tolerance);
-    const vec4 on_near = clip_from_view * vec4(0, 0, -near, 1),
-               on_far = clip_from_view * vec4(0, 0, -far, 1);
-    EXPECT_NEAR(on_near.z / on_near.w, -1, tolerance);
-    EXPECT_NEAR(on_far.z / on_far.w, 1, tolerance);
-    EXPECT_EQ(on_far.w, far) << "w is the distance along the line of sight";
-    const vec4 upper_right = clip_from_view * vec4(vec2(std::tan(glm::radians(30.0f))), -1, 1);
+    const vec4 on_near = ours * vec4(0, 0, -near, 1), far_away = ours * vec4(0, 0, -far, 1);
+    EXPECT_EQ(on_near.z / on_near.w, 1);
+    EXPECT_EQ(far_away.z / far_away.w, near / far);
+    EXPECT_EQ(far_away.w, far) << "w is the distance along the line of sight";
+    const vec4 upper_right = ours * vec4(vec2(std::tan(glm::radians(30.0f))), -1, 1);
     expect_near(vec3(upper_right) / upper_right.w, {1, 1, upper_right.z / upper_right.w});
 }
 
-TEST(Conventions, C5_DepthIsZeroNearestAndOneFarthest) {
+TEST(Conventions, C5_DepthIsOneNearestAndZeroFarthest) {
     DepthBuffer depth({1, 1});
-    EXPECT_EQ((depth.depths()[{0, 0}]), 1.0f);
-    EXPECT_TRUE(depth.test_and_write({0, 0}, (0.5f + 1) / 2)) << "z_ndc 0.5 is nearer than nothing";
-    EXPECT_TRUE(depth.test_and_write({0, 0}, (-0.5f + 1) / 2)) << "z_ndc -0.5 is nearer than 0.5";
-    EXPECT_FALSE(depth.test_and_write({0, 0}, (0.0f + 1) / 2));
-    for (const float z_ndc : {-1.0f, -0.5f, 0.0f, 1.0f})
-        EXPECT_EQ(screen_from_clip({0, 0, 2 * z_ndc, 2}, {4, 2}).z, (z_ndc + 1) / 2);
+    EXPECT_EQ((depth.depths()[{0, 0}]), 0.0f);
+    EXPECT_TRUE(depth.test_and_write({0, 0}, 0.25f)) << "0.25 is nearer than nothing";
+    EXPECT_TRUE(depth.test_and_write({0, 0}, 0.75f)) << "0.75 is nearer than 0.25";
+    EXPECT_FALSE(depth.test_and_write({0, 0}, 0.5f));
+    for (const float z_ndc : {0.0f, 0.25f, 1.0f})
+        EXPECT_EQ(screen_from_clip({0, 0, 2 * z_ndc, 2}, {4, 2}).z, z_ndc);
 }
 
 TEST(Conventions, C6_ScreenStartsAtTheTopLeftCorner) {

@@ -64,8 +64,8 @@ struct Pipeline {
     std::function<vec3(vec3)> place = [](vec3 vertex) { return vertex; };
     std::function<bool(const ScreenTriangle&)> is_drawn = is_front_facing;
     std::function<bool(int)> is_skipped = [](int) { return false; };
-    std::function<bool(float, float)> is_nearer = std::less<float>();
-    float cleared = 1;
+    std::function<bool(float, float)> is_nearer = std::greater<float>();
+    float cleared = 0;
     std::function<vec3(vec3)> barycentrics_for = [](vec3 barycentrics) { return barycentrics; };
     std::function<vec3(vec3)> shade = [](vec3 color) { return color; };
     std::function<float(float)> encode = [](float linear) { return srgb_from_linear(linear); };
@@ -320,16 +320,16 @@ TEST(ImageDoctor, ShiftedByHalfAPixel) {
 }
 
 TEST(ImageDoctor, WrongSurfaceInFront) {
-    Pipeline farthest, last, cleared_for_less;
-    farthest.is_nearer = std::greater<float>();
-    cleared_for_less = farthest;
-    farthest.cleared = 0;
+    Pipeline farthest, last, cleared_for_greater;
+    farthest.is_nearer = std::less<float>();
+    cleared_for_greater = farthest;
+    farthest.cleared = 1;
     last.is_nearer = [](float, float) { return true; };
     const Pipeline reversed = placed([](vec3 p) { return vec3(p.x, p.y, 1 - p.z); });
     for (const Shot& shot : {nearest, nearest_barycentrics, depths}) {
         EXPECT_EQ(look(shot, farthest), "the farthest surface is seen in place of the nearest");
         EXPECT_EQ(look(shot, last), "each triangle covers those before it");
-        EXPECT_EQ(look(shot, cleared_for_less), "nothing of the model is seen");
+        EXPECT_EQ(look(shot, cleared_for_greater), "nothing of the model is seen");
         EXPECT_EQ(look(shot, reversed),
                   shot.has("--depth") ? "near is dark and far is bright"
                                       : "the farthest surface is seen in place of the nearest");

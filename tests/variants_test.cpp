@@ -207,21 +207,19 @@ TEST(Variants, AveragingKeepsTheMeanOfEachSquare) {
 }
 
 TEST(Variants, WhatIsKeptOfDepthsStaysInOrder) {
-    for (const DepthFormat format :
-         {DepthFormat::float32, DepthFormat::reversed, DepthFormat::reversed_ndc,
-          DepthFormat::unorm16, DepthFormat::unorm24})
+    for (const DepthFormat format : {DepthFormat::float32, DepthFormat::from_near, DepthFormat::ndc,
+                                     DepthFormat::unorm16, DepthFormat::unorm24})
         for (const float range : {1.0f, 100.0f, 1e6f}) {
             const DepthVariant variant{format, range};
             std::map<float, int> kept;
-            float before = variant.kept(0.0f);
+            float before = variant.farthest();
             for (int i = 0; i <= 1000; ++i) {
                 const float now = variant.kept(static_cast<float>(i) / 1000);
-                ASSERT_LE(before, now);
-                ASSERT_LE(now, 1.0f) << "not nearer than an empty pixel";
+                ASSERT_LE(before, now) << "farther than before, or than an empty pixel";
                 before = now;
                 ++kept[now];
             }
-            const bool fine = format == DepthFormat::reversed || range == 1.0f ||
+            const bool fine = format == DepthFormat::float32 || range == 1.0f ||
                               (range == 100.0f && format != DepthFormat::unorm16);
             EXPECT_EQ(kept.size() == 1001, fine) << static_cast<int>(format) << ", " << range;
         }
@@ -232,20 +230,20 @@ TEST(Variants, WhatIsKeptOfADepthIsThatDepthInTheFarthestPartOfAll) {
     struct Case {
         const char* name;
         DepthFormat format;
-        float farthest;   ///< What is kept of 1.
-        float tolerance;  ///< A whole number is off by half a step, and the greatest becomes 1.
+        float farthest;   ///< What is kept of 0.
+        float tolerance;  ///< A whole number is off by half a step.
     };
     for (const auto& [name, format, farthest, tolerance] :
-         {Case{"float", DepthFormat::float32, 1, 0}, Case{"reversed", DepthFormat::reversed, 0, 0},
-          Case{"reversed-ndc", DepthFormat::reversed_ndc, 0, 0},
-          Case{"unorm16", DepthFormat::unorm16, 1, 1.5f * 0x1p-16f},
-          Case{"unorm24", DepthFormat::unorm24, 1, 1.5f * 0x1p-24f}})
+         {Case{"float", DepthFormat::float32, 0, 0},
+          Case{"from-near", DepthFormat::from_near, -1, 0}, Case{"ndc", DepthFormat::ndc, 0, 0},
+          Case{"unorm16", DepthFormat::unorm16, 0, 0x1p-17f},
+          Case{"unorm24", DepthFormat::unorm24, 0, 0x1p-24f}})
         for (const float range : {1.0f, 4.0f})
             for (const float depth : {0.0f, 0.5f, 1.0f}) {
-                const float kept = DepthVariant{format, range}.kept(depth);
-                EXPECT_NEAR(kept, farthest - (1 - depth) / range, tolerance)
+                const DepthVariant variant{format, range};
+                EXPECT_NEAR(variant.kept(depth), farthest + depth / range, tolerance)
                     << name << " of the depth " << depth << " in the farthest 1/" << range;
-                EXPECT_TRUE(depth != 1 || kept == farthest) << name << " keeps " << kept << " of 1";
+                EXPECT_EQ(variant.farthest(), farthest) << name << " of an empty pixel";
             }
 }
 
@@ -305,8 +303,8 @@ TEST(Variants, EveryKnobDrawsAndShowsADifference) {
         {"03_z_buffer",
          {{"--format", "unorm16", "--range", "100"},
           {"--format", "unorm24", "--range", "10000"},
-          {"--format", "float", "--range", "1000000"},
-          {"--format", "reversed-ndc", "--range", "1000000"}}}};
+          {"--format", "from-near", "--range", "1000000"},
+          {"--format", "ndc", "--range", "1000000"}}}};
     const std::filesystem::path folder = fresh_folder("knobs");
     const auto draw = [&](const std::string& lesson, std::vector<std::string> arguments) {
         const std::string out = (folder / "picture.bmp").string();

@@ -15,7 +15,7 @@ namespace rasterbook {
 /// picture.
 ///
 /// A point's place along an axis is its dot product with the axis; the three axes are the picture's
-/// right, its up, and the way from the eye into the picture.
+/// right, its up, and the way out of the picture, towards the eye.
 class OrthographicView {
   public:
     /// @param scene  Holds at least one face.
@@ -31,8 +31,8 @@ class OrthographicView {
         pixels_per_unit_ = 0.8 * std::min(size.x / extent.x, size.y / extent.y);
     }
 
-    /// @return  For each position: x right and y down in pixels, and the depth: 0.01 for the
-    ///          nearest point of the scene to 0.99 for the farthest.
+    /// @return  For each position: x right and y down in pixels, and the depth: 0.99 for the
+    ///          nearest point of the scene to 0.01 for the farthest.
     std::vector<vec3> screen_from_model(const std::vector<vec3>& positions_model) const {
         const dvec3 middle = 0.5 * (min_ + max_);
         const double depth_extent =
@@ -55,8 +55,8 @@ class OrthographicView {
         constexpr double cos_pitch = 0.906307787036650, sin_pitch = 0.422618261740699;
         const dvec3 p(position), right(cos_yaw, 0, sin_yaw),
             up(sin_pitch * sin_yaw, cos_pitch, -sin_pitch * cos_yaw),
-            into(cos_pitch * sin_yaw, -sin_pitch, -cos_pitch * cos_yaw);
-        return {glm::dot(p, right), glm::dot(p, up), glm::dot(p, into)};
+            out(-cos_pitch * sin_yaw, sin_pitch, cos_pitch * cos_yaw);
+        return {glm::dot(p, right), glm::dot(p, up), glm::dot(p, out)};
     }
 
     dvec3 min_{std::numeric_limits<double>::infinity()},

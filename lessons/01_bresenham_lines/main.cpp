@@ -24,7 +24,7 @@ struct Options : LessonOptions {
 /// What a line adds to its pixels: near lines are bright, far ones dim. Linear colour.
 static vec3 line_color(float depth) {
     constexpr vec3 near_color(0.30f, 0.42f, 0.36f), far_color(0.0f, 0.012f, 0.07f);
-    return glm::mix(near_color, far_color, depth);
+    return glm::mix(far_color, near_color, depth);
 }
 
 template <typename CounterPolicy>

@@ -11,7 +11,7 @@
 
 namespace rasterbook {
 
-enum class DepthFormat { float32, reversed, reversed_ndc, unorm16, unorm24 };
+enum class DepthFormat { float32, from_near, ndc, unorm16, unorm24 };
 
 /// A depth from 0 to 1 as one of 2^bits evenly spaced whole numbers, the nearest one.
 template <int bits>
@@ -31,39 +31,41 @@ struct DepthVariant {
         knobs.choice(
             "--format", format,
             {{"float", DepthFormat::float32},
-             {"reversed", DepthFormat::reversed},
-             {"reversed-ndc", DepthFormat::reversed_ndc},
+             {"from-near", DepthFormat::from_near},
+             {"ndc", DepthFormat::ndc},
              {"unorm16", DepthFormat::unorm16},
              {"unorm24", DepthFormat::unorm24}},
-            "What a depth is kept as; reversed floats are 0 at the far end, and reversed-ndc first "
-            "computes a depth from -1 to 1");
+            "What a depth is kept as; from-near is 0 at the near plane and 1 far away, and ndc is "
+            "as float, but first computes a depth from -1 to 1");
         knobs.choice("--range", range,
                      {{"1", 1.0f}, {"100", 100.0f}, {"10000", 10'000.0f}, {"1000000", 1e6f}},
                      "Squeeze the model into the farthest part of the depths, one N-th of them, as "
                      "a near plane much too near does");
     }
 
-    /// What the buffer stores of a depth, as a float in the same order: less is nearer.
+    /// What the buffer stores of a depth, as a float in the same order: greater is nearer.
     ///
-    /// @param depth  Of the model: 0 for near to 1 for far.
+    /// @param depth  Of the model: 1 for near to 0 for far.
     float kept(float depth) const {
-        if (format == DepthFormat::float32 && range == 1.0f) return depth;
-        const float from_far = (1.0f - depth) / range;
+        const float squeezed = depth / range;
         switch (format) {
             case DepthFormat::float32:
-                return 1.0f - from_far;
-            case DepthFormat::reversed:
-                return -from_far;
-            case DepthFormat::reversed_ndc:
-                return -zero_to_one(2.0f * from_far - 1.0f);
-            // The greatest number of the format becomes 1, as in an empty pixel.
+                return squeezed;
+            case DepthFormat::from_near:
+                return -(1.0f - squeezed);
+            case DepthFormat::ndc:
+                return zero_to_one(2.0f * squeezed - 1.0f);
+            // 0 is the depth of an empty pixel.
             case DepthFormat::unorm16:
-                return static_cast<float>(unorm<16>(1.0f - from_far) + 1) * 0x1p-16f;
+                return static_cast<float>(unorm<16>(squeezed)) / ((1 << 16) - 1);
             case DepthFormat::unorm24:
-                return static_cast<float>(unorm<24>(1.0f - from_far) + 1) * 0x1p-24f;
+                return static_cast<float>(unorm<24>(squeezed)) / ((1 << 24) - 1);
         }
         return depth;
     }
+
+    /// What the buffer is cleared to.
+    float farthest() const { return kept(0.0f); }
 };
 
 }  // namespace rasterbook

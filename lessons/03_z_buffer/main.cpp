@@ -31,7 +31,7 @@ template <typename CounterPolicy>
 static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
-    DepthBuffer depth(options.size);
+    DepthBuffer depth(options.size, options.depth.farthest());
 
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);

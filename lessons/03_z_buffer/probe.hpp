@@ -47,7 +47,7 @@ PixelProbe depth_probe(const Options& options, const Scene& scene) {
             vec3 normal, face_color;
         };
         const OrthographicView view(scene, options.size);
-        DepthBuffer nearest(ivec2(1));
+        DepthBuffer nearest(ivec2(1), options.depth.farthest());
         PixelHistory history;
         std::optional<Seen> seen;
         for (const Mesh& mesh : scene.meshes) {

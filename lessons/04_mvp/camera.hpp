@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/trigonometric.hpp>
 
@@ -19,15 +20,19 @@ struct Camera {
     vec3 position_world;
     mat4 view_from_world;
     float fov_y_radians;   ///< From the lower to the upper border, in (0, pi).
-    float near, far;       ///< Distances in front of the camera, 0 < near < far.
+    float near;            ///< Distance of the near plane in front of the camera, > 0.
     vec3 center_world{0};  ///< What it looks at.
+    float far = std::numeric_limits<float>::infinity();  ///< Beyond it nothing is drawn; > near.
+
+    /// The depth from which on something is drawn: 0 without a far plane.
+    float farthest_depth() const { return near / far; }
 
     /// View first, then perspective (Eq. 4.4).
     ///
     /// @param size  Of the picture, in pixels.
     mat4 clip_from_world(ivec2 size) const {
         const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
-        return perspective(fov_y_radians, aspect, near, far) * view_from_world;
+        return perspective(fov_y_radians, aspect, near) * view_from_world;
     }
 };
 
@@ -56,9 +61,8 @@ inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     const vec3 eye = center + distance * direction_from_angles(yaw_radians, pitch_radians);
     const vec3 up = direction_from_angles(yaw_radians, pitch_radians + glm::radians(90.0f));
     // The scene lies between distance - radius and distance + radius.
-    const float far = 1.001f * (distance + radius);
-    const float near = std::max(0.999f * (distance - radius), 0.001f * far);
-    return {eye, look_at(eye, center, up), glm::radians(orbit.fov_degrees), near, far, center};
+    const float near = std::max(0.999f * (distance - radius), 0.001f * (distance + radius));
+    return {eye, look_at(eye, center, up), glm::radians(orbit.fov_degrees), near, center};
 }
 
 }  // namespace rasterbook

@@ -26,11 +26,13 @@ using ClippedTriangle = std::array<ClippedVertex, 3>;
 constexpr int frustum_planes = 6;
 
 /// How far inside of one of the six planes a point is in NDC, times w: negative outside (Eq. 4.10).
+/// In NDC, x and y run from -1 to 1, and z from 0, infinitely far away, to 1 on the near plane.
 ///
 /// @param plane  0 to 5: left, right, bottom, top, near, far.
 constexpr float plane_distance(int plane, vec4 position_clip) {
-    const float coordinate = position_clip[plane / 2];
-    return position_clip.w + (plane % 2 == 0 ? coordinate : -coordinate);
+    const auto [x, y, z, w] =
+        std::array{position_clip.x, position_clip.y, position_clip.z, position_clip.w};
+    return std::array{w + x, w - x, w + y, w - y, w - z, z}[static_cast<std::size_t>(plane)];
 }
 
 /// Where the side from a to b crosses a plane (Eq. 4.11 and 4.12).
@@ -70,7 +72,7 @@ constexpr float clip_limit = 0x1p125f;
 /// screen it lies inside the picture, and its depth between 0 and 1; with a w of 0 it lies nowhere.
 inline vec4 clamped_to_frustum(vec4 position_clip) {
     const float w = std::max(position_clip.w, 0.0f);
-    return {glm::clamp(vec3(position_clip), -w, w), w};
+    return {glm::clamp(vec3(position_clip), vec3(-w, -w, 0), vec3(w)), w};
 }
 
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.13).
@@ -78,7 +80,7 @@ inline vec4 clamped_to_frustum(vec4 position_clip) {
 /// @param vertices  Clip space. If a coordinate is not a number, or not below clip_limit in size,
 ///                  nothing is left.
 /// @return          The triangle itself, if it is all inside; nothing, if it is all outside of one
-///                  plane. No vertex has a coordinate beyond its w, and no w is negative.
+///                  plane. No vertex has a coordinate beyond its w; no w and no z is negative.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
 inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& vertices) {
     ClippedTriangles clipped;
@@ -158,7 +160,7 @@ inline bool is_outside_frustum(const Bounds& bounds, const mat4& clip_from_world
 inline vec3 screen_from_clip(vec4 position_clip, ivec2 size) {
     const vec3 position_ndc = vec3(position_clip) / position_clip.w;
     return {(position_ndc.x + 1) * 0.5f * static_cast<float>(size.x),
-            (1 - position_ndc.y) * 0.5f * static_cast<float>(size.y), (position_ndc.z + 1) * 0.5f};
+            (1 - position_ndc.y) * 0.5f * static_cast<float>(size.y), position_ndc.z};
 }
 
 }  // namespace rasterbook

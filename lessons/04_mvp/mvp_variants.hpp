@@ -105,8 +105,7 @@ glm::mat<4, 4, T> clip_from_world_in(const Camera& camera, glm::vec<3, T> eye,
     const T aspect = static_cast<T>(size.x) / static_cast<T>(size.y);
     const mat4& view = camera.view_from_world;
     const glm::vec<3, T> up(view[0].y, view[1].y, view[2].y);  // its second row
-    return perspective<T>(camera.fov_y_radians, aspect, camera.near, camera.far) *
-           look_at<T>(eye, center, up);
+    return perspective<T>(camera.fov_y_radians, aspect, camera.near) * look_at<T>(eye, center, up);
 }
 
 /// The points as the camera sees them, in clip space: transform(), or with camera and points moved
@@ -149,8 +148,7 @@ inline std::vector<vec4> transform(const OrthographicView& view, ivec2 size,
     transformed.reserve(positions.size());
     for (const vec3 screen : view.screen_from_model(positions))
         transformed.emplace_back(2 * screen.x / static_cast<float>(size.x) - 1,
-                                 1 - 2 * screen.y / static_cast<float>(size.y), 2 * screen.z - 1,
-                                 1);
+                                 1 - 2 * screen.y / static_cast<float>(size.y), screen.z, 1);
     return transformed;
 }
 
@@ -237,7 +235,7 @@ struct HomogeneousTriangle {
 };
 
 /// Visits the pixels of a picture whose rays meet a triangle that is seen counter-clockwise,
-/// between the near and the far plane. A centre on a side belongs to the triangle of which this is
+/// beyond the near plane. A centre on a side belongs to the triangle of which this is
 /// a left or a top side.
 ///
 /// @param emit  Called as emit(ivec2 pixel, float depth).
@@ -282,8 +280,8 @@ void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) 
                 return shares[i] > 0 || (shares[i] == 0 && owned[static_cast<std::size_t>(i)]);
             };
             if (!(is_inside(0) && is_inside(1) && is_inside(2))) continue;
-            const double z_ndc = glm::dot(shares, z);  // of shares that give w = 1
-            if (std::abs(z_ndc) <= 1) emit(ivec2(x, y), static_cast<float>((z_ndc + 1) * 0.5));
+            const double depth = glm::dot(shares, z);  // of shares that give w = 1
+            if (0 <= depth && depth <= 1) emit(ivec2(x, y), static_cast<float>(depth));
         }
     }
 }

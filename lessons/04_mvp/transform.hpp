@@ -96,40 +96,37 @@ glm::mat<4, 4, T> look_at(glm::vec<3, T> eye, glm::vec<3, T> center, glm::vec<3,
     return matrix_from_rows<T>(row(right), row(new_up), row(back), {0, 0, 0, 1});
 }
 
-/// The projection matrix of a perspective, from view space to clip space (Eq. 4.7 and 4.8).
+/// The projection matrix of a perspective, from view space to clip space (Eq. 4.7 and 4.8). After
+/// the division by w, the depth is near / distance.
 ///
 ///     f/aspect  0   0  0
 ///     0         f   0  0         f = 1 / tan(fov_y / 2)
-///     0         0   A  B         A = -(far + near) / (far - near)
-///     0         0  -1  0         B = -2 far near / (far - near)
+///     0         0   0  near
+///     0         0  -1  0
 ///
 /// @param fov_y_radians  The angle from the lower to the upper border, in (0, pi).
 /// @param aspect         Width divided by height, > 0.
-/// @param near,far       Distances, 0 < near < far; far may be infinite.
-/// @return               Each element with a relative error of at most 2 eps; A and B, which lose
-///                       digits where near and far are close, (2 + 1 / (2 (1 - near/far))) eps.
+/// @param near           Distance of the near plane, > 0. There is no far plane.
+/// @return               Each element with a relative error of at most 2 eps.
 template <std::floating_point T>
-glm::mat<4, 4, T> perspective(T fov_y_radians, T aspect, T near, T far) {
+glm::mat<4, 4, T> perspective(T fov_y_radians, T aspect, T near) {
     // In double, as the last bit of a tangent in float is not the same on all processors.
     const T f = 1 / static_cast<T>(std::tan(double{fov_y_radians} / 2));
-    const T ratio = near / far;  // 0 when far is infinite
-    const T a = -(1 + ratio) / (1 - ratio), b = -2 * near / (1 - ratio);
-    return matrix_from_rows<T>({f / aspect, 0, 0, 0}, {0, f, 0, 0}, {0, 0, a, b}, {0, 0, -1, 0});
+    return matrix_from_rows<T>({f / aspect, 0, 0, 0}, {0, f, 0, 0}, {0, 0, 0, near}, {0, 0, -1, 0});
 }
 
-/// From normalised device coordinates to the screen, in pixels, and to depths from 0 to 1
-/// (Eq. 4.9).
+/// From normalised device coordinates to the screen, in pixels (Eq. 4.9). The depth stays.
 ///
 ///     W/2   0    0    W/2
 ///     0    -H/2  0    H/2
-///     0     0    1/2  1/2
+///     0     0    1    0
 ///     0     0    0    1
 ///
 /// @param size  Of the picture: W, H.
 template <std::floating_point T>
 constexpr glm::mat<4, 4, T> viewport(ivec2 size) {
-    const T w = static_cast<T>(size.x) / 2, h = static_cast<T>(size.y) / 2, half = T(1) / 2;
-    return matrix_from_rows<T>({w, 0, 0, w}, {0, -h, 0, h}, {0, 0, half, half}, {0, 0, 0, 1});
+    const T w = static_cast<T>(size.x) / 2, h = static_cast<T>(size.y) / 2;
+    return matrix_from_rows<T>({w, 0, 0, w}, {0, -h, 0, h}, {0, 0, 1, 0}, {0, 0, 0, 1});
 }
 
 /// The normal matrix: what normals are multiplied by where points are multiplied by `m`. It is the

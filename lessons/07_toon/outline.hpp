@@ -127,11 +127,8 @@ struct EdgeThresholds {
 
 /// 1/w of what is visible in a pixel, which on a plane is linear on the screen (Eq. 7.11).
 ///
-/// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, infinitely far: 0.
-inline float inverse_w(float depth, const Camera& camera) {
-    if (depth == DepthBuffer::cleared) return 0;
-    return 1 / camera.near - depth * (1 / camera.near - 1 / camera.far);
-}
+/// @param depth  From a depth buffer, 0 to 1; where nothing is seen, 0 as infinitely far away.
+inline float inverse_w(float depth, const Camera& camera) { return depth / camera.near; }
 
 /// The second difference along x or y; the rows beside count half (Eq. 7.12). It is 0 for a plane,
 /// however steep; the first difference would grow with the slope.

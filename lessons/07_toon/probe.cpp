@@ -86,7 +86,7 @@ void report_edges(PixelReport& report, const Camera& camera, float width_px, ive
 
 /// Draws inverted hulls in one pixel, and says whether they ink it.
 ///
-/// @param depth  Of what is seen; 1 where nothing is.
+/// @param depth  Of what is seen; 0 where nothing is.
 void report_hulls(PixelReport& report, const Scene& scene, const HullNormals& hull_normals,
                   const Camera& camera, float width_px, ivec2 pixel, ivec2 size, float depth,
                   vec3& color) {

@@ -25,18 +25,19 @@ struct LightViews {
     bool is_perspective = false;
 };
 
-/// The orthographic projection of the box from `low` to `high` onto the cube from -1 to 1
-/// (Eq. 9.2). It leaves w as it is, so that it can follow a perspective.
+/// The orthographic projection of the box from `low` to `high` onto NDC: x and y from -1 to 1, z
+/// from 0 to 1 (Eq. 9.2). It leaves w as it is, so that it can follow a perspective.
 ///
 ///     2/(h.x-l.x)  0            0            -(h.x+l.x)/(h.x-l.x)
 ///     0            2/(h.y-l.y)  0            -(h.y+l.y)/(h.y-l.y)
-///     0            0            2/(h.z-l.z)  -(h.z+l.z)/(h.z-l.z)
+///     0            0            1/(h.z-l.z)  -l.z/(h.z-l.z)
 ///     0            0            0            1
 ///
 /// @param low,high  low < high in each component.
 inline dmat4 crop(dvec3 low, dvec3 high) {
-    const dvec3 scale = 2.0 / (high - low);
-    return translation(-(high + low) / (high - low)) * scaling(scale);
+    const dvec3 scale = dvec3(2, 2, 1) / (high - low);
+    return translation(-(dvec3(high.x + low.x, high.y + low.y, low.z)) / (high - low)) *
+           scaling(scale);
 }
 
 /// Nearer to a point light or spotlight than this share of the farthest caster or receiver, nothing
@@ -72,8 +73,7 @@ inline LightBox box_in(const dmat4& view_from_world, const Bounds& bounds) {
 /// Where a shadow can begin and end: sideways where there are both casters and receivers, and from
 /// the nearest caster to where casters or receivers end (Eq. 9.3).
 ///
-/// z grows towards the light, as view space does. In a spotlight's NDC, where it grows the other
-/// way, only x and y of the result are of use.
+/// z grows towards the light, in view space and in NDC.
 ///
 /// @return  Not usable, low above high, where there can be no shadow.
 inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers) {
@@ -121,25 +121,16 @@ inline LightViews directional_light_views(const Light& light, const Bounds& cast
     const LightBox region = shadow_region(caster_box, receiver_box);
     if (!caster_box.is_usable() || !receiver_box.is_usable() || !region.is_usable()) return {};
     const LightBox box = widened(region, size);
-    // In clip space, less z is nearer to the light: z changes sign.
-    const dmat4 clip = scaling(dvec3(1, 1, -1)) * crop(box.low, box.high) * view;
-    return {{mat4(clip)}, 1, false};
+    return {{mat4(crop(box.low, box.high) * view)}, 1, false};
 }
 
-/// Distances of the near and the far plane: from the nearest caster, or a thousandth of the far
-/// plane's distance, to where casters or receivers end. Both lie a little beyond, so that rounding
-/// puts nothing outside.
-struct DepthRange {
-    double near, far;
-};
-
-/// The second line of Eq. 9.4.
+/// Distance of the near plane: that of the nearest caster, a little less so that rounding puts
+/// nothing before it; or a thousandth of the farthest distance (Eq. 9.4, the second line).
 ///
 /// @param nearest_caster  Along the map's axis; may be 0 or less.
 /// @param farthest        Where casters or receivers end, whichever comes first, > 0.
-inline DepthRange depth_range(double nearest_caster, double farthest) {
-    const double far = 1.002 * farthest;
-    return {std::max(0.998 * nearest_caster, min_near_share * far), far};
+inline double near_plane(double nearest_caster, double farthest) {
+    return std::max(0.998 * nearest_caster, min_near_share * farthest);
 }
 
 /// A spotlight's map: all that its cone lights, fitted to what casts on what receives (Eq. 9.4).
@@ -154,12 +145,12 @@ inline LightViews spotlight_views(const Light& light, const Bounds& casters,
     const double farthest = -std::max(caster_box.low.z, receiver_box.low.z);
     const double nearest_caster = -caster_box.high.z;
     if (!(farthest > 0 && nearest_caster <= farthest)) return {};
-    const auto [near, far] = depth_range(nearest_caster, farthest);
+    const double near = near_plane(nearest_caster, farthest);
     const double fov_radians = 2 * std::acos(double{light.cos_none});
-    const dmat4 clip = perspective(fov_radians, 1.0, near, far) * view;
+    const dmat4 clip = perspective(fov_radians, 1.0, near) * view;
 
     const auto box_in_ndc = [&](const Bounds& bounds, const LightBox& box) {
-        LightBox ndc{dvec3(-1), dvec3(1)};
+        LightBox ndc{dvec3(-1, -1, 0), dvec3(1)};
         if (-box.high.z < near) return ndc;  // partly beside or behind the light
         ndc = {};
         for (int i = 0; i < 8; ++i) {
@@ -173,10 +164,10 @@ inline LightViews spotlight_views(const Light& light, const Bounds& casters,
     LightBox region =
         shadow_region(box_in_ndc(casters, caster_box), box_in_ndc(receivers, receiver_box));
     region.low = glm::max(region.low, dvec3(-1)), region.high = glm::min(region.high, dvec3(1));
-    region.low.z = -1, region.high.z = 1;  // near and far are fitted already
+    region.low.z = 0, region.high.z = 1;  // near is fitted already
     if (!region.is_usable()) return {};
     LightBox box = widened(region, size);
-    box.low.z = -1, box.high.z = 1;
+    box.low.z = 0, box.high.z = 1;
     return {{mat4(crop(box.low, box.high) * clip)}, 1, true};
 }
 
@@ -206,8 +197,8 @@ inline LightViews point_light_views(const Light& light, const Bounds& casters,
     const double half_width = widened_by_margin(size);
     // What of a unit vector to a map's corner is along its axis: 1/sqrt(3) without a margin.
     const double axis_share = 1 / std::sqrt(1 + 2 * half_width * half_width);
-    const auto [near, far] = depth_range(axis_share * nearest_caster, farthest);
-    const dmat4 projection = perspective(2 * std::atan(half_width), 1.0, near, far);
+    const double near = near_plane(axis_share * nearest_caster, farthest);
+    const dmat4 projection = perspective(2 * std::atan(half_width), 1.0, near);
     LightViews views{{}, 6, true};
     for (std::size_t face = 0; face < 6; ++face) {
         dvec3 axis(0);

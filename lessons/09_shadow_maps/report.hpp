@@ -30,10 +30,10 @@ inline void report_shadow_test(PixelReport& report, const ShadowMaps& shadow_map
                 "Eq. 9.6");
     for (const auto& bias : receiver.biases[map])
         if (bias) report.line("  bias", bias->bias, "Eq. 9.10");
-    const float depth = std::min(kernel.depth, DepthBuffer::cleared);
+    const float depth = std::max(kernel.depth, DepthBuffer::cleared);
     report.line(
         "  depths compared",
-        words(depth, 7) + (depth <= in_map ? " is not behind " : " is behind ") + words(in_map, 7),
+        words(depth, 7) + (depth >= in_map ? " is not behind " : " is behind ") + words(in_map, 7),
         "Eq. 9.7");
     const int side = 2 * shadow_maps.radius + 1;
     const float lit = pcf_visibility(asked, shadow_maps.radius, kernel);

@@ -38,7 +38,7 @@ constexpr double rounding = 64 * 0x1p-24;
 /// depth's sum are rounded a few times.
 constexpr double depth_quanta = 8 * 0x1p-24;
 
-/// The depth of what a light sees first, for each texel; 1 where it sees nothing.
+/// The depth of what a light sees first, for each texel; 0 where it sees nothing.
 struct ShadowMap {
     int size;                ///< Texels a side.
     mat4 clip_from_world;    ///< As light_view.hpp makes it.
@@ -125,7 +125,7 @@ enum class Bias { none, constant, slope, plane, normal };
 /// biases and what they return", says which Bias sets which field.
 struct Receiver {
     vec2 slope{0};           ///< Change of depth to the right and to the lower texel (Eq. 9.11).
-    float bias = 0;          ///< Taken off the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
+    float bias = 0;          ///< Added to the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
     float bias_per_w = 0;    ///< To be divided by the moved point's w, and added to the bias.
     vec3 offset{0};          ///< World space: moves the point (Eq. 9.12).
     vec3 offset_times_w{0};  ///< To be multiplied by w of the point not yet moved, and added.
@@ -158,7 +158,7 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
     dvec3 normal = normalize_or(glm::cross(b - a, c - a), dvec3(0));
     dvec4 plane = map.plane_from_world * dvec4(normal, -glm::dot(normal, a));  // Eq. 9.8
     if (glm::dot(normal, outward) < 0) plane = -plane, normal = -normal;
-    if (!(plane.z < 0)) {  // Depth is less towards the light.
+    if (!(plane.z > 0)) {  // Depth is greater towards the light.
         result.bias = 2;
         return result;
     }
@@ -195,7 +195,7 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
 struct PcfKernel {
     bool is_in_map = false;  ///< Else the point is lit.
     ivec2 middle{0};         ///< The texel in which the point lies.
-    float depth = 0;         ///< Compared with the middle texel: the surface's, less the bias.
+    float depth = 0;         ///< Compared with the middle texel: the surface's, plus the bias.
     vec2 slope{0};           ///< As in Receiver.
 };
 
@@ -218,7 +218,7 @@ inline PcfKernel pcf_kernel(const ShadowMap& map, const Receiver& receiver, vec3
     if (!(place.x >= 0 && place.y >= 0 && place.x < end && place.y < end)) return {};
 
     const ivec2 middle(place);
-    const float depth = place.z - (receiver.bias + receiver.bias_per_w * per_w) +
+    const float depth = place.z + (receiver.bias + receiver.bias_per_w * per_w) +
                         receiver.slope.x * (static_cast<float>(middle.x) + 0.5f - place.x) +
                         receiver.slope.y * (static_cast<float>(middle.y) + 0.5f - place.y);
     return {true, middle, depth, receiver.slope};
@@ -239,9 +239,9 @@ float pcf_visibility(const ShadowMap& map, const PcfKernel& kernel) {
         const float depth_in_row = kernel.depth + kernel.slope.y * static_cast<float>(y);
         for (int x = -radius; x <= radius; ++x) {
             // Beyond the last caster: as far as nothing.
-            const float at_texel = std::min(depth_in_row + kernel.slope.x * static_cast<float>(x),
+            const float at_texel = std::max(depth_in_row + kernel.slope.x * static_cast<float>(x),
                                             DepthBuffer::cleared);
-            lit += at_texel <= texels[x] ? 1.0f : 0.0f;
+            lit += at_texel >= texels[x] ? 1.0f : 0.0f;
         }
     }
     constexpr int side = 2 * radius + 1;

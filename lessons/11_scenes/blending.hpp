@@ -59,8 +59,8 @@ class TransparentFragments {
         for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint32_t>(i);
         std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
             const TransparentFragment &first = fragments_[a], &second = fragments_[b];
-            return std::tuple(first.pixel.y, first.pixel.x, second.depth, b) <
-                   std::tuple(second.pixel.y, second.pixel.x, first.depth, a);
+            return std::tuple(first.pixel.y, first.pixel.x, first.depth, b) <
+                   std::tuple(second.pixel.y, second.pixel.x, second.depth, a);
         });
         for (const std::uint32_t i : order_) {
             vec3& pixel = color[fragments_[i].pixel];

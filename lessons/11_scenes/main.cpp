@@ -24,7 +24,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         draw_shadow_maps(pool, options.threads, options.shadow, options.shading.all_effects, scene,
                          bounds, lit_by.lights, counters_of, lit_by.casts);
     Image<vec3> color(options.size, unset);
-    DepthBuffer depth(options.size, unset);
+    DepthBuffer depth(options.size, unset, camera.farthest_depth());
 
     clock.begin("triangles");
     const std::vector<Mesh> outlines = outlines_of(assets, camera);

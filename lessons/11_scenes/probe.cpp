@@ -109,7 +109,7 @@ std::optional<TransparentFragment> draw_alone(const Frame<>& frame,
     shaders[of.projected->triangle.material](frame, *of.projected, Tile{{pixel, pixel}},
                                              transparent, uncounted);
     if (!transparent.empty()) return transparent.fragments().front();
-    if (frame.depth.depths()[pixel] == DepthBuffer::cleared) return {};
+    if (frame.depth.depths()[pixel] == frame.depth.farthest()) return {};
     return TransparentFragment{pixel, of.depth, 1, frame.color[pixel]};
 }
 
@@ -153,9 +153,9 @@ class SceneProbe {
 
     vec3 operator()(ivec2 pixel, PixelReport& report) const {
         Image<vec3> picture(options_.size, unset);  // but for one pixel, nobody looks at them
-        DepthBuffer depth(options_.size, unset);
+        DepthBuffer depth(options_.size, unset, camera_.farthest_depth());
         const Frame<> frame = make_frame(options_, assets_, camera_, shadow_maps_, picture, depth);
-        DepthBuffer nearest(ivec2(1));
+        DepthBuffer nearest(ivec2(1), camera_.farthest_depth());
         PixelHistory history;
         std::optional<DrawnFragment> seen;
         std::vector<DrawnFragment> transparent;
@@ -208,7 +208,7 @@ class SceneProbe {
         std::string why;
         if (projected.is_back_facing && !plan_of(frame, of).two_sided)
             why = "faces away (Eq. 2.2)";
-        else if (!(of.depth < before))
+        else if (!(of.depth > before))
             why = "behind: not nearer than " + words(before, 7) + " (Eq. 3.1)";
         else if (const auto drawn = draw_alone(frame, shaders_, pixel, of))
             return DrawnFragment{of, *drawn};

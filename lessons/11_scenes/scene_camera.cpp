@@ -18,8 +18,8 @@ namespace rasterbook {
 Camera camera_of(const SceneCamera& from) {
     const dmat4 world_from_view(from.world_from_view);
     const vec3 eye(world_from_view[3]);
-    return {eye,      mat4(glm::inverse(world_from_view)), from.fov_y_radians, from.near,
-            from.far, eye - vec3(world_from_view[2])};
+    return {eye,       mat4(glm::inverse(world_from_view)), from.fov_y_radians,
+            from.near, eye - vec3(world_from_view[2]),      from.far};
 }
 
 /// How much of the picture's width and height a fitted scene takes at most.

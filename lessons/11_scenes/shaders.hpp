@@ -172,7 +172,7 @@ void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, con
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         counters.add(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
-        if (!(depth < frame.depth.depths()[pixel])) return;
+        if (!(depth > frame.depth.depths()[pixel])) return;
         const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
         float opacity = 1;  // of all that is neither glass nor has holes
         if (is_masked || plan.is_glass)

@@ -34,7 +34,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
                                          options.shading.all_effects, scene, bounds, lit_by.lights,
                                          counters_of, lit_by.casts);
     Image<vec3> color(options.size, unset);
-    DepthBuffer depth(options.size, unset);
+    DepthBuffer depth(options.size, unset, camera.farthest_depth());
     std::vector<TileVisibility> visible_of(pool.size(),
                                            TileVisibility(options.visibility.most_ids()));
     HeatMap heat(options.visibility.show, options.size);

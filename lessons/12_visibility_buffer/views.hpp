@@ -67,14 +67,14 @@ inline Image<vec3> picture_of(const ShadowMapsOnDemand& on_demand, ivec2 size) {
     const ShadowMapParts& parts = on_demand.parts().front();
     const Tiling& tiling = parts.tiling();
     const Image<float>& depths = parts.map().depths.depths();
-    float nearest = DepthBuffer::cleared, farthest = 0;
+    float nearest = DepthBuffer::cleared, farthest = 1;
     for (std::size_t part = 0; part < tiling.count(); ++part) {
         const auto [first, last] = tiling[part].box;
         for (int y = first.y; parts.is_drawn(part) && y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
                 const float depth = depths[ivec2(x, y) + max_pcf_radius];
                 if (depth == DepthBuffer::cleared) continue;
-                nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+                nearest = std::max(nearest, depth), farthest = std::min(farthest, depth);
             }
     }
     const int side = std::min(size.x, size.y), texels = parts.map().size;
@@ -91,8 +91,8 @@ inline Image<vec3> picture_of(const ShadowMapsOnDemand& on_demand, ivec2 size) {
             if (parts.is_drawn(part)) {
                 const float depth = depths[here + max_pcf_radius];
                 const float shade =
-                    1 - 0.9f * (depth - nearest) / std::max(farthest - nearest, 1e-6f);
-                color = vec3(depth < DepthBuffer::cleared ? shade * shade : 0);
+                    1 - 0.9f * (nearest - depth) / std::max(nearest - farthest, 1e-6f);
+                color = vec3(depth > DepthBuffer::cleared ? shade * shade : 0);
             }
             const bool is_border =
                 x == 0 || y == 0 || texel(x - 1) < first.x || texel(y - 1) < first.y;

@@ -39,7 +39,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         counters.add(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
-        if (!(depth < frame.depth.depths()[pixel])) return;
+        if (!(depth > frame.depth.depths()[pixel])) return;
         float opacity = 1;
         if (inputs)
             opacity =

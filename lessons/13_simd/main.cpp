@@ -39,7 +39,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
                                          options.shading.all_effects, scene, bounds, lit_by.lights,
                                          counters_of, lit_by.casts, wide.project_triangles);
     Image<vec3> color(options.size, unset);
-    DepthBuffer depth(options.size, unset);
+    DepthBuffer depth(options.size, unset, camera.farthest_depth());
     std::vector<TileVisibility> visible_of(
         pool.size(), TileVisibility(options.visibility.most_ids(), TileDepths::padding));
     HeatMap heat(options.visibility.show, options.size);
@@ -56,7 +56,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
         CounterPolicy& counters = counters_of[worker];
-        TileDepths depths(tile);
+        TileDepths depths(tile, depth.farthest());
         TileVisibility& visible = visible_of[worker];
         visible.begin(tile);
         const auto shade = [&] {

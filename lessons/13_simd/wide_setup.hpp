@@ -84,12 +84,13 @@ WideScreenTriangles<N> project_plain(std::span<const Triangle> triangles,
     for (std::size_t v = 0; v < 3; ++v) {
         const auto at = vertices_of<N>(triangles, v, positions_clip);
         Mask<N> is_inside = at.w < F(clip_limit);
-        for (int axis = 0; axis < 3; ++axis)  // Eq. 4.10
+        for (int axis = 0; axis < 2; ++axis)  // Eq. 4.10
             is_inside = is_inside & (at.w + at[axis] >= zero) & (at.w - at[axis] >= zero);
+        is_inside = is_inside & (at.w - at.z >= zero) & (at.z >= zero);
         // As screen_from_clip() and snap_triangle().
         const F x = (at.x / at.w + one) * half * width;
         const F y = (one - at.y / at.w) * half * height;
-        on_screen.z[v] = (at.z / at.w + one) * half;
+        on_screen.z[v] = at.z / at.w;
         const Mask<N> is_usable = is_inside & (x < limit) & (y < limit);  // false for NaN
         on_screen.x[v] = truncated(rounded(select(is_usable, x, zero) * steps));
         on_screen.y[v] = truncated(rounded(select(is_usable, y, zero) * steps));

@@ -51,7 +51,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
         projected.on_screen, tile, [&](ivec2 pixel, MaskOf<F> covered, const Vec3<F>& on_screen) {
             count(Counter::fragments_tested, covered);
             const F depth = depth_at<F>(projected.depth, on_screen);
-            MaskOf<F> nearer = covered & (depth < load<F>(depths.from(pixel)));
+            MaskOf<F> nearer = covered & (depth > load<F>(depths.from(pixel)));
             F opacity(1.0f);
             if (inputs) {
                 if (!any_of(nearer)) return;

@@ -82,7 +82,7 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideReceiver<N>& receive
         is_in_map & (place.x >= first) & (place.y >= first) & (place.x < end) & (place.y < end);
     const Ints<N> column = truncated(select(is_in_map, place.x, first));
     const Ints<N> row = truncated(select(is_in_map, place.y, first));
-    const F depth = place.z - (receiver.bias + receiver.bias_per_w * per_w) +
+    const F depth = place.z + (receiver.bias + receiver.bias_per_w * per_w) +
                     receiver.slope.x * (to_floats(column) + F(0.5f) - place.x) +
                     receiver.slope.y * (to_floats(row) + F(0.5f) - place.y);
     return {is_in_map, column, row, depth, receiver.slope};
@@ -110,11 +110,11 @@ Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
                 kernel.depth[i] + kernel.slope.y[i] * static_cast<float>(y - radius);
             const Row at_taps = in_row + across;
             const Row cleared = Row{} + DepthBuffer::cleared;
-            const Row at_texels = cleared < at_taps ? cleared : at_taps;
+            const Row at_texels = cleared > at_taps ? cleared : at_taps;
             const float* const from = &depths[first + ivec2(0, y)];
             Row texels{};
             for (int x = 0; x < side; ++x) texels[x] = from[x];
-            in_column += (at_texels <= texels) & counted;
+            in_column += (at_texels >= texels) & counted;
         }
         int sum = 0;
         for (int x = 0; x < taps; ++x) sum += in_column[x];

@@ -136,7 +136,7 @@ void fill_tile(const ScreenTriangle& triangle, const Tile& tile, Emit&& emit) {
 /// As TriangleDepth::at() of lesson 03.
 template <typename F>
 F depth_at(const TriangleDepth& depth, const Vec3<F>& barycentrics) {
-    return F(depth.nearest()) + glm::dot(barycentrics, Vec3<F>(depth.beyond_nearest()));
+    return F(depth.farthest()) + glm::dot(barycentrics, Vec3<F>(depth.above_farthest()));
 }
 
 /// The depths of a tile's pixels, in memory of their own. Behind each row there is some that may be
@@ -147,8 +147,10 @@ class TileDepths {
     static constexpr int padding = 16;  ///< As many as the widest F has.
 
     /// Cleared.
-    explicit TileDepths(const Tile& tile)
-        : layout_(tile, padding), depths_(layout_.size(), DepthBuffer::cleared) {}
+    ///
+    /// @param farthest  As DepthBuffer has it.
+    explicit TileDepths(const Tile& tile, float farthest = DepthBuffer::cleared)
+        : layout_(tile, padding), depths_(layout_.size(), farthest), farthest_(farthest) {}
 
     /// Those from a pixel to the end of its row.
     float* from(ivec2 pixel) { return &depths_[layout_[pixel]]; }
@@ -160,7 +162,7 @@ class TileDepths {
     MaskOf<F> test_and_write(ivec2 pixel, MaskOf<F> covered, F depth) {
         float* const depths = from(pixel);
         const F nearest = load<F>(depths);
-        const MaskOf<F> is_nearer = covered & (depth < nearest);
+        const MaskOf<F> is_nearer = covered & (depth > nearest);
         store<F>(depths, select(is_nearer, depth, nearest));
         return is_nearer;
     }
@@ -169,9 +171,7 @@ class TileDepths {
     template <typename Take>
     void for_each_empty_run(const Tile& tile, Take&& take) {
         using F = Floats<native_width>;
-        const auto is_empty = [](auto depth) {
-            return depth == decltype(depth)(DepthBuffer::cleared);
-        };
+        const auto is_empty = [this](auto depth) { return depth == decltype(depth)(farthest_); };
         const auto is_covered = [&](auto depth) { return !is_empty(depth); };
         const auto [first, last] = tile.box;
         for (int y = first.y; y <= last.y; y += tile.row_step) {
@@ -194,6 +194,7 @@ class TileDepths {
   private:
     TileLayout layout_;
     std::vector<float> depths_;
+    float farthest_;
 };
 
 /// Draws what lies behind the triangles, where none of them is. Before that, the pixels have no

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -22,17 +23,20 @@ namespace {
 // Each format: the depths that a projection computes for it, and how they are stored.
 struct Float32 {
     using Stored = float;
-    static constexpr float at_nearest = 0, at_farthest = 1;
-    static Stored store(float depth) { return depth; }
-};
-struct Reversed {
-    using Stored = float;
     static constexpr float at_nearest = 1, at_farthest = 0;
+    static constexpr bool has_far_plane = false;
     static Stored store(float depth) { return depth; }
 };
-struct ReversedNdc {
+struct FromNear {
+    using Stored = float;
+    static constexpr float at_nearest = 0, at_farthest = 1;
+    static constexpr bool has_far_plane = true;
+    static Stored store(float depth) { return depth; }
+};
+struct Ndc {
     using Stored = float;
     static constexpr float at_nearest = 1, at_farthest = -1;
+    static constexpr bool has_far_plane = false;
     static Stored store(float depth) { return zero_to_one(depth); }
 };
 struct Unorm16 : Float32 {
@@ -53,10 +57,10 @@ bool is_nearer(typename Format::Stored a, typename Format::Stored b) {
 struct Projection {
     float a, b;
 
+    /// @param farthest                Infinite: there is no far plane.
     /// @param at_nearest,at_farthest  The depths there.
     Projection(double nearest, double farthest, double at_nearest, double at_farthest) {
-        const double b_exact =
-            (at_nearest - at_farthest) * nearest * farthest / (farthest - nearest);
+        const double b_exact = (at_nearest - at_farthest) * nearest / (1 - nearest / farthest);
         a = static_cast<float>(at_farthest - b_exact / farthest);
         b = static_cast<float>(b_exact);
     }
@@ -69,8 +73,10 @@ template <typename Format>
 std::pair<double, double> ties_and_inversions(double farthest_over_nearest) {
     constexpr double nearest = 0.1;
     constexpr int pairs = 1'000'000;
-    const Projection projection(nearest, nearest * farthest_over_nearest, Format::at_nearest,
-                                Format::at_farthest);
+    const Projection projection(nearest,
+                                Format::has_far_plane ? nearest * farthest_over_nearest
+                                                      : std::numeric_limits<double>::infinity(),
+                                Format::at_nearest, Format::at_farthest);
     const auto stored = [&](double distance) {
         return Format::store(projection.depth(static_cast<float>(distance)));
     };
@@ -136,8 +142,8 @@ void add_format(const char* name) {
 
 int main(int argc, char** argv) {
     add_format<Float32>("float");
-    add_format<Reversed>("float, reversed");
-    add_format<ReversedNdc>("float, reversed, −1 … 1");
+    add_format<FromNear>("float, 0 at the near plane");
+    add_format<Ndc>("float, by way of −1 … 1");
     add_format<Unorm16>("16 bits");
     add_format<Unorm24>("24 bits");
     return measure_variants(argc, argv);

@@ -86,7 +86,7 @@ class Uniforms {
 
 constexpr const char* backdrop_vertices = R"(
 void main() {  // one triangle around the whole picture, behind all else
-    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
+    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
 })";
 constexpr const char* backdrop_fragments = R"(
 uniform vec3 first, last;  // row
@@ -488,7 +488,7 @@ void GlScene::Content::draw_picture() const {
         draw_with([](const GlMaterial& material) { return !material.is_masked; });
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
-    glDepthFunc(options.depth_first ? GL_LEQUAL : GL_LESS);
+    glDepthFunc(options.depth_first ? GL_GEQUAL : GL_GREATER);
     for (std::size_t i = 0; i < maps.size(); ++i) {
         glActiveTexture(GL_TEXTURE3 + static_cast<GLenum>(i));
         glBindTexture(GL_TEXTURE_2D, maps[i].depths);
@@ -503,10 +503,10 @@ void GlScene::Content::draw_picture() const {
     });
     glUseProgram(backdrop);
     glDisable(GL_CULL_FACE);
-    glDepthFunc(GL_LEQUAL);
+    glDepthFunc(GL_GEQUAL);
     glBindVertexArray(no_vertices);
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthFunc(GL_LESS);
+    glDepthFunc(GL_GREATER);
 }
 
 GlScene::GlScene(const SceneAssets& assets, const Camera& camera,

@@ -233,10 +233,9 @@ void draw_03(Numbers& numbers, const Scene& scene, ivec2 size) {
     options.size = size;
     options.paint = numbers.one_of({lesson_03::Paint::flat, lesson_03::Paint::barycentric});
     options.show_depth = numbers.flag();
-    options.depth = {
-        numbers.one_of({DepthFormat::float32, DepthFormat::reversed, DepthFormat::reversed_ndc,
-                        DepthFormat::unorm16, DepthFormat::unorm24}),
-        numbers.one_of({1.0f, 100.0f, 10'000.0f, 1e6f})};
+    options.depth = {numbers.one_of({DepthFormat::float32, DepthFormat::from_near, DepthFormat::ndc,
+                                     DepthFormat::unorm16, DepthFormat::unorm24}),
+                     numbers.one_of({1.0f, 100.0f, 10'000.0f, 1e6f})};
     NoCounters counters;
     expect_finite(lesson_03::render(options, scene, counters));
 }

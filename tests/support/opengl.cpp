@@ -265,6 +265,9 @@ OpenGl::OpenGl() {
     const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     check(driver.starts_with("llvmpipe"), "OpenGL's driver is not llvmpipe but " + driver);
     glEnable(GL_DEPTH_TEST);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);  // as docs/conventions.md has it, C4 and C5
+    glDepthFunc(GL_GREATER);
+    glClearDepth(0);
     glEnable(GL_CULL_FACE);
     glFrontFace(GL_CW);
 }

@@ -40,7 +40,7 @@ struct OpenGlView {
 
 struct OpenGlPicture {
     Image<vec4> color;   ///< What the fragment shader wrote; 0 where nothing was drawn.
-    Image<float> depth;  ///< 0 to 1, which is also where nothing was drawn.
+    Image<float> depth;  ///< 0 to 1; 0 where nothing was drawn.
 };
 
 /// What shaders from files are given of a vertex: their attributes 0 to 3.

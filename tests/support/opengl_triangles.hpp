@@ -105,7 +105,7 @@ inline Vertices clip_from_steps(const Steps& steps, const OpenGlView& view, Rand
     for (std::size_t i = 0; i < 3; ++i) {
         const vec2 pixels = vec2(steps[i]) / float{subpixels} - vec2(view.viewport_low);
         const vec2 ndc = pixels / vec2(view.viewport_size) * 2.0f - 1.0f;
-        const float z = is_steep ? any_float(random, -1, 1) : glm::dot(slope, ndc);
+        const float z = is_steep ? any_float(random, 0, 1) : 0.5f + 0.5f * glm::dot(slope, ndc);
         vertices[i] = vec4(ndc.x, -ndc.y, z, 1) * std::ldexp(1.0f, any(random, -4, 4));
     }
     return vertices;

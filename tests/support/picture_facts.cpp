@@ -52,15 +52,16 @@ std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Bounds& b
     const dvec3 back(std::cos(pitch_radians) * std::sin(yaw_radians), std::sin(pitch_radians),
                      std::cos(pitch_radians) * std::cos(yaw_radians));
     const double distance = orbit.distance * radius;
-    const dmat4 clip_from_world = glm::perspectiveRH_NO(glm::radians(double{orbit.fov_degrees}),
+    // GLM's far is our near: the depth is 1 there.
+    const dmat4 clip_from_world = glm::perspectiveRH_ZO(glm::radians(double{orbit.fov_degrees}),
                                                         double{1.0 * size.x} / size.y,
-                                                        0.001 * distance, 2 * (distance + radius)) *
+                                                        2 * (distance + radius), 0.001 * distance) *
                                   glm::lookAtRH(center + distance * back, center, dvec3(0, 1, 0));
     const auto on_screen = [&](vec3 position) {
         const dvec4 clip = clip_from_world * dvec4(position, 1);
         if (!(clip.w > 0)) return vec3(std::numeric_limits<float>::quiet_NaN());
         const dvec3 ndc = dvec3(clip) / clip.w;
-        return vec3(0.5 * (ndc.x + 1) * size.x, 0.5 * (1 - ndc.y) * size.y, 0.5 * (ndc.z + 1));
+        return vec3(0.5 * (ndc.x + 1) * size.x, 0.5 * (1 - ndc.y) * size.y, ndc.z);
     };
     std::vector<ScreenPatch> patches;
     for (const Mesh& mesh : scene.meshes)

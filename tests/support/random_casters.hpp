@@ -21,7 +21,7 @@ inline ShadowMap map_of_minus_one(int size) {
     ShadowMap map(mat4(1), false, size, bounds);
     const ivec2 all = map.depths.depths().size();
     for (int y = 0; y < all.y; ++y)
-        for (int x = 0; x < all.x; ++x) map.depths.test_and_write({x, y}, -1);
+        for (int x = 0; x < all.x; ++x) map.depths.depths()[{x, y}] = -1;
     return map;
 }
 
@@ -34,7 +34,8 @@ inline Scene random_casters(int triangles, std::uint32_t seed) {
     std::vector<std::array<std::uint32_t, 3>> indices;
     for (int k = 0; k < triangles; ++k) {
         const auto first = static_cast<std::uint32_t>(positions.size());
-        for (int v = 0; v < 3; ++v) positions.push_back(dice.in_cube(1.2f));
+        for (int v = 0; v < 3; ++v)
+            positions.push_back(dice.in_cube(1.2f) * vec3(1, 1, 0.5f) + vec3(0, 0, 0.5f));
         indices.push_back({first, first + 1, first + 2});
     }
     scene.meshes.push_back(mesh_of(positions, indices));

@@ -60,7 +60,7 @@ class ReferenceCamera {
 
 using ClipVertices = std::array<vec4, 3>;
 
-/// Whether a pixel's ray meets a triangle between the near and the far plane. In clip space without
+/// Whether a pixel's ray meets a triangle beyond the near plane. In clip space without
 /// its z, which is what a camera at the origin sees, a pixel's ray is (x, y, 1) times w > 0.
 class RaySeen {
   public:
@@ -86,8 +86,8 @@ class RaySeen {
   private:
     bool is_seen_at(long double x, long double y, ivec2 size) const {
         Crossing crossing;
-        return cross(2 * x / size.x - 1, 1 - 2 * y / size.y, crossing) &&
-               std::abs(crossing.z) <= crossing.w;
+        return cross(2 * x / size.x - 1, 1 - 2 * y / size.y, crossing) && 0 <= crossing.z &&
+               crossing.z <= crossing.w;
     }
 
     struct Crossing {
@@ -122,11 +122,8 @@ class RaySeen {
     ClipVertices vertices_;
 };
 
-/// Of view space, by a camera that sees 90 degrees from 1 to 100.
-inline vec4 seen_from_origin(vec3 view) {
-    constexpr float near = 1, far = 100;
-    return {view.x, view.y, -((far + near) * view.z + 2 * far * near) / (far - near), -view.z};
-}
+/// Of view space, by a camera that sees 90 degrees, from 1 on.
+inline vec4 seen_from_origin(vec3 view) { return {view.x, view.y, 1, -view.z}; }
 
 /// Turns the triangle round if it is seen clockwise from the origin.
 inline ClipVertices front(std::array<vec3, 3> view) {
@@ -135,7 +132,7 @@ inline ClipVertices front(std::array<vec3, 3> view) {
 }
 
 /// Triangles of a few pixels: three in five in the picture, the others across its border, across
-/// the near or the far plane, outside or behind.
+/// the near plane, outside or behind.
 inline std::vector<ClipVertices> small_triangles(int count) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> direction(-1.2f, 1.2f), about(-0.06f, 0.06f),

@@ -63,7 +63,7 @@ void draw(const ScreenPatch& patch, int id, VisibilityRule rule, Visibility& pic
             double& depth_seen = picture.depths[{x, y}];
             const bool wins =
                 seen == Visibility::nothing || rule.winner == Winner::last ||
-                (rule.winner == Winner::nearest ? depth < depth_seen : depth > depth_seen);
+                (rule.winner == Winner::nearest ? depth > depth_seen : depth < depth_seen);
             if (wins) seen = id, depth_seen = depth;
         }
 }

@@ -11,7 +11,7 @@
 
 namespace rasterbook::test {
 
-/// A triangle as it reaches the screen: x right and y down in pixels; depth, greater is farther.
+/// A triangle as it reaches the screen: x right and y down in pixels; depth, greater is nearer.
 using ScreenPatch = std::array<vec3, 3>;
 
 enum class Facing { front, back, both };

@@ -34,8 +34,8 @@ VisibilityRule right_rule(const PictureFacts& facts) {
 void add_wrong_order_and_facing(std::vector<Mistake>& mistakes, VisibilityRule right) {
     if (right.winner == Winner::nearest) {
         mistakes.push_back(
-            {"the farthest surface is seen in place of the nearest: \"greater\" for "
-             "\"less\", or depth counted the other way; compare lesson 03",
+            {"the farthest surface is seen in place of the nearest: \"less\" for "
+             "\"greater\", or depth counted the other way; compare lesson 03",
              {right.drawn, Winner::farthest},
              {}});
         mistakes.push_back(
@@ -213,7 +213,7 @@ DepthFit fit_depth(const Image<u8vec4>& actual, const Visibility& visibility) {
             continue;
         }
         const double shade = std::sqrt(linear_from_srgb(level / 255.0));  // as depth_picture has it
-        const double nearness = -visibility.depths.pixels()[i];
+        const double nearness = visibility.depths.pixels()[i];
         n += 1, a += shade, b += nearness;
         aa += shade * shade, ab += shade * nearness, bb += nearness * nearness;
     }
@@ -231,7 +231,7 @@ std::vector<Finding> depth_mistakes(const Case& c, const Visibility& right) {
     constexpr double greatest_outside = 0.001;  // edges
     constexpr double better = 0.3;              // of what the right depths do not explain
     const std::string exchanged =
-        "near is dark and far is bright: depth is 0 nearest and 1 farthest; compare "
+        "near is dark and far is bright: depth is 1 nearest and 0 farthest; compare "
         "docs/conventions.md, C5";
 
     const double right_correlation = fit_depth(c.actual, right).correlation;

@@ -23,12 +23,12 @@ std::array<std::array<float, frustum_planes>, 3> distances;
 /// Clips the triangle.
 ///
 /// @param half_fov   Of the camera, radians.
-/// @param near,far   Distances of the planes, 0 < near < far.
+/// @param near       Distance of the near plane, > 0.
 /// @param ax,az      A vertex in view space; the others likewise.
 /// @return           Triangles left.
-extern "C" int clip(float half_fov, float near, float far, float ax, float az, float bx, float bz,
-                    float cx, float cz) {
-    const mat4 clip_from_view = perspective(2 * half_fov, 1.0f, near, far);
+extern "C" int clip(float half_fov, float near, float ax, float az, float bx, float bz, float cx,
+                    float cz) {
+    const mat4 clip_from_view = perspective(2 * half_fov, 1.0f, near);
     const std::array<vec3, 3> vertices = {{{ax, 0, az}, {bx, 0, bz}, {cx, 0, cz}}};
     std::array<vec4, 3> positions_clip;
     for (std::size_t i = 0; i < 3; ++i) {

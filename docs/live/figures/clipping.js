@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 figure("clipping", (code) => {
-  const vertices = [[-1.2, -5.2], [2.9, -3.4], [0.3, 0.6]], planes = { near: 1, far: 6 };
+  const vertices = [[-1.2, -5.2], [2.9, -3.4], [0.3, 0.6]];
   const names = ["a", "b", "c"];
   const planeNames = ["left", "right", "bottom", "top", "near", "far"];
-  let half = (28 * Math.PI) / 180, fan = [], outside = [];
+  let near = 1, half = (28 * Math.PI) / 180, fan = [], outside = [];
 
   function update() {
-    const count = code.clip(half, planes.near, planes.far, ...vertices.flat());
+    const count = code.clip(half, near, ...vertices.flat());
     const numbers = new Float32Array(code.memory.buffer, code.clipped(), count * 12);
     const vertex = (i) => {
       const [viewX, viewZ, ndcX, ndcZ] = numbers.subarray(4 * i, 4 * i + 4);
@@ -30,18 +30,9 @@ figure("clipping", (code) => {
     ].join("");
   }
 
-  const plane = (name, least, most) => ({
-    name: `Distance of the ${name} plane`,
-    letter: name,
-    step: 0.1,
-    at: () => [0, -planes[name]],
-    text: () => `${number(planes[name])} in front of the eye`,
-    move: (_, z) => (planes[name] = clamp(-z, least(), most())),
-  });
-
   return {
     title: "A triangle seen from above, clipped to the frustum",
-    caption: `Drag the vertices, the near plane or the far plane. On one side, view space from above: clipping leaves the filled polygon, and the thin lines cut it into a fan of triangles. On the other side, the same polygon in NDC: if the near plane is close to the eye, most depths are close to 1.`,
+    caption: `Drag the vertices or the near plane. On one side, view space from above: clipping leaves the filled polygon, and the thin lines cut it into a fan of triangles. On the other side, the same polygon in NDC: if the near plane is close to the eye, most depths are close to 0.`,
     layout: (width) => {
       const wide = width > 500, unit = (wide ? width * 0.6 : width) / 8.4;
       const height = 7.7 * unit, eye = [4.2 * unit, 6.5 * unit];
@@ -58,10 +49,10 @@ figure("clipping", (code) => {
     draw: ({ to, left, top, side }) => {
       update();
       const across = Math.tan(half), at = (distance, sign) => to([sign * across * distance, -distance]);
-      const ndc = ([x, z]) => [left + ((x + 1) / 2) * side, top + ((1 - z) / 2) * side];
+      const ndc = ([x, z]) => [left + ((x + 1) / 2) * side, top + z * side];
       return [
         segment(to([0, 0]), at(6.5, -1), "rule ink dashed"), segment(to([0, 0]), at(6.5, 1), "rule ink dashed"),
-        polygon([at(planes.near, -1), at(planes.near, 1), at(planes.far, 1), at(planes.far, -1)], "frustum"),
+        polygon([at(near, -1), at(near, 1), at(6.5, 1), at(6.5, -1)], "frustum"),
         dot(to([0, 0]), 5, "mark"),
         polygon(vertices.map(to), "rule four"),
         drawPolygon("view", to),
@@ -76,8 +67,14 @@ figure("clipping", (code) => {
       ...outside.map((list, i) => `${names[i]}: ${list.length ? `outside ${list.join(", ")}` : "inside"}`),
     ],
     handles: [
-      plane("near", () => 0.1, () => planes.far - 0.2),
-      plane("far", () => planes.near + 0.2, () => 6.4),
+      {
+        name: "Distance of the near plane",
+        letter: "near",
+        step: 0.1,
+        at: () => [0, -near],
+        text: () => `${number(near)} in front of the eye`,
+        move: (_, z) => (near = clamp(-z, 0.1, 6.2)),
+      },
       ...vertices.map((vertex, i) => ({
         name: `Vertex ${names[i]}`,
         letter: names[i],

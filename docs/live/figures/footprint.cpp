@@ -61,7 +61,7 @@ extern "C" const u8vec4* draw(float pitch, int filter) {
     bytes.assign(seen.size(), u8vec4(0));
     const vec3 eye(0, 1.1f, 0);
     const mat4 clip_from_world =
-        perspective(glm::radians(50.0f), 4.0f / 3, 0.05f, 50.0f) *
+        perspective(glm::radians(50.0f), 4.0f / 3, 0.05f) *
         look_at(eye, eye + vec3(0, -std::sin(pitch), -std::cos(pitch)), vec3(0, 1, 0));
     const std::array<vec3, 4> corners = {{{-9, 0, 3}, {9, 0, 3}, {9, 0, -6.5f}, {-9, 0, -6.5f}}};
     const auto draw_triangle = [&](std::array<vec3, 3> vertices) {

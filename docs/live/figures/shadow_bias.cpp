@@ -90,8 +90,8 @@ extern "C" void draw(float elevation, int size, int bias, float factor) {
     };
     for (int y = 0; y < size; ++y) {
         const float depth = map.depths.depths()[ivec2(size / 2, y) + max_pcf_radius];
-        if (depth < DepthBuffer::cleared)
-            seen_texels.push_back({at(y, 0), at(y + 1, 0), at(y, depth), at(y + 1, depth)});
+        if (depth > DepthBuffer::cleared)
+            seen_texels.push_back({at(y, 1), at(y + 1, 1), at(y, depth), at(y + 1, depth)});
     }
 
     samples.clear();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "common/image/image.hpp"
 
@@ -12,23 +13,26 @@ namespace rasterbook {
 
 /// The depth of the nearest surface so far, for each pixel.
 ///
-/// Depths run from 0, nearest, to 1, farthest; a cleared pixel holds 1.
+/// Depths run from 1 at the near plane to 0, infinitely far away: greater is nearer.
 class DepthBuffer {
   public:
-    static constexpr float cleared = 1.0f;  ///< The depth of a pixel that nothing covers yet.
+    static constexpr float cleared = 0.0f;  ///< The depth of a pixel that nothing covers yet.
 
-    /// @param size  Width and height in pixels.
-    explicit DepthBuffer(ivec2 size) : depths_(size, cleared) {}
+    /// @param size      Width and height in pixels.
+    /// @param farthest  What a pixel is cleared to: what is not nearer than this is never drawn.
+    explicit DepthBuffer(ivec2 size, float farthest = cleared)
+        : depths_(size, farthest), farthest_(farthest) {}
 
-    /// The same, with each pixel still to be cleared.
-    DepthBuffer(ivec2 size, Unset) : depths_(size, unset) {}
+    /// With each pixel still to be cleared.
+    DepthBuffer(ivec2 size, Unset, float farthest = cleared)
+        : depths_(size, unset), farthest_(farthest) {}
 
     /// Clears a part.
     ///
     /// @param first,last  Its upper left and lower right pixel; last before first: no pixel.
     void clear(ivec2 first, ivec2 last) {
         for (int y = first.y; y <= last.y; ++y)
-            for (int x = first.x; x <= last.x; ++x) depths_[{x, y}] = cleared;
+            for (int x = first.x; x <= last.x; ++x) depths_[{x, y}] = farthest_;
     }
 
     /// The depth test: whether `depth` is nearer than all before it in this pixel; if so, it is
@@ -42,37 +46,39 @@ class DepthBuffer {
 
     const Image<float>& depths() const { return depths_; }
     Image<float>& depths() { return depths_; }
+    float farthest() const { return farthest_; }
 
   private:
     Image<float> depths_;
+    float farthest_;
 };
 
 /// The depth inside a triangle, interpolated from the vertices' depths (Eq. 3.2).
 ///
-/// Measured from the nearest vertex, so that the error is small where the triangle's depths differ
+/// Measured from the farthest vertex, so that the error is small where the triangle's depths differ
 /// little, a triangle of one depth has exactly that depth everywhere, and the order of the vertices
 /// does not change a single bit.
 class TriangleDepth {
   public:
     /// @param depths  Of the three vertices, finite.
-    explicit TriangleDepth(vec3 depths) : nearest_(0), beyond_nearest_(0) {
-        // TODO: in step 1, for Eq. 3.2, beyond_nearest_ is the depths themselves, and nearest_
-        // stays 0. In step 3, for Eq. 3.3, the smallest depth, and how far each lies behind it.
+    explicit TriangleDepth(vec3 depths) : farthest_(0), above_farthest_(0) {
+        // TODO: in step 1, for Eq. 3.2, above_farthest_ is the depths themselves, and farthest_
+        // stays 0. In step 3, for Eq. 3.3, the smallest depth, and by how much each exceeds it.
     }
 
     /// @param barycentrics  On the screen, >= 0, as fill_triangle gives them.
-    /// @return              Not nearer than the nearest vertex.
+    /// @return              Not farther than the farthest vertex.
     float at(vec3 barycentrics) const {
-        // TODO: Eq. 3.3, which is Eq. 3.2 as long as nearest_ is 0; mind the bracket.
+        // TODO: Eq. 3.3, which is Eq. 3.2 as long as farthest_ is 0; mind the bracket.
         return 0;
     }
 
-    float nearest() const { return nearest_; }
-    vec3 beyond_nearest() const { return beyond_nearest_; }  ///< By how much each is farther.
+    float farthest() const { return farthest_; }
+    vec3 above_farthest() const { return above_farthest_; }  ///< By how much each is nearer.
 
   private:
-    float nearest_;
-    vec3 beyond_nearest_;
+    float farthest_;
+    vec3 above_farthest_;
 };
 
 /// The depth buffer as a picture: the nearest pixel is white, the farthest dark, an empty one
@@ -80,18 +86,18 @@ class TriangleDepth {
 ///
 /// @return  Linear colour.
 inline Image<vec3> depth_picture(const DepthBuffer& buffer) {
-    constexpr float cleared = DepthBuffer::cleared;
-    float nearest = cleared, farthest = 0.0f;
+    float nearest = buffer.farthest(), farthest = std::numeric_limits<float>::max();
     for (const float depth : buffer.depths().pixels())
-        if (depth < cleared)
-            nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
-    const float extent = std::max(farthest - nearest, 1e-6f);
+        if (depth > buffer.farthest())
+            nearest = std::max(nearest, depth), farthest = std::min(farthest, depth);
+    const float extent = nearest > farthest ? nearest - farthest : 1.0f;
 
     Image<vec3> picture(buffer.depths().size(), vec3(0.0f));
     for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
         const float depth = buffer.depths().pixels()[i];
-        const float shade = 1.0f - 0.9f * (depth - nearest) / extent;
-        if (depth < cleared) picture.pixels()[i] = vec3(shade * shade);  // even steps to the eye
+        const float shade = 1.0f - 0.9f * (nearest - depth) / extent;
+        if (depth > buffer.farthest())
+            picture.pixels()[i] = vec3(shade * shade);  // even steps to the eye
     }
     return picture;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/trigonometric.hpp>
 
@@ -19,8 +20,12 @@ struct Camera {
     vec3 position_world;
     mat4 view_from_world;
     float fov_y_radians;   ///< From the lower to the upper border, in (0, pi).
-    float near, far;       ///< Distances in front of the camera, 0 < near < far.
+    float near;            ///< Distance of the near plane in front of the camera, > 0.
     vec3 center_world{0};  ///< What it looks at.
+    float far = std::numeric_limits<float>::infinity();  ///< Beyond it nothing is drawn; > near.
+
+    /// The depth from which on something is drawn: 0 without a far plane.
+    float farthest_depth() const { return near / far; }
 
     /// View first, then perspective (Eq. 4.4).
     ///
@@ -48,8 +53,8 @@ inline vec3 direction_from_angles(float yaw_radians, float pitch_radians) {
 inline Camera orbit_camera(const Orbit& orbit, const Bounds& bounds) {
     // TODO, step 2: the eye and the up direction by Eq. 4.6, around bounds.center(), or around the
     // origin if the box is empty: its centre would be NaN. bounds.radius() works for any box. The
-    // view by Eq. 4.5; near and far as the text says after Eq. 4.8.
-    return {vec3(0, 0, 1), mat4(1), 1, 1, 2};
+    // view by Eq. 4.5; near as the text says after Eq. 4.8.
+    return {vec3(0, 0, 1), mat4(1), 1, 1};
 }
 
 }  // namespace rasterbook

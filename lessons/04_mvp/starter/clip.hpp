@@ -26,6 +26,7 @@ using ClippedTriangle = std::array<ClippedVertex, 3>;
 constexpr int frustum_planes = 6;
 
 /// How far inside of one of the six planes a point is in NDC, times w: negative outside (Eq. 4.10).
+/// In NDC, x and y run from -1 to 1, and z from 0, infinitely far away, to 1 on the near plane.
 ///
 /// @param plane  0 to 5: left, right, bottom, top, near, far.
 constexpr float plane_distance(int plane, vec4 position_clip) {
@@ -69,7 +70,7 @@ constexpr float clip_limit = 0x1p125f;
 /// screen it lies inside the picture, and its depth between 0 and 1; with a w of 0 it lies nowhere.
 inline vec4 clamped_to_frustum(vec4 position_clip) {
     const float w = std::max(position_clip.w, 0.0f);
-    return {glm::clamp(vec3(position_clip), -w, w), w};
+    return {glm::clamp(vec3(position_clip), vec3(-w, -w, 0), vec3(w)), w};
 }
 
 /// The part of a triangle inside the frustum, as triangles that keep its winding (Eq. 4.13).
@@ -77,7 +78,7 @@ inline vec4 clamped_to_frustum(vec4 position_clip) {
 /// @param vertices  Clip space. If a coordinate is not a number, or not below clip_limit in size,
 ///                  nothing is left.
 /// @return          The triangle itself, if it is all inside; nothing, if it is all outside of one
-///                  plane. No vertex has a coordinate beyond its w, and no w is negative.
+///                  plane. No vertex has a coordinate beyond its w; no w and no z is negative.
 /// @see Sutherland and Hodgman, "Reentrant polygon clipping", 1974
 inline ClippedTriangles clip_triangle(const std::array<vec4, 3>& vertices) {
     // TODO, step 3: nothing is left, if a coordinate is NaN or not below clip_limit in size. Then

@@ -93,7 +93,7 @@ struct EdgeThresholds {
 
 /// 1/w of what is visible in a pixel, which on a plane is linear on the screen (Eq. 7.11).
 ///
-/// @param depth  From a depth buffer, 0 to 1; cleared: nothing is seen, infinitely far: 0.
+/// @param depth  From a depth buffer, 0 to 1; where nothing is seen, 0 as infinitely far away.
 inline float inverse_w(float depth, const Camera& camera) {
     // TODO: Eq. 7.11, in float.
     return 0;

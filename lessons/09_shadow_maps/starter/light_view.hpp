@@ -25,12 +25,12 @@ struct LightViews {
     bool is_perspective = false;
 };
 
-/// The orthographic projection of the box from `low` to `high` onto the cube from -1 to 1
-/// (Eq. 9.2). It leaves w as it is, so that it can follow a perspective.
+/// The orthographic projection of the box from `low` to `high` onto NDC: x and y from -1 to 1, z
+/// from 0 to 1 (Eq. 9.2). It leaves w as it is, so that it can follow a perspective.
 ///
 ///     2/(h.x-l.x)  0            0            -(h.x+l.x)/(h.x-l.x)
 ///     0            2/(h.y-l.y)  0            -(h.y+l.y)/(h.y-l.y)
-///     0            0            2/(h.z-l.z)  -(h.z+l.z)/(h.z-l.z)
+///     0            0            1/(h.z-l.z)  -l.z/(h.z-l.z)
 ///     0            0            0            1
 ///
 /// @param low,high  low < high in each component.
@@ -72,8 +72,7 @@ inline LightBox box_in(const dmat4& view_from_world, const Bounds& bounds) {
 /// Where a shadow can begin and end: sideways where there are both casters and receivers, and from
 /// the nearest caster to where casters or receivers end (Eq. 9.3).
 ///
-/// z grows towards the light, as view space does. In a spotlight's NDC, where it grows the other
-/// way, only x and y of the result are of use.
+/// z grows towards the light, in view space and in NDC.
 ///
 /// @return  Not usable, low above high, where there can be no shadow.
 inline LightBox shadow_region(const LightBox& casters, const LightBox& receivers) {
@@ -117,25 +116,19 @@ inline dmat4 looking(dvec3 eye, dvec3 direction) {
 inline LightViews directional_light_views(const Light& light, const Bounds& casters,
                                           const Bounds& receivers, int size) {
     // TODO: step 1: Eq. 9.1 by looking(), the two boxes in this view by box_in(), shadow_region()
-    // and widened(); then crop() and S(1, 1, -1). Step 5: return {} where is_usable() is false for
+    // and widened(); then crop(). Step 5: return {} where is_usable() is false for
     // one of the two boxes, or for the region before it is widened.
     return {{mat4(1)}, 1, false};
 }
 
-/// Distances of the near and the far plane: from the nearest caster, or a thousandth of the far
-/// plane's distance, to where casters or receivers end. Both lie a little beyond, so that rounding
-/// puts nothing outside.
-struct DepthRange {
-    double near, far;
-};
-
-/// The second line of Eq. 9.4.
+/// Distance of the near plane: that of the nearest caster, a little less so that rounding puts
+/// nothing before it; or a thousandth of the farthest distance (Eq. 9.4, the second line).
 ///
 /// @param nearest_caster  Along the map's axis; may be 0 or less.
 /// @param farthest        Where casters or receivers end, whichever comes first, > 0.
-inline DepthRange depth_range(double nearest_caster, double farthest) {
-    // TODO: step 4: near 0.1 and far 30. Step 5: the second line of Eq. 9.4.
-    return {min_near_share, 1};
+inline double near_plane(double nearest_caster, double farthest) {
+    // TODO: step 4: 0.1. Step 5: the second line of Eq. 9.4.
+    return min_near_share;
 }
 
 /// A spotlight's map: all that its cone lights, fitted to what casts on what receives (Eq. 9.4).
@@ -144,17 +137,17 @@ inline DepthRange depth_range(double nearest_caster, double farthest) {
 inline LightViews spotlight_views(const Light& light, const Bounds& casters,
                                   const Bounds& receivers, int size) {
     // TODO: step 4: P V, by perspective(), of the angle 2 acos(cos_none), and looking();
-    // depth_range() takes no notice yet of what it is given. Step 5: Eq. 9.4, where {} is returned
+    // near_plane() takes no notice yet of what it is given. Step 5: Eq. 9.4, where {} is returned
     // if there can be no shadow:
     // 1. Both boxes in the light's view, by box_in(). {} if one is not usable.
     // 2. A box reaches from -high.z to -low.z in front of the light. The map's farthest is the
     //    lesser of the two far ends. {} unless it is > 0 and the nearest caster is not farther.
-    //    Then depth_range().
+    //    Then near_plane().
     // 3. Both boxes in NDC: the corners in the world times P V, divided by w, which box_in() does
-    //    not do. A box that comes nearer than the near plane is from -1 to 1 instead.
+    //    not do. A box that comes nearer than the near plane is all of NDC instead.
     // 4. shadow_region() of the two; x and y of low raised to at least -1, of high lowered to at
-    //    most 1; z set to -1 to 1. {} if not usable.
-    // 5. widened(), z set to -1 to 1 once more, and crop().
+    //    most 1; z set to 0 to 1. {} if not usable.
+    // 5. widened(), z set to 0 to 1 once more, and crop().
     return {{mat4(1)}, 1, true};
 }
 
@@ -168,12 +161,12 @@ inline std::size_t cube_face(vec3 direction) {
 /// A point light's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
 inline LightViews point_light_views(const Light& light, const Bounds& casters,
                                     const Bounds& receivers, int size) {
-    // TODO: step 4: the right of Eq. 9.5, depth_range(), and a view along each axis by looking().
+    // TODO: step 4: the right of Eq. 9.5, near_plane(), and a view along each axis by looking().
     // Step 5: distances from the light, in any direction. The nearest caster is at the point of the
     // casters' box that is nearest: the light's position, each coordinate clamped to the box. A box
     // ends at its farthest corner: for each coordinate, min or max, whichever is farther. The
     // lesser of the two boxes' ends is the map's. {} unless it is > 0 and below float's maximum,
-    // and the nearest caster is not farther. depth_range() gets the nearest caster's distance
+    // and the nearest caster is not farther. near_plane() gets the nearest caster's distance
     // divided by sqrt(1 + 2 t^2).
     LightViews views{{}, 6, true};
     views.clip_from_world.fill(mat4(1));

@@ -38,7 +38,7 @@ constexpr double rounding = 64 * 0x1p-24;
 /// depth's sum are rounded a few times.
 constexpr double depth_quanta = 8 * 0x1p-24;
 
-/// The depth of what a light sees first, for each texel; 1 where it sees nothing.
+/// The depth of what a light sees first, for each texel; 0 where it sees nothing.
 struct ShadowMap {
     int size;                ///< Texels a side.
     mat4 clip_from_world;    ///< As light_view.hpp makes it.
@@ -119,7 +119,7 @@ enum class Bias { none, constant, slope, plane, normal };
 /// biases and what they return", says which Bias sets which field.
 struct Receiver {
     vec2 slope{0};           ///< Change of depth to the right and to the lower texel (Eq. 9.11).
-    float bias = 0;          ///< Taken off the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
+    float bias = 0;          ///< Added to the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
     float bias_per_w = 0;    ///< To be divided by the moved point's w, and added to the bias.
     vec3 offset{0};          ///< World space: moves the point (Eq. 9.12).
     vec3 offset_times_w{0};  ///< To be multiplied by w of the point not yet moved, and added.
@@ -150,7 +150,7 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
 
     // TODO: step 2: n by normalize_or() of the cross product of two sides, in double; 0 if the
     // triangle has no area. The plane as the map sees it, Eq. 9.8; if dot(n, outward) < 0, change
-    // the signs of plane and n. Unless plane.z < 0, return a bias of 2 and nothing else. The same
+    // the signs of plane and n. Unless plane.z > 0, return a bias of 2 and nothing else. The same
     // unless sum = |z_x| + |z_y| is <= max_slope. (Ask it this way round: a comparison with NaN is
     // false.) Else Eq. 9.9 and depth_quanta for Bias::slope and Bias::plane; for Bias::plane, z_x
     // and z_y as well, in result.slope. Leave Bias::normal for later.
@@ -174,7 +174,7 @@ inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
 struct PcfKernel {
     bool is_in_map = false;  ///< Else the point is lit.
     ivec2 middle{0};         ///< The texel in which the point lies.
-    float depth = 0;         ///< Compared with the middle texel: the surface's, less the bias.
+    float depth = 0;         ///< Compared with the middle texel: the surface's, plus the bias.
     vec2 slope{0};           ///< As in Receiver.
 };
 
@@ -185,11 +185,11 @@ struct PcfKernel {
 inline PcfKernel pcf_kernel(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
     // TODO: step 1: find the point's position in the map (Eq. 9.6). It is in the map if x >= 0,
     // y >= 0, x < R and y < R; in a perspective only if w > 0, too: ask that before anything is
-    // divided. `depth` is z less receiver.bias.
+    // divided. `depth` is z plus receiver.bias.
     //
     // Step 5: first move the point by offset + w offset_times_w (Eq. 9.12), where w is that of the
-    // point not yet moved, 1 for a directional light. All else is of the moved point. Take bias +
-    // bias_per_w / w off its depth (Eq. 9.10). Then add slope.x times the way from the point to the
+    // point not yet moved, 1 for a directional light. All else is of the moved point. Add bias +
+    // bias_per_w / w to its depth (Eq. 9.10), slope.x times the way from the point to the
     // centre of its texel, in texels to the right, and slope.y times that down (Eq. 9.11).
     return {};
 }
@@ -207,7 +207,7 @@ float pcf_visibility(const ShadowMap& map, const PcfKernel& kernel) {
     //
     // Step 3: Eq. 9.7 for each tap of the kernel, which may reach into the border, and Eq. 9.13.
     //
-    // Step 5: the depth changes by kernel.slope from tap to tap (Eq. 9.11); then comes the minimum.
+    // Step 5: the depth changes by kernel.slope from tap to tap (Eq. 9.11); then comes the maximum.
     return 1;
 }
 

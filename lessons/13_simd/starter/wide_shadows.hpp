@@ -94,7 +94,7 @@ Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     // TODO: step 3: point by point, but all taps of a row at once: a vector of 4 or 8 floats holds
     // them. Skip points that are not in the map, and read no texel that is not a tap: another
     // thread may be drawing it. A comparison AND 1 is 1 where it holds: these are added up.
-    // Depths at the taps are at most `cleared`: cleared < depth ? cleared : depth.
+    // Depths at the taps are at least `cleared`: cleared > depth ? cleared : depth.
     // Until then, one point after the other:
     Floats<N> lit(0.0f);
     for (int i = 0; i < N; ++i) {

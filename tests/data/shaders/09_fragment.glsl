@@ -76,8 +76,8 @@ vec3 face_normal() {
 float receiver_bias(vec3 face) {
     vec3 outward = dot(face, smooth_normal) < 0.0 ? -face : face;
     vec3 plane = plane_from_world * outward;  // Eq. 9.8
-    if (plane.z >= 0.0) return 2.0;           // turned away from the light
-    float slope = (abs(plane.x) + abs(plane.y)) / -plane.z;
+    if (plane.z <= 0.0) return 2.0;           // turned away from the light
+    float slope = (abs(plane.x) + abs(plane.y)) / plane.z;
     if (slope > max_slope) return 2.0;
     float bias = (reach_texels + snapping) * slope + depth_quanta;  // Eq. 9.10
     return bias + rounding_texels * slope + rounding_depth;
@@ -88,11 +88,11 @@ float pcf_visibility(float bias) {
     if (any(lessThan(place.xy, vec2(0.0))) || any(greaterThanEqual(place.xy, vec2(size))))
         return 1.0;
     ivec2 texel = ivec2(place.xy) + max_pcf_radius;
-    float depth = min(place.z - bias, 1.0);  // Eq. 9.7
+    float depth = max(place.z + bias, 0.0);  // Eq. 9.7
     float lit = 0.0;
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x)
-            lit += depth <= texelFetch(depths, texel + ivec2(x, y), 0).r ? 1.0 : 0.0;
+            lit += depth >= texelFetch(depths, texel + ivec2(x, y), 0).r ? 1.0 : 0.0;
     return lit / 9.0;  // Eq. 9.13
 }
 

@@ -122,15 +122,15 @@ float receiver_bias(int l, float per_w) {
     vec3 outward = dot(face, smooth_normal) * side() < 0.0 ? -face : face;
     float offset = kinds[l] == 0 ? 0.0 : -dot(outward, position_world);
     vec3 plane = (maps[l].plane_from_world * vec4(outward, offset)).xyz;  // Eq. 9.8
-    float slope = (abs(plane.x) + abs(plane.y)) / -plane.z;
-    bool is_turned_away = plane.z >= 0.0 || slope > max_slope;  // from the light, or nearly
+    float slope = (abs(plane.x) + abs(plane.y)) / plane.z;
+    bool is_turned_away = plane.z <= 0.0 || slope > max_slope;  // from the light, or nearly
     float bias = (reach_texels + snapping) * slope + depth_quanta +  // Eq. 9.10
                  (maps[l].rounding_texels * slope + maps[l].rounding_depth) * per_w;
     return is_turned_away ? 2.0 : bias;
 }
 
 float lit_of(vec4 four_taps, float depth) {
-    return dot(vec4(lessThanEqual(vec4(depth), four_taps)), vec4(1.0));
+    return dot(vec4(greaterThanEqual(vec4(depth), four_taps)), vec4(1.0));
 }
 
 // Nine taps by three gathers, which are faster than nine fetches.
@@ -140,14 +140,14 @@ float pcf_visibility(int l) {
     if (kinds[l] != 0) per_w = 1.0 / place.w;
     place.xyz *= per_w;
     ivec2 texel = ivec2(clamp(place.xy, 0.0, maps[l].size - 1.0)) + max_pcf_radius;
-    float depth = min(place.z - receiver_bias(l, per_w), 1.0);  // Eq. 9.7
+    float depth = max(place.z + receiver_bias(l, per_w), 0.0);  // Eq. 9.7
     vec2 per_texel = 1.0 / vec2(textureSize(depths[l], 0));
     vec2 middle = vec2(texel) * per_texel;  // four texels meet there
     float lit = lit_of(textureGather(depths[l], middle), depth);
     vec4 right = textureGather(depths[l], middle + vec2(2.0, 0.0) * per_texel);
     vec4 below = textureGather(depths[l], middle + vec2(0.0, 2.0) * per_texel);
     lit += lit_of(vec4(right.xw, below.zw), depth);
-    lit += depth <= texelFetch(depths[l], texel + 1, 0).r ? 1.0 : 0.0;
+    lit += depth >= texelFetch(depths[l], texel + 1, 0).r ? 1.0 : 0.0;
     bool is_in_map = all(greaterThanEqual(place.xy, vec2(0.0))) &&
                      all(lessThan(place.xy, vec2(maps[l].size))) && place.w > 0.0;
     return is_in_map ? lit / 9.0 : 1.0;  // Eq. 9.13
