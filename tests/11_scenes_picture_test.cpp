@@ -192,6 +192,55 @@ TEST(SceneFiles, HardCase_AllEffectsForcedGiveTheSameBits) {
     }
 }
 
+TEST(SceneFiles, HardCase_TheNearerOfTwoWallsIsSeenHoweverNearTheNearPlane) {
+    look_up("The camera of a file, and lesson 04, Eq. 4.8");
+    // A file's camera without zfar; the farther wall is drawn first.
+    for (const float near : {1e-30f, 1e-5f, 0.01f, 1.0f})
+        for (const float distance : {2.0f, 49.9f, 1990.0f, 1e6f})
+            for (const float farther_by : {1.002f, 1.00001f}) {
+                Squares walls;
+                walls.scene.cameras = {
+                    {"c", mat4(1), 0.5f, near, std::numeric_limits<float>::infinity()}};
+                for (const auto& [z, color] : {std::pair{-farther_by * distance, vec3(1, 0, 0)},
+                                               {-distance, vec3(0, 1, 0)}}) {
+                    walls.add(0, color);
+                    Mesh& wall = walls.scene.meshes.back();
+                    wall.bounds = {};
+                    for (vec3& p : wall.positions) {
+                        p = {distance * vec2(p), z};
+                        wall.bounds.add(p);
+                    }
+                }
+                const Drawn picture = drawn(walls.scene, small_picture({8, 6}));
+                for (const vec3 seen : picture.picture.pixels())
+                    ASSERT_EQ(seen, vec3(0, 1, 0))
+                        << "a green wall at " << distance << ", a red one " << farther_by
+                        << " times as far away, near plane at " << near;
+            }
+}
+
+TEST(SceneFiles, HardCase_NothingIsDrawnBeyondTheFarPlaneOfAFilesCamera) {
+    look_up("The camera of a file, and lesson 04, Eq. 4.8");
+    // The camera is 10 in front of z = 0.
+    for (const float far : {6.0f, 9.99f, 10.01f, 11.99f, 12.01f}) {
+        Squares squares;
+        squares.add(0, vec3(0, 1, 0));
+        squares.add(-2, vec3(1, 0, 0));
+        squares.add_glass(1, vec3(0, 0, 1), 0.5f);
+        squares.scene.cameras[0].far = far;
+        lesson_11::Options options = small_picture({8, 6});
+        const Drawn scene = drawn(squares.scene, options);
+        vec3 behind = backdrop_color(3, 6);
+        if (far > 10) behind = vec3(0, 1, 0);
+        const vec3 expected = far > 9 ? over(vec3(0, 0, 1), 0.5f, behind) : behind;
+        EXPECT_EQ((scene.picture[{4, 3}]), expected)
+            << "blue glass at a distance of 9, a green wall at 10, a red one at 12; zfar " << far;
+        options.show_depth = true;
+        EXPECT_EQ((drawn(squares.scene, options).picture[{4, 3}]), vec3(far > 10 ? 1.0f : 0.0f))
+            << "the depth buffer: black where nothing is, white at the nearest; zfar " << far;
+    }
+}
+
 TEST(SceneFiles, HardCase_AllEffectsForcedKeepHolesTransparencyAndPaper) {
     look_up("Eq. 11.9");
     // All at the same depth, in each order: the first opaque one stays, and glass is not seen.

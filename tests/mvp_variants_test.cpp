@@ -165,8 +165,8 @@ TEST(MvpVariants, NearCuttingLeavesNothingThatFillTriangleRefuses) {
          {Case{"within both", {1e4f, 1e4f}, true}, Case{"too wide", {8e4f, 2}, false},
           Case{"too high", {2, 16e4f}, false}, Case{"too wide and too high", vec2(16e4f), false},
           Case{"high, but within", {2, 8e4f}, true}}) {
-        const ClipVertices vertices = {vec4(-reach.x, -1.1f, 0, 1), vec4(reach.x, -1.1f, 0, 1),
-                                       vec4(0, reach.y, 0, 1)};
+        const ClipVertices vertices = {vec4(-reach.x, -1.1f, 0.5f, 1),
+                                       vec4(reach.x, -1.1f, 0.5f, 1), vec4(0, reach.y, 0.5f, 1)};
         const ClippedTriangles parts = clip({.clipping = Clipping::near_plane}, vertices, size);
         EXPECT_EQ(parts.end() - parts.begin() == 1, is_whole) << name;
         const Drawn result = drawn(Clipping::near_plane, vertices);
@@ -177,8 +177,10 @@ TEST(MvpVariants, NearCuttingLeavesNothingThatFillTriangleRefuses) {
 TEST(MvpVariants, NearCuttingForgetsTheTriangleBefore) {
     // The near plane leaves four corners of the first, of which the last, a million halves of the
     // picture to the right, is too far. The second only leaves the picture.
-    const ClipVertices too_far = {vec4(2e6f, -1, 0, 1), vec4(1, 0, 0, 1), vec4(0, 1, -2, 1)};
-    const ClipVertices near_enough = {vec4(-4, -4, 0, 1), vec4(4, -4, 0, 1), vec4(0, 4, 0, 1)};
+    const ClipVertices too_far = {vec4(2e6f, -1, 0.5f, 1), vec4(1, 0, 0.5f, 1),
+                                  vec4(0, 1, 1.5f, 1)};
+    const ClipVertices near_enough = {vec4(-4, -4, 0.5f, 1), vec4(4, -4, 0.5f, 1),
+                                      vec4(0, 4, 0.5f, 1)};
     for (const ClipVertices& vertices : {near_enough, too_far, near_enough}) {
         const ClippedTriangles parts = clip({.clipping = Clipping::near_plane}, vertices, size);
         if (vertices == too_far) continue;
@@ -192,7 +194,7 @@ TEST(MvpVariants, TrianglesThatShareSidesVisitEachPixelOnce) {
     // A fan around a pixel's centre, with vertices behind the camera and sides through centres.
     for (const float tilt : {0.0f, 0.3f, 0.6f}) {
         Drawn result;
-        const vec4 middle(1.0f / 128, -1.0f / 64, 0, 1);
+        const vec4 middle(1.0f / 128, -1.0f / 64, 0.01f, 1);
         std::vector<vec4> rim;
         for (int k = 0; k < 24; ++k) {
             const float angle_radians = glm::radians(15.0f * static_cast<float>(k));
@@ -220,7 +222,7 @@ TEST(MvpVariants, CentresOnSidesBelongToTheSameTriangleWithEveryClipping) {
         for (vec4& vertex : vertices) {
             const vec2 center = 8.0f * vec2(column(random), row(random)) + 0.5f;
             const auto w = static_cast<float>(1 << power(random));
-            vertex = vec4(2.0f * center.x / 128 - 1, 1 - 2.0f * center.y / 64, 0, 1) * w;
+            vertex = vec4(2.0f * center.x / 128 - 1, 1 - 2.0f * center.y / 64, 0.5f, 1) * w;
         }
         const Drawn six = drawn(Clipping::six_planes, vertices);
         const auto hits = six.hits.pixels();

@@ -150,7 +150,8 @@ inline Scene any_scene(std::uint32_t seed) {
     const std::uint32_t kinds = dice.one_in(4) ? 1 + dice.below(7) : 7;
     const auto meshes = 1 + dice.below(3);
     for (std::uint32_t i = 0; i < meshes; ++i) scene.meshes.push_back(any_mesh(kinds, dice));
-    scene.cameras = {{"front", translation(vec3(0, 0, 4)), 0.9f, 0.5f, 100}};
+    constexpr std::array far_planes = {std::numeric_limits<float>::infinity(), 100.0f, 4.0f};
+    scene.cameras = {{"front", translation(vec3(0, 0, 4)), 0.9f, 0.5f, far_planes[seed % 3]}};
     const auto lights = dice.below(4);
     for (std::uint32_t i = 0; i < lights; ++i) {
         constexpr std::array light_kinds = {SceneLight::Kind::directional, SceneLight::Kind::point,
