@@ -70,3 +70,15 @@ TEST(Gallery, ALessonThatFailsCostsNoOtherItsPicture) {
     EXPECT_NE(page.find("ended by signal 11: SEGV"), std::string::npos);
     EXPECT_TRUE(page.ends_with("</html>\n"));
 }
+
+TEST(Ci, HardCase_RefusesToRunOverAReadersWork) {
+    const fs::path clone = fresh_folder("clone_with_mine");
+    fs::create_directories(clone / ".ci");
+    fs::create_directories(clone / "mine/03_z_buffer");
+    fs::copy_file(root / ".ci/run", clone / ".ci/run");
+    std::ofstream(clone / "mine/03_z_buffer/depth_buffer.hpp") << "a reader's work\n";
+    const ProcessResult result = run_program(clone / ".ci/run", {"0"});
+    EXPECT_EQ(result.exit_status, 2);
+    EXPECT_TRUE(result.err.starts_with("error: mine/ is there")) << result.err;
+    EXPECT_EQ(read_text(clone / "mine/03_z_buffer/depth_buffer.hpp"), "a reader's work\n");
+}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a lesson did to make its picture, counted for --stats; free when nobody asks.
+/// What a lesson did to make its picture, counted for --stats.
 #pragma once
 
 #include <array>
