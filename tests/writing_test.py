@@ -122,7 +122,7 @@ def solution(lesson: str) -> dict[str, str]:
 def check_first(page: Run) -> list[str]:
     """Of several failures it tells the one that ./tests/run tells: that of the first equation, whatever the tests' names."""
     files = solution("03_z_buffer")
-    files["depth_buffer.hpp"] = files["depth_buffer.hpp"].replace("nearest_ + glm::dot", "nearest_ - glm::dot")
+    files["depth_buffer.hpp"] = files["depth_buffer.hpp"].replace("farthest_ + glm::dot", "farthest_ - glm::dot")
     page.script(PUT, "03_z_buffer", json.dumps({"files": files, "step": 0, "begun": {}}))
     page.open("lesson_03.html", is_forgotten=False)
     page.timed_run()
