@@ -366,6 +366,83 @@ TEST(Obj, OfTwoMaterialsWithOneNameTheFirstCounts) {
     EXPECT_EQ(scene.materials[1].opacity, 1.0f);
 }
 
+/// Reads a model of one triangle for each name that usemtl is given; the materials of a library.
+Scene model_with(const std::string& library, const Lines& used) {
+    write_file("of_names.mtl", library);
+    std::string text = "mtllib of_names.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (const std::string& name : used) text += "usemtl " + name + "\nf 1 2 3 # note\n";
+    return load_obj(write_file("of_names.obj", text));
+}
+
+TEST(Obj, MaterialsNamesMayHoldAHash) {
+    const Lines names = {"Paint #1", "Paint #2", "#1", "a # b", "a # c", "x#y #z", "\"q #1\"", "p"};
+    std::string library;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        library += "newmtl " + names[i] + "\nKd " + std::to_string(i) + " 0 0 # red\n";
+    const Scene scene = model_with(library, names);
+    ASSERT_EQ(scene.meshes.at(0).triangles.size(), names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+        EXPECT_EQ(scene.materials[scene.meshes[0].triangles[i].material].diffuse.r,
+                  static_cast<float>(i))
+            << "of " << names[i];
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(Obj, BehindANameMayStandAComment) {
+    const Lines used = {"p # as a whole", "b", "b # twice", "b #3", "p#1"};
+    const Scene scene =
+        model_with("newmtl p\nKd 1 0 0\nnewmtl b # as its library says\nKd 2 0 0\n", used);
+    const std::array red = {1.0f, 2.0f, 2.0f, 0.8f, 0.8f};
+    ASSERT_EQ(scene.meshes.at(0).triangles.size(), used.size());
+    for (std::size_t i = 0; i < used.size(); ++i)
+        EXPECT_EQ(scene.materials[scene.meshes[0].triangles[i].material].diffuse.r, red[i])
+            << "of " << used[i];
+    const Lines expected = {"of_names.obj:11: there is no material \"b #3\"",
+                            "of_names.obj:13: there is no material \"p#1\""};
+    Lines warnings;
+    for (const std::string& warning : scene.warnings)
+        warnings.push_back(without_folder(warning, temporary_folder()));
+    EXPECT_EQ(warnings, expected);
+}
+
+TEST(Obj, FilesNamesMayHoldAHashWhereThereIsSuchAFile) {
+    const fs::path library = write_file("library #1.mtl", "newmtl a\nKd 0.5 0 0\n");
+    const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    EXPECT_EQ(load_obj(write_file("hash.obj", "mtllib library #1.mtl\n" + faces))
+                  .materials.at(1)
+                  .diffuse.r,
+              0.5f);
+    for (const std::string name : {"wood #2.png", "#2.png", "wood#.png", "a # b.png"}) {
+        const auto file_of_map = [&](const std::string& statement) {
+            return model_with("newmtl a\n" + statement + "\n", {"a"})
+                .materials.at(1)
+                .diffuse_map.file;
+        };
+        const std::string options = "map_Kd -s 2 2 1 -clamp on ";
+        write_file(name, "");
+        EXPECT_EQ(file_of_map(options + name), temporary_folder() / name);
+        EXPECT_EQ(file_of_map(options + "\"" + name + "\""), temporary_folder() / name);
+        fs::remove(temporary_folder() / name);
+        const std::string cut = name.substr(0, name.find(" #"));
+        EXPECT_EQ(file_of_map(options + name),
+                  name[0] == '#' ? fs::path() : temporary_folder() / cut);
+    }
+}
+
+TEST(Obj, WhatIsNotReadIsSaidOnceAKind) {
+    std::string library = "newmtl a\nNi 1.5\nTf 1 1 1\nrefl \n";
+    Lines kinds = {"map_Ns", "map_Pr", "Pr", "Pm", "disp", "decal", "refl", "map_Ka"};
+    for (int i = 0; i < 40; ++i) kinds.push_back("own_" + std::to_string(i));
+    for (const std::string& kind : kinds) library += kind + " 1\n" + kind + " 2\n";
+    const Lines warnings = model_with(library, {"a"}).warnings;
+    ASSERT_EQ(warnings.size(), 33u);
+    for (std::size_t i = 0; i < 32; ++i)
+        EXPECT_EQ(
+            without_folder(warnings[i], temporary_folder()),
+            "of_names.mtl:" + std::to_string(5 + 2 * i) + ": \"" + kinds[i] + "\" is not read");
+    EXPECT_TRUE(warnings.back().ends_with(":69: further kinds of statements are not read"));
+}
+
 TEST(Obj, ASingleMeshKeepsAllElements) {
     const Scene scene = load_obj(data / "good/elements_that_no_face_uses.obj");
     ASSERT_EQ(scene.meshes.size(), 1u);

@@ -27,11 +27,15 @@ void LoadBudget::confine_to(const std::filesystem::path& folder) {
     if (error) throw InputError(folder, "is not a folder that can be read");
 }
 
-void LoadBudget::check_place(const std::filesystem::path& file) const {
-    if (folder_.empty()) return;
+bool LoadBudget::allows(const std::filesystem::path& file) const {
+    if (folder_.empty()) return true;
     std::error_code error;
     const std::filesystem::path found = std::filesystem::weakly_canonical(file, error);
-    if (error || std::ranges::mismatch(folder_, found).in1 != folder_.end())
+    return !error && std::ranges::mismatch(folder_, found).in1 == folder_.end();
+}
+
+void LoadBudget::check_place(const std::filesystem::path& file) const {
+    if (!allows(file))
         throw InputError(file, "lies outside of the model's folder; --sandbox forbids that");
 }
 

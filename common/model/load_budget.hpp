@@ -47,7 +47,10 @@ class LoadBudget {
     /// @throws InputError  When there is no such folder.
     void confine_to(const std::filesystem::path& folder);
 
-    /// @throws InputError  When the file, all links followed, lies where none may be read.
+    /// False when the file, all links followed, lies where none may be read.
+    bool allows(const std::filesystem::path& file) const;
+
+    /// @throws InputError  Unless allows(file).
     void check_place(const std::filesystem::path& file) const;
 
     /// Checks the place of a file that is about to be read, and charges its bytes; none where it

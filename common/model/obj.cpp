@@ -38,8 +38,8 @@ class ObjReader {
     Vertex read_vertex(std::string_view word);
     std::uint32_t read_index(std::string_view text, std::size_t kind, std::string_view word);
     void begin_group(std::string_view name);
-    void use_material(std::string_view name);
-    void read_libraries(std::string_view names);
+    void use_material(const NameOrComment& name);
+    void read_libraries(const Statement& statement);
     bool read_library(std::string_view name);
     void check_forward_references() const;
     void resolve_materials();
@@ -72,7 +72,7 @@ class ObjReader {
 
     /// A material's name, looked up when all libraries are read, and the line that uses it first.
     struct MaterialUse {
-        std::string name;
+        NameOrComment name;
         std::size_t line;
     };
     std::vector<MaterialUse> material_uses_;
@@ -97,7 +97,7 @@ Scene ObjReader::read() {
 }
 
 void ObjReader::read_statement(const Statement& statement) {
-    const auto [keyword, arguments] = statement;
+    const std::string_view keyword = statement.keyword, arguments = statement.arguments;
     if (keyword == "v")
         append(positions_, read_vector<3>(in_, statement, 3, 7),
                kinds_[0]);  // w or a colour follow
@@ -110,9 +110,14 @@ void ObjReader::read_statement(const Statement& statement) {
     else if (keyword == "o" || keyword == "g")
         begin_group(bare_name(arguments));
     else if (keyword == "usemtl")
-        use_material(bare_name(arguments));
+        use_material(NameOrComment(statement));
     else if (keyword == "mtllib")
-        read_libraries(arguments);
+        read_libraries(statement);
+    else if (keyword != "s")
+        warnings_.add_unread(in_, keyword,
+                             keyword == "l"   ? ": lines are not drawn"
+                             : keyword == "p" ? ": points are not drawn"
+                                              : "");
 }
 
 void ObjReader::read_face(std::string_view words) {
@@ -172,16 +177,17 @@ void ObjReader::begin_group(std::string_view name) {
     mesh_ = group->second;
 }
 
-void ObjReader::use_material(std::string_view name) {
+void ObjReader::use_material(const NameOrComment& name) {
     const auto next = std::uint32_t(material_uses_.size());
-    const auto [use, is_new] = use_of_material_.try_emplace(std::string(name), next);
-    if (is_new) material_uses_.push_back({std::string(name), in_.line()});
+    const auto [use, is_new] = use_of_material_.try_emplace(name.whole, next);
+    if (is_new) material_uses_.push_back({name, in_.line()});
     material_use_ = use->second;
 }
 
 /// The names stand side by side, but may hold blanks themselves.
-void ObjReader::read_libraries(std::string_view names) {
-    if (read_library(names)) return;
+void ObjReader::read_libraries(const Statement& statement) {
+    const std::string_view names = statement.arguments;
+    if (read_library(NameOrComment(statement).of_file(in_.file(), budget_))) return;
     std::vector<std::string_view> missing;
     bool found_one = false;
     std::string_view words = names;
@@ -219,7 +225,7 @@ void ObjReader::resolve_materials() {
     for (const auto& [name, line] : material_uses_) {
         material_of_use.push_back(materials_.find(name));
         if (material_of_use.back() == 0)
-            warnings_.add(in_.file(), line, "there is no material " + in_quotes(name));
+            warnings_.add(in_.file(), line, "there is no material " + in_quotes(name.whole));
     }
     for (Mesh& mesh : meshes_)
         for (Face& face : mesh.faces)

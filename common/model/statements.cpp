@@ -32,15 +32,18 @@ StatementReader::StatementReader(const fs::path& file, LoadBudget& budget) : fil
 bool StatementReader::next(Statement& statement) {
     while (begin_ < text_.size() || read_more()) {
         if (begin_ > part_size_) text_.erase(0, std::exchange(begin_, 0));
-        std::string_view line = next_logical_line();
-        statement.keyword = next_word(line);
-        statement.arguments = trimmed(line);
+        statement = next_logical_line();
+        statement.keyword = next_word(statement.arguments);
+        statement.with_comment.remove_prefix(
+            std::size_t(statement.arguments.data() - statement.with_comment.data()));
+        statement.arguments = trimmed(statement.arguments);
         if (!statement.keyword.empty()) return true;
     }
     return false;
 }
 
-std::string_view StatementReader::next_logical_line() {
+/// All of a statement as its arguments.
+Statement StatementReader::next_logical_line() {
     line_ = next_line_;
     for (std::size_t begin = begin_;;) {
         const std::size_t line_end = find_line_end(begin);
@@ -50,7 +53,8 @@ std::string_view StatementReader::next_logical_line() {
         ++next_line_;
         if (!goes_on) {
             const std::size_t first = std::exchange(begin_, next);
-            return std::string_view(text_).substr(first, end - first);
+            const std::string_view text = text_;
+            return {{}, text.substr(first, end - first), text.substr(first, line_end - first)};
         }
         std::fill_n(&text_[end - 1], next - (end - 1), ' ');
         begin = next;

@@ -57,9 +57,10 @@ inline std::filesystem::path path_beside(const std::filesystem::path& file, std:
     return file.parent_path() / path;
 }
 
-/// One statement of OBJ or MTL, as "v 1 2 3": without its comment, its continuation lines joined.
+/// One statement of OBJ or MTL, as "v 1 2 3": its continuation lines joined.
 struct Statement {
-    std::string_view keyword, arguments;
+    std::string_view keyword, arguments;  ///< Without a comment.
+    std::string_view with_comment;        ///< The arguments and all behind: `Paint #1` is a name.
 };
 
 /// Reads statements and keeps no more of the file in memory than the longest of them.
@@ -81,7 +82,7 @@ class StatementReader {
     std::size_t find_line_end(std::size_t begin);
     std::size_t find_comment(std::size_t begin, std::size_t end) const;
     std::size_t find_next_line(std::size_t line_end);
-    std::string_view next_logical_line();
+    Statement next_logical_line();
 
     static constexpr std::size_t part_size_ = 1 << 16;
     std::filesystem::path file_;
