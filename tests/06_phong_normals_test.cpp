@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -274,6 +275,75 @@ TEST(Phong, HardCase_WhereThousandsOfFacesMeetASheetKeepsItsTwoSides) {
                 << " is " << shown(vec3(sum)) << " instead of 2 pi times that";
         }
     }
+}
+
+TEST(Phong, Eq6_9_HardCase_SmoothingGroupsDecideAndMeshesDoNot) {
+    look_up("Eq. 6.9");
+    // A ball's triangles in any smoothing groups, and dealt out to any meshes of one file.
+    const Mesh whole = ball(6);
+    std::mt19937 random(16);
+    for (const std::uint32_t count : {1u, 3u}) {
+        Scene scene;
+        scene.meshes.resize(count);
+        for (Mesh& mesh : scene.meshes) {
+            mesh.positions = whole.positions;
+            if (count == 1) continue;
+            for (std::uint32_t i = 0; i < whole.positions.size(); ++i)
+                mesh.shared_positions.push_back(i);
+        }
+        constexpr std::array groups = {no_smoothing, 1u, 2u, smooth_by_angle};
+        std::vector<std::uint32_t> group_of;
+        std::vector<const Triangle*> dealt;  // in the scene
+        std::vector<const Mesh*> mesh_of_dealt;
+        for (Mesh& mesh : scene.meshes) mesh.triangles.reserve(whole.triangles.size());
+        for (const Triangle& triangle : whole.triangles) {
+            Mesh& mesh = scene.meshes[random() % count];
+            group_of.push_back(groups[random() % groups.size()]);
+            mesh.triangles.push_back(triangle), mesh.smoothing_groups.push_back(group_of.back());
+            dealt.push_back(&mesh.triangles.back()), mesh_of_dealt.push_back(&mesh);
+        }
+        const auto expected = [&](std::size_t t, std::size_t i) {
+            const vec3 own = face_normal(whole, whole.triangles[t]);
+            if (group_of[t] == no_smoothing) return own;
+            dvec3 sum(0);
+            for (std::size_t other = 0; other < whole.triangles.size(); ++other)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const Triangle& around = whole.triangles[other];
+                    const vec3 normal = face_normal(whole, around);
+                    if (around.vertices[k].position == whole.triangles[t].vertices[i].position &&
+                        group_of[other] == group_of[t] &&
+                        (group_of[t] != smooth_by_angle || glm::dot(normal, own) > cos_sharp))
+                        sum += double{vertex_angle_radians(whole, around, k)} * dvec3(normal);
+                }
+            return vec3(sum);
+        };
+        complete_normals(scene);
+        for (std::size_t t = 0; t < dealt.size(); ++t)
+            for (std::size_t i = 0; i < 3; ++i)
+                ASSERT_LT(degrees_between(mesh_of_dealt[t]->normals[dealt[t]->vertices[i].normal],
+                                          expected(t, i)),
+                          1e-3)
+                    << "vertex " << i << " of triangle " << t << " in smoothing group "
+                    << group_of[t] << ", of " << count << " meshes";
+    }
+}
+
+TEST(Phong, Eq6_9_HardCase_WhereThousandsOfFacesMeetEachInAGroupOfItsOwn) {
+    constexpr std::uint32_t sides = 100'000;
+    std::vector<vec3> positions = {{0, 0.7f, 0}};
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const double azimuth = 2 * std::numbers::pi * i / sides;
+        positions.push_back(vec3(dvec3(std::sin(azimuth), 0, std::cos(azimuth))));
+        triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
+    }
+    Mesh mesh = mesh_of(positions, triangles);
+    for (std::uint32_t i = 0; i < sides; ++i) mesh.smoothing_groups.push_back(sides - i);
+    complete_normals(mesh);  // in time that grows as the number of faces
+    for (const Triangle& triangle : mesh.triangles)
+        ASSERT_LT(
+            degrees_between(mesh.normals[triangle.vertices[0].normal], face_normal(mesh, triangle)),
+            0.1);
 }
 
 TEST(Phong, HardCase_NormalsOfTinyAndHugeFaces) {

@@ -22,6 +22,7 @@
 #include "11_scenes/scene_camera.hpp"
 #include "common/image/backdrop.hpp"
 #include "common/image/input_error.hpp"
+#include "common/model/obj.hpp"
 #include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_10.hpp"
@@ -397,6 +398,30 @@ TEST(SceneFiles, Eq11_10_HardCase_EqualVertexColorsAreExactEverywhere) {
         // Vertices lie within half a sub-pixel of their place, and the square is 22 pixels wide.
         EXPECT_NEAR((picture[{x, 8}].r), 0.5f + 0.5f * place * half_width, 1.0f / 256 / 20) << x;
     }
+}
+
+TEST(SceneFiles, Eq11_10_ColorsOfAnObjFileAreInterpolatedInLinearLight) {
+    const std::filesystem::path folder = fresh_folder("colors"), file = folder / "m.obj";
+    std::ofstream(folder / "m.mtl") << "newmtl m\nKd 1 1 1\nillum 0\n";
+    // A triangle from red to blue, and to green, of which the file has 188 of 255.
+    std::ofstream(file) << "mtllib m.mtl\nusemtl m\nv -1 -1 0 1 0 0\nv 1 -1 0 0 0.7372549 0\n"
+                           "v 1 1 0 0 0 1\nv -1 1 0 1 1 1\nf 1 2 3\nf 1 3 4\n";
+    lesson_11::Options options = small_picture({65, 65});
+    options.orbit.yaw_degrees = options.orbit.pitch_degrees = 0;
+    const Image<vec3> picture = drawn(load_obj(file), options).picture;
+    const double green = std::pow((188 / 255.0 + 0.055) / 1.055, 2.4);
+    const double half_side = std::sqrt(2.0) * double{options.orbit.distance} *
+                             std::tan(double{options.orbit.fov_degrees} / 360 * std::acos(-1.0));
+    constexpr double tolerance = 1e-3;  // vertices lie within half a sub-pixel of their place
+    for (int row = 0; row < 65; ++row)
+        for (int column = 0; column < 65; ++column) {
+            const double x = half_side * ((column + 0.5) / 32.5 - 1);
+            const double y = half_side * (1 - (row + 0.5) / 32.5);
+            if (y > x || x > 1 || y < -1) continue;
+            const dvec3 right((1 - x) / 2, green * (x - y) / 2, (1 + y) / 2);
+            ASSERT_LT(glm::distance(dvec3(picture[{column, row}]), right), tolerance)
+                << "in column " << column << ", row " << row;
+        }
 }
 
 TEST(SceneFiles, HardCase_OnlyTwoSidedMaterialsShowTheirBackFaces) {

@@ -10,6 +10,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -441,6 +443,92 @@ TEST(Obj, WhatIsNotReadIsSaidOnceAKind) {
             without_folder(warnings[i], temporary_folder()),
             "of_names.mtl:" + std::to_string(5 + 2 * i) + ": \"" + kinds[i] + "\" is not read");
     EXPECT_TRUE(warnings.back().ends_with(":69: further kinds of statements are not read"));
+}
+
+/// Linear light of an sRGB-encoded value.
+double decoded(double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+TEST(Obj, PositionsColorsAreDecodedFromSrgb) {
+    // Faces of positions in any order, in groups; with r g b, with a w or nothing (white), with
+    // r g b and opacity, or with numbers up to 255.
+    std::mt19937 random(seed);
+    for (const int most : {1, 255})
+        for (const std::size_t groups : {1u, 4u}) {
+            std::ostringstream text;
+            std::vector<vec3> linear;
+            for (std::size_t i = 0; i < 90; ++i) {
+                const std::size_t kind = i % 5;
+                text << "v " << i << " 0 " << i * i;
+                linear.emplace_back(1);
+                if (kind == 1) text << " 0.5";
+                for (int c = 0; c < 3 && kind > 1; ++c) {
+                    const auto value = random() % 256;
+                    text << ' ' << double(value) / (most == 1 ? 255 : 1);
+                    linear.back()[c] = float(decoded(double(value) / 255));
+                }
+                text << (kind == 4 ? " 0.25\n" : "\n");
+            }
+            for (std::size_t i = 0; i < 30; ++i)
+                text << "g " << i % groups << "\nf " << 1 + i << ' ' << 31 + i << ' ' << 90 - i
+                     << '\n';
+            const fs::path file = write_file("colors.obj", text.str());
+            const Scene scene = load_obj(file);
+            EXPECT_EQ(scene.warnings.size(), most == 1 ? 0u : 1u);
+            EXPECT_EQ(scene.meshes.size(), groups);
+            for (const Mesh& mesh : scene.meshes) {
+                ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
+                for (std::size_t i = 0; i < mesh.colors.size(); ++i) {
+                    const vec3 right = linear[std::size_t(mesh.positions[i].x)];
+                    for (int c = 0; c < 3; ++c) ASSERT_NEAR(mesh.colors[i][c], right[c], 2e-5);
+                    ASSERT_EQ(mesh.colors[i].a, 1);
+                }
+            }
+        }
+    const std::string face = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_TRUE(load_obj(write_file("w.obj", "v 0 0 0 1\n" + face)).meshes[0].colors.empty());
+    const Scene bright = load_obj(write_file("above.obj", "v 0 0 0 -1 255 300\n" + face));
+    EXPECT_EQ(bright.meshes[0].colors[0], vec4(0, 1, 1, 1));
+    EXPECT_TRUE(
+        bright.warnings.at(0).ends_with("above.obj:1: colours above 1: all are taken as 0 to 255"));
+}
+
+TEST(Obj, SmoothingGroupsAreReadAndGroupsDoNotCount) {
+    std::mt19937 random(seed);
+    const std::map<std::string, std::uint32_t> groups = {
+        {"off", 0}, {"0", 0}, {"1", 1}, {"on", 1}, {"7", 7}, {"4294967295", no_index - 1}};
+    const std::array corners = {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)};
+    for (const std::string between : {"", "g", "o"}) {
+        std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\n";
+        std::vector<std::uint32_t> right = {smooth_by_angle};  // of the triangles with vertex 1
+        for (int i = 0; i < 40; ++i) {
+            if (!between.empty()) text += between + " " + std::to_string(random() % 3) + "\n";
+            const auto group = std::next(groups.begin(), long(random() % groups.size()));
+            text += "s " + group->first + " # note\nf 1 2 3\nf 1 2 3 4\n";
+            right.insert(right.end(), 3, group->second);
+        }
+        const Scene scene = load_obj(write_file("smooth.obj", text));
+        std::vector<std::uint32_t> found;
+        for (const Mesh& mesh : scene.meshes) {
+            auto own = mesh.smoothing_groups;
+            if (own.empty()) own.assign(mesh.triangles.size(), smooth_by_angle);
+            EXPECT_EQ(own.size(), mesh.triangles.size());
+            found.insert(found.end(), own.begin(), own.end());
+            for (std::size_t i = 0; i < mesh.shared_positions.size(); ++i)
+                EXPECT_EQ(vec2(mesh.positions[i]), corners[mesh.shared_positions[i]]);
+            EXPECT_EQ(mesh.shared_positions.empty(), between.empty());
+        }
+        if (!between.empty()) std::ranges::sort(found), std::ranges::sort(right);
+        EXPECT_EQ(found, right) << "with " << between;
+    }
+    EXPECT_TRUE(load_obj(write_file("normals.obj",
+                                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\ns 1\nf 1//1 2//1 3//1\n"))
+                    .meshes[0]
+                    .smoothing_groups.empty());
+    EXPECT_TRUE(load_obj(write_file("bad.obj", "s x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
+                    .warnings.at(0)
+                    .ends_with("bad.obj:1: \"x\" is not a smoothing group"));
 }
 
 TEST(Obj, ASingleMeshKeepsAllElements) {

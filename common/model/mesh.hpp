@@ -25,6 +25,9 @@ namespace rasterbook {
 /// Marks a vertex without uv or normal.
 constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
+/// Smoothing groups beside those that OBJ counts from 1: `s off`, and where the file says nothing.
+constexpr std::uint32_t no_smoothing = 0, smooth_by_angle = no_index;
+
 /// One vertex of a face: indices into the arrays of its mesh.
 struct Vertex {
     std::uint32_t position;
@@ -75,6 +78,11 @@ struct Mesh {
     std::vector<Face> faces;
     std::vector<Triangle> triangles;
     Bounds bounds;  ///< Of the positions that faces use.
+
+    // For vertices without normals.
+    std::vector<std::uint32_t> smoothing_groups{};  ///< Of the triangles; empty: smooth_by_angle.
+    std::vector<std::uint32_t> shared_positions{};  ///< Of the positions: their numbers in the
+                                                    ///< file, where meshes may share some.
 
     std::span<const Vertex> vertices_of(const Face& face) const {
         return std::span(vertices).subspan(face.first_vertex, face.vertex_count);

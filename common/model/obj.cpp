@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
+#include "common/math/color.hpp"
 #include "common/model/mtl.hpp"
 #include "common/model/statements.hpp"
 #include "common/model/triangulate.hpp"
@@ -33,7 +35,17 @@ class ObjReader {
         std::size_t line;
     };
 
+    /// What all elements of a kind have, and which of a mesh takes its own.
+    template <typename Element>
+    struct Column {
+        std::vector<Element>& all;
+        std::vector<Element> Mesh::* own;
+    };
+
     void read_statement(const Statement& statement);
+    void read_position(const Statement& statement);
+    void read_color(std::string_view words);
+    void read_smoothing(std::string_view group);
     void read_face(std::string_view words);
     Vertex read_vertex(std::string_view word);
     std::uint32_t read_index(std::string_view text, std::size_t kind, std::string_view word);
@@ -43,10 +55,10 @@ class ObjReader {
     bool read_library(std::string_view name);
     void check_forward_references() const;
     void resolve_materials();
+    void decode_colors();
     void share_out_elements();
-    template <typename Element>
-    void share_out(std::vector<Element>& all, std::vector<Element> Mesh::* own,
-                   std::uint32_t Vertex::* index);
+    template <typename... Element>
+    void share_out(std::uint32_t Vertex::* index, std::size_t count, Column<Element>... columns);
 
     template <typename Element>
     void append(std::vector<Element>& elements, const Element& element, const char* kind) {
@@ -66,6 +78,10 @@ class ObjReader {
 
     std::vector<vec3> positions_, normals_;
     std::vector<vec2> uvs_;
+    std::vector<vec4> colors_;                   ///< Of the positions, as written, opaque; 0: none.
+    std::size_t colors_line_ = 0;                ///< Of the first number above 1.
+    std::uint32_t smoothing_ = smooth_by_angle;  ///< The current smoothing group.
+    bool lacks_normals_ = false;                 ///< A face has vertices without.
     std::vector<Mesh> meshes_;  ///< Their vertices are indices into the three arrays above.
     std::unordered_map<std::string, std::size_t> mesh_of_group_;
     std::size_t mesh_ = 0;  ///< The current group's.
@@ -90,6 +106,7 @@ Scene ObjReader::read() {
     std::erase_if(meshes_, [](const Mesh& mesh) { return mesh.faces.empty(); });
     if (meshes_.empty()) throw InputError(in_.file(), "holds no faces");
     resolve_materials();
+    decode_colors();
     share_out_elements();
     Scene scene{std::move(meshes_), materials_.take(), warnings_.take()};
     scene.budget = budget_;
@@ -99,8 +116,7 @@ Scene ObjReader::read() {
 void ObjReader::read_statement(const Statement& statement) {
     const std::string_view keyword = statement.keyword, arguments = statement.arguments;
     if (keyword == "v")
-        append(positions_, read_vector<3>(in_, statement, 3, 7),
-               kinds_[0]);  // w or a colour follow
+        read_position(statement);
     else if (keyword == "vt")
         append(uvs_, read_vector<2>(in_, statement, 1, 3), kinds_[1]);
     else if (keyword == "vn")
@@ -113,11 +129,45 @@ void ObjReader::read_statement(const Statement& statement) {
         use_material(NameOrComment(statement));
     else if (keyword == "mtllib")
         read_libraries(statement);
-    else if (keyword != "s")
+    else if (keyword == "s")
+        read_smoothing(arguments);
+    else
         warnings_.add_unread(in_, keyword,
                              keyword == "l"   ? ": lines are not drawn"
                              : keyword == "p" ? ": points are not drawn"
                                               : "");
+}
+
+void ObjReader::read_position(const Statement& statement) {
+    std::string_view rest;
+    append(positions_, read_vector<3>(in_, statement, 3, 3, &rest), kinds_[0]);
+    if (!rest.empty()) read_color(rest);
+}
+
+/// Red, green and blue, as MeshLab and Blender write them; a single number is a weight, w, and a
+/// fourth one would be opacity: these two are ignored.
+void ObjReader::read_color(std::string_view words) {
+    vec4 color(0);
+    for (int i = 0; i < 4; ++i) {
+        const std::string_view word = next_word(words);
+        if (word.empty() && i < 3) return;
+        if (!word.empty()) color[i] = read_number(in_, word);
+    }
+    color.a = 1;
+    if (colors_line_ == 0 && glm::max(color, vec4(1)) != vec4(1)) colors_line_ = in_.line();
+    colors_.resize(positions_.size() - 1, vec4(0));
+    colors_.push_back(color);
+}
+
+/// A number from 1, or "off" or 0.
+void ObjReader::read_smoothing(std::string_view group) {
+    constexpr std::int64_t highest = smooth_by_angle - 1;
+    std::int64_t number = 0;
+    if (group == "on")
+        number = 1;
+    else if (group != "off" && parse(group, number) != std::errc{})
+        return warnings_.add(in_, in_quotes(group) + " is not a smoothing group");
+    smoothing_ = std::uint32_t(std::clamp<std::int64_t>(number, no_smoothing, highest));
 }
 
 void ObjReader::read_face(std::string_view words) {
@@ -128,6 +178,10 @@ void ObjReader::read_face(std::string_view words) {
     const std::size_t count = mesh.vertices.size() - first;
     if (count < 3) in_.fail("a face needs 3 vertices and has " + std::to_string(count));
     budget_.charge(Resource::vertices, count, in_.file());
+    if (smoothing_ != smooth_by_angle) {  // of count - 2 triangles
+        mesh.smoothing_groups.resize(first - 2 * mesh.faces.size(), smooth_by_angle);
+        mesh.smoothing_groups.resize(mesh.smoothing_groups.size() + count - 2, smoothing_);
+    }
     mesh.faces.push_back({std::uint32_t(first), std::uint32_t(count), material_use_});
 }
 
@@ -143,6 +197,7 @@ Vertex ObjReader::read_vertex(std::string_view word) {
         rest.remove_prefix(length + 1);
     }
     if (indices[0] == no_index) in_.fail(in_quotes(word) + " has no position");
+    if (indices[2] == no_index) lacks_normals_ = true;
     return {indices[0], indices[1], indices[2]};
 }
 
@@ -232,11 +287,28 @@ void ObjReader::resolve_materials() {
             face.material = face.material == no_index ? 0 : material_of_use[face.material];
 }
 
+/// From sRGB to linear. In a file where any number is above 1, they go up to 255.
+void ObjReader::decode_colors() {
+    if (colors_.empty()) return;
+    colors_.resize(positions_.size(), vec4(0));
+    if (colors_line_ > 0)
+        warnings_.add(in_.file(), colors_line_, "colours above 1: all are taken as 0 to 255");
+    const float most = colors_line_ > 0 ? 255.0f : 1.0f;
+    for (vec4& color : colors_) {
+        if (color.a == 0) color = vec4(most);  // white
+        for (int i = 0; i < 3; ++i)
+            color[i] = linear_from_srgb(glm::clamp(color[i] / most, 0.0f, 1.0f));
+        color.a = 1;
+    }
+}
+
 /// Gives each mesh the elements that its faces use, in the order of first use, and frees the rest.
-template <typename Element>
-void ObjReader::share_out(std::vector<Element>& all, std::vector<Element> Mesh::* own,
-                          std::uint32_t Vertex::* index) {
-    std::vector<std::uint32_t> own_index_of(all.size(), no_index), used;
+///
+/// @param count  Of all elements.
+template <typename... Element>
+void ObjReader::share_out(std::uint32_t Vertex::* index, std::size_t count,
+                          Column<Element>... columns) {
+    std::vector<std::uint32_t> own_index_of(count, no_index), used;
     for (Mesh& mesh : meshes_) {
         for (Vertex& vertex : mesh.vertices) {
             if (vertex.*index == no_index) continue;
@@ -245,24 +317,34 @@ void ObjReader::share_out(std::vector<Element>& all, std::vector<Element> Mesh::
                 own_index = std::uint32_t(used.size()), used.push_back(vertex.*index);
             vertex.*index = own_index;
         }
-        (mesh.*own).reserve(used.size());
-        for (const std::uint32_t i : used)
-            (mesh.*own).push_back(all[i]), own_index_of[i] = no_index;
+        const auto take = [&](const auto& column) {
+            if (column.all.empty()) return;
+            (mesh.*column.own).reserve(used.size());
+            for (const std::uint32_t i : used) (mesh.*column.own).push_back(column.all[i]);
+        };
+        (take(columns), ...);
+        for (const std::uint32_t i : used) own_index_of[i] = no_index;
         used.clear();
     }
-    all = {};
+    ((columns.all = {}), ...);
 }
 
 void ObjReader::share_out_elements() {
+    if (!lacks_normals_)
+        for (Mesh& mesh : meshes_) mesh.smoothing_groups = {};
     if (meshes_.size() == 1) {
         meshes_[0].positions = std::move(positions_);
+        meshes_[0].colors = std::move(colors_);
         meshes_[0].uvs = std::move(uvs_);
         meshes_[0].normals = std::move(normals_);
         return;
     }
-    share_out(positions_, &Mesh::positions, &Vertex::position);
-    share_out(uvs_, &Mesh::uvs, &Vertex::uv);
-    share_out(normals_, &Mesh::normals, &Vertex::normal);
+    std::vector<std::uint32_t> numbers(lacks_normals_ ? positions_.size() : 0);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    share_out(&Vertex::position, positions_.size(), Column{positions_, &Mesh::positions},
+              Column{colors_, &Mesh::colors}, Column{numbers, &Mesh::shared_positions});
+    share_out(&Vertex::uv, uvs_.size(), Column{uvs_, &Mesh::uvs});
+    share_out(&Vertex::normal, normals_.size(), Column{normals_, &Mesh::normals});
 }
 
 void cut_into_triangles(Mesh& mesh, const fs::path& file) {

@@ -107,9 +107,12 @@ float read_number(const StatementReader& in, std::string_view word);
 
 /// The first `count` numbers of a statement, 0 where those after `needed` are missing. Up to `most`
 /// have to be numbers; what follows is not looked at.
+///
+/// @param rest  Takes what follows.
 template <int count>
 glm::vec<count, float> read_vector(const StatementReader& in, const Statement& statement,
-                                   int needed = count, int most = count) {
+                                   int needed = count, int most = count,
+                                   std::string_view* rest = nullptr) {
     glm::vec<count, float> vector(0.0f);
     std::string_view words = statement.arguments;
     for (int i = 0; i < most; ++i) {
@@ -121,6 +124,7 @@ glm::vec<count, float> read_vector(const StatementReader& in, const Statement& s
         const float number = read_number(in, word);
         if (i < count) vector[i] = number;
     }
+    if (rest) *rest = words;
     return vector;
 }
 

@@ -92,7 +92,8 @@ void transfer_all(Archive& archive, Fields&... fields) {
 template <typename Archive>
 void transfer(Archive& archive, Mesh& mesh) {
     transfer_all(archive, mesh.name, mesh.positions, mesh.uvs, mesh.normals, mesh.colors,
-                 mesh.tangents, mesh.vertices, mesh.faces, mesh.triangles, mesh.bounds);
+                 mesh.tangents, mesh.vertices, mesh.faces, mesh.triangles, mesh.bounds,
+                 mesh.smoothing_groups, mesh.shared_positions);
 }
 
 template <typename Archive>
