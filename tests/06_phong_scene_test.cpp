@@ -167,7 +167,7 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
                 << "--all-effects, " << where;
             ASSERT_EQ(all.count(Counter::highlights), has_light ? shaded : 0)
                 << "--all-effects, " << where;
-            ASSERT_EQ(all.count(Counter::texture_samples), has_light ? 2 * shaded : shaded)
+            ASSERT_EQ(all.count(Counter::texture_samples), has_light ? 3 * shaded : 2 * shaded)
                 << "--all-effects, " << where;
         }
     }
@@ -273,6 +273,36 @@ TEST(Phong, HardCase_SpecularMapsArePlainNumbers) {
     EXPECT_FALSE(are_equal(
         picture("Ks 1 1 1\nmap_Ks -clamp on -s 0.001 1 1 -o 0.01 0 0 halves.png\n"), dull))
         << "where the map is white";
+}
+
+TEST(Phong, HardCase_EmissionMapsAreDecodedAndTimesKe) {
+    look_up("Eq. 6.5");
+    const fs::path folder = fresh_folder("emission_map");
+    write_image(folder / "gray.png", Image<u8vec3>({4, 4}, {188, 255, 0}));
+    Image<u8vec3> halves({2, 1}, {255, 255, 255});
+    halves[{1, 0}] = {0, 0, 0};
+    write_image(folder / "halves.png", halves);
+    written(folder / "m.obj", square);
+    const auto picture = [&](const std::string& material, vec3 factor) {
+        written(folder / "m.mtl", "newmtl m\nKd 0.2 0.2 0.2\n" + material);
+        Scene scene = load_obj(folder / "m.obj");
+        scene.materials.back().emission *= factor;
+        return picture_of(scene, before_the_square());
+    };
+    const vec3 light(linear_from_srgb(188 / 255.0f), 1, 0);
+    for (const auto& [of_file, same, factor] :
+         {std::tuple{"Ke 1 2 3\nmap_Ke gray.png\n", "Ke 1 2 3\n", light},
+          {"map_Ke gray.png\nKe 1 2 3\n", "Ke 1 2 3\n", light},
+          {"map_Ke gray.png\n", "Ke 1 1 1\n", light},
+          {"Ke 0 0 0\nmap_Ke gray.png\n", "Ke 1 1 1\n", light},  // exporters write it so
+          {"Ke 2 0 0\nmap_Ke halves.png\nmap_Ke\n", "Ke 2 0 0\n", vec3(1)},
+          {"Ke 2 1 1\nmap_Ke -clamp on -s 0.001 1 1 -o 0.01 0 0 halves.png\n", "Ke 2 1 1\n",
+           vec3(1)},
+          {"Ke 2 1 1\nmap_Ke -clamp on -s 0.001 1 1 -o 0.99 0 0 halves.png\n", "", vec3(1)}})
+        for (const char* illumination : {"illum 0\n", "illum 1\n", "illum 2\nKs 1 1 1\n"})
+            EXPECT_TRUE(are_equal(picture(std::string(of_file) + illumination, vec3(1)),
+                                  picture(std::string(same) + illumination, factor)))
+                << of_file << illumination << "and " << same << "times " << shown(factor);
 }
 
 TEST(Phong, HardCase_MissingAndBrokenSpecularMaps) {

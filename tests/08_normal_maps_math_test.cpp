@@ -217,7 +217,7 @@ struct NormalMappedTriangle {
         return scene;
     }
 
-    SurfaceTextures textures_{MaterialTextures(1), MaterialTextures(1)};
+    SurfaceTextures textures_{MaterialTextures(1), MaterialTextures(1), MaterialTextures(1)};
     std::array<vec2, 3> uvs_{};
 };
 

@@ -21,6 +21,7 @@
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "common/image/backdrop.hpp"
+#include "common/image/bmp.hpp"
 #include "common/image/input_error.hpp"
 #include "common/model/obj.hpp"
 #include "support/first_difference.hpp"
@@ -164,10 +165,12 @@ TEST(SceneFiles, HardCase_UnusedEffectsTakeNoWork) {
         EXPECT_EQ(picture.count(Counter::triangles_in) > own_triangles,
                   assets.plan.any(Effect::outline));
         // Counted together with other textures; no scene has one.
-        EXPECT_FALSE(assets.plan.any(Effect::specular_map));
-        for (const auto& texture : assets.textures.specular) EXPECT_EQ(texture, nullptr);
+        for (const Effect effect : {Effect::specular_map, Effect::emission_map})
+            EXPECT_FALSE(assets.plan.any(effect));
+        for (const auto* textures : {&assets.textures.specular, &assets.textures.emission})
+            for (const auto& texture : *textures) EXPECT_EQ(texture, nullptr);
     }
-    EXPECT_EQ(work_of.size() + 2, effect_count) << "and of outlines and specular maps";
+    EXPECT_EQ(work_of.size() + 3, effect_count) << "and of outlines, specular and emission maps";
     for (const auto& [effect, counters] : work_of)
         EXPECT_GT(off[effect], 0) << effect_names[static_cast<std::size_t>(effect)];
     for (const Effect effect : {Effect::light, Effect::highlight, Effect::texture, Effect::toon,
@@ -397,6 +400,34 @@ TEST(SceneFiles, Eq11_10_HardCase_EqualVertexColorsAreExactEverywhere) {
         const float place = (static_cast<float>(x) + 0.5f) / 8 - 1;
         // Vertices lie within half a sub-pixel of their place, and the square is 22 pixels wide.
         EXPECT_NEAR((picture[{x, 8}].r), 0.5f + 0.5f * place * half_width, 1.0f / 256 / 20) << x;
+    }
+}
+
+TEST(SceneFiles, HardCase_EmissionMapsGlowInAllShadingModels) {
+    // White on the left and black on the right, over colours that reflect nothing.
+    Image<u8vec3> halves({2, 1}, {255, 255, 255});
+    halves[{1, 0}] = {0, 0, 0};
+    for (const ShadingModel model :
+         {ShadingModel::unlit, ShadingModel::phong, ShadingModel::toon}) {
+        Squares squares;
+        squares.add(0, vec3(0));
+        Material& material = squares.scene.materials.back();
+        material.illumination = model == ShadingModel::unlit ? 0 : 1;
+        if (model == ShadingModel::toon) material.toon = ToonMaterial{.shade = vec3(0)};
+        material.emission = {0.5f, 2, 1};
+        material.emission_map.file = "halves";
+        material.emission_map.embedded =
+            std::make_shared<const Bytes>(encode_bmp(halves, "halves"));
+        Mesh& mesh = squares.scene.meshes[0];
+        mesh.uvs = {{0.25f, 0}, {0.75f, 0}, {0.75f, 1}, {0.25f, 1}};
+        for (Triangle& triangle : mesh.triangles)
+            for (Vertex& vertex : triangle.vertices) vertex.uv = vertex.position % 4;
+        lesson_11::Options options = small_picture({16, 16});
+        options.texture.filter = Filter::nearest;
+        const Drawn picture = drawn(squares.scene, options);
+        EXPECT_EQ((picture.picture[{2, 8}]), material.emission) << static_cast<int>(model);
+        EXPECT_EQ((picture.picture[{13, 8}]), vec3(0)) << static_cast<int>(model);
+        EXPECT_EQ(picture.count(Counter::texture_samples), 256u);
     }
 }
 

@@ -241,18 +241,22 @@ TEST(GltfMaterials, OfAMetallicRoughnessTextureTheMeanCounts) {
     EXPECT_TRUE(material.specular_map.file.empty());
 }
 
-TEST(GltfMaterials, OfAnEmissiveTextureTheMeanCounts) {
+TEST(GltfMaterials, AnEmissiveTextureIsAnEmissionMap) {
     GltfBuilder made = one_triangle();
     const int texture = add_picture(made, {255, 0, 188}, {0, 0, 188});
     made.material()["emissiveFactor"] = {1, 1, 0.5};
     made.material()["emissiveTexture"]["index"] = texture;
+    made.material()["emissiveTexture"]["texCoord"] = 1;
+    made.primitive()["attributes"]["TEXCOORD_1"] =
+        made.add({0.5, 0.5, 0.5, 0.5, 0.5, 0.5}, "VEC2", gl_float);
     const Scene scene = load_gltf(made.write(fresh_folder("gltf_emission") / "scene.gltf"));
-    const vec3 emission = scene.materials.at(1).emission;
-    EXPECT_EQ(emission.r, 0.5f);
-    EXPECT_EQ(emission.g, 0);
-    EXPECT_FLOAT_EQ(emission.b, 0.5f * 0.50288649f);  // sRGB code 188, as light
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("emissiveTexture is not drawn"), std::string::npos);
+    const Material& material = scene.materials.at(1);
+    EXPECT_EQ(material.emission, vec3(1, 1, 0.5f));
+    ASSERT_TRUE(material.emission_map.embedded);
+    EXPECT_EQ(scene.meshes.at(0).uvs.at(0), vec2(0.5f));
+    EXPECT_TRUE(scene.warnings.empty());
+    made.material()["emissiveFactor"] = {0, 0, 0};
+    EXPECT_TRUE(material_of(made).emission_map.file.empty());
 }
 
 TEST(GltfMaterials, AMetalsHighlightHasTheMeanColourOfItsTexture) {

@@ -310,10 +310,8 @@ Material MaterialMaker::make(std::size_t index) {
                                   "emissiveFactor"),
                            -max_color, max_color);
         if (from.emissiveTexture.index >= 0 && material.emission != vec3(0)) {
-            const TextureMap map = map_of(from.emissiveTexture.index,
-                                          from.emissiveTexture.extensions, "emissiveTexture");
-            warn("emissiveTexture is not drawn; its mean is taken everywhere");
-            material.emission *= mean_of(map, true);
+            material.emission_map = map_of(from.emissiveTexture.index,
+                                           from.emissiveTexture.extensions, "emissiveTexture");
         }
         if (from.occlusionTexture.index >= 0) warn("occlusionTexture is passed over");
         material.normal_map =
@@ -333,6 +331,7 @@ Material MaterialMaker::make(std::size_t index) {
     for (const auto& [texture, uv_set] :
          {std::pair(from.pbrMetallicRoughness.baseColorTexture.index,
                     from.pbrMetallicRoughness.baseColorTexture.texCoord),
+          std::pair(from.emissiveTexture.index, from.emissiveTexture.texCoord),
           std::pair(from.normalTexture.index, from.normalTexture.texCoord)})
         if (texture >= 0 && uv_set != set)
             warn("its textures have several sets of texture coordinates; set " +
@@ -350,7 +349,8 @@ double number_in(const Value& object, const std::string& key, double missing) {
 int uv_set_of(const tinygltf::Material& material) {
     const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
     if (pbr.baseColorTexture.index >= 0) return pbr.baseColorTexture.texCoord;
-    return material.normalTexture.index >= 0 ? material.normalTexture.texCoord : 0;
+    if (material.normalTexture.index >= 0) return material.normalTexture.texCoord;
+    return material.emissiveTexture.index >= 0 ? material.emissiveTexture.texCoord : 0;
 }
 
 std::vector<Material> gltf_materials(const tinygltf::Model& model, const fs::path& file,

@@ -143,6 +143,7 @@ struct Material {
     int illumination = 2;     ///< illum: 0 colour only, 1 diffuse, 2 and above with highlights
     TextureMap diffuse_map;   ///< map_Kd
     TextureMap specular_map;  ///< map_Ks
+    TextureMap emission_map;  ///< map_Ke
     TextureMap opacity_map;   ///< map_d
     TextureMap bump_map;      ///< map_Bump, bump: heights
     TextureMap normal_map;    ///< norm, map_Norm: tangent-space normals

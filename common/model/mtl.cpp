@@ -24,6 +24,7 @@ void read_color(const StatementReader& in, const Statement& statement, vec3& col
 TextureMap* find_map(Material& material, std::string_view keyword) {
     if (keyword == "map_kd") return &material.diffuse_map;
     if (keyword == "map_ks") return &material.specular_map;
+    if (keyword == "map_ke") return &material.emission_map;
     if (keyword == "map_d") return &material.opacity_map;
     if (keyword == "map_bump" || keyword == "bump") return &material.bump_map;
     if (keyword == "map_norm" || keyword == "norm") return &material.normal_map;
@@ -75,6 +76,13 @@ std::uint32_t MaterialReader::find(const NameOrComment& name) const {
     if (const std::uint32_t index = find(index_of_name_, name.whole)) return index;
     if (const std::uint32_t index = find(index_of_name_, name.cut)) return index;
     return name.has_hash_in_word() ? 0 : find(index_of_cut_name_, name.cut);
+}
+
+std::vector<Material> MaterialReader::take() {
+    for (Material& material : materials_)
+        if (!material.emission_map.file.empty() && material.emission == vec3(0))
+            material.emission = vec3(1);
+    return std::move(materials_);
 }
 
 void MaterialReader::read(const std::filesystem::path& file) {

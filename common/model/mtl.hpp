@@ -66,7 +66,8 @@ class MaterialReader {
     /// The index of a material, 0 when there is none of that name: of the whole name, or of what
     /// stands before a comment here, or before one that its `newmtl` may have.
     std::uint32_t find(const NameOrComment& name) const;
-    std::vector<Material> take() { return std::move(materials_); }
+    /// Where there is an emission map, a Ke of 0, or none, counts as 1: exporters write it so.
+    std::vector<Material> take();
 
   private:
     void begin_material(const StatementReader& in, const NameOrComment& names);

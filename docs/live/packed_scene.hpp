@@ -114,9 +114,9 @@ template <typename Archive>
 void transfer(Archive& archive, Material& material) {
     transfer_all(archive, material.name, material.ambient, material.diffuse, material.specular,
                  material.emission, material.shininess, material.opacity, material.illumination,
-                 material.diffuse_map, material.specular_map, material.opacity_map,
-                 material.bump_map, material.normal_map, material.alpha, material.alpha_cutoff,
-                 material.two_sided, material.toon);
+                 material.diffuse_map, material.specular_map, material.emission_map,
+                 material.opacity_map, material.bump_map, material.normal_map, material.alpha,
+                 material.alpha_cutoff, material.two_sided, material.toon);
 }
 
 template <typename Archive>

@@ -12,12 +12,13 @@
 
 namespace rasterbook {
 
-/// What may be computed for a material: in this lesson the first four.
+/// What may be computed for a material: in this lesson the first five.
 enum class Effect {
     light,
     highlight,
     texture,
     specular_map,
+    emission_map,
     vertex_colors,
     normal_map,
     shadow,
@@ -57,6 +58,7 @@ inline bool has_highlight(const Material& material) {
 struct SurfaceTextures {
     MaterialTextures diffuse;   ///< map_Kd
     MaterialTextures specular;  ///< map_Ks, plain numbers; only where there is a highlight.
+    MaterialTextures emission;  ///< map_Ke, only where there is emission.
 };
 
 /// The plan: for each material its effects.
@@ -72,6 +74,7 @@ inline std::vector<EffectMask> plan_effects(const Scene& scene, const SurfaceTex
                        has_highlight(material) || (all_effects && is_lit(material)));
         effects[i].set(Effect::texture, textures.diffuse[i] != nullptr);
         effects[i].set(Effect::specular_map, textures.specular[i] != nullptr);
+        effects[i].set(Effect::emission_map, textures.emission[i] != nullptr);
     }
     return effects;
 }

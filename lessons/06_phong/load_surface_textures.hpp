@@ -18,7 +18,11 @@ inline SurfaceTextures load_surface_textures(Scene& scene, const TextureOptions&
         load_diffuse_textures(scene, options),
         load_textures(
             scene, &Material::specular_map, "map_Ks", options,
-            [](const Image<u8vec4>& image, Wrap) { return plain_numbers(image); }, has_highlight)};
+            [](const Image<u8vec4>& image, Wrap) { return plain_numbers(image); }, has_highlight),
+        load_textures(
+            scene, &Material::emission_map, "map_Ke", options,
+            [&](const Image<u8vec4>& image, Wrap) { return options.decoded(image); },
+            [](const Material& material) { return material.emission != vec3(0); })};
 }
 
 /// A texture of one texel.
@@ -34,6 +38,7 @@ inline void add_neutral_inputs(Scene& scene, SurfaceTextures& textures) {
         Material& material = scene.materials[i];
         if (!has_highlight(material)) material.specular = vec3(0);
         if (!textures.diffuse[i]) textures.diffuse[i] = white;
+        if (!textures.emission[i]) textures.emission[i] = white;
         if (!textures.specular[i] && is_lit(material)) textures.specular[i] = white;
     }
 }

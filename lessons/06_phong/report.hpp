@@ -38,6 +38,9 @@ inline SeenSurface report_surface(PixelReport& report, const SeenFragment& seen,
     if (surface.effects[Effect::specular_map])
         report_sample(report, "specular texture", *surface.specular_texture, filter,
                       fragment_uv(surface.specular_uvs, at));
+    if (surface.effects[Effect::emission_map])
+        report_sample(report, "emission texture", *surface.emission_texture, filter,
+                      fragment_uv(surface.emission_uvs, at));
     const SurfaceColor color = surface_color(surface, at, filter, uncounted);
     report.line("diffuse colour", color.diffuse);
     if (surface.effects[Effect::highlight]) report.line("specular colour", color.specular);

@@ -22,9 +22,9 @@ template <typename F>
 struct SurfaceInputs {
     const Material& material;
     EffectMask effects;
-    const Texture *texture, *specular_texture;            ///< Null where none was read.
-    SurfaceColor own_color;                               ///< Of the material alone.
-    std::array<glm::vec<2, F>, 3> uvs{}, specular_uvs{};  ///< Only of what is read.
+    const Texture *texture, *specular_texture, *emission_texture;  ///< Null: none was read.
+    SurfaceColor own_color;                                        ///< Of the material alone.
+    std::array<glm::vec<2, F>, 3> uvs{}, specular_uvs{}, emission_uvs{};  ///< Only of what is read.
     std::array<Vec3<F>, 3> positions_world;
     std::array<Vec3<F>, 3> normals_world;  ///< Length 1, of the side that is seen; 0: none.
 };
@@ -41,6 +41,7 @@ inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTexture
                             .effects = effects,
                             .texture = textures.diffuse[i].get(),
                             .specular_texture = textures.specular[i].get(),
+                            .emission_texture = textures.emission[i].get(),
                             .own_color = surface_color(scene.materials[i]),
                             .positions_world = {},
                             .normals_world = {}};
@@ -48,6 +49,8 @@ inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTexture
         surface.uvs = uvs_of(mesh, triangle, surface.material.diffuse_map);
     if (surface.effects[Effect::specular_map])
         surface.specular_uvs = uvs_of(mesh, triangle, surface.material.specular_map);
+    if (surface.effects[Effect::emission_map])
+        surface.emission_uvs = uvs_of(mesh, triangle, surface.material.emission_map);
     for (std::size_t v = 0; v < 3; ++v) {
         const Vertex& vertex = triangle.vertices[v];
         surface.positions_world[v] = mesh.positions[vertex.position];
@@ -74,6 +77,11 @@ FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
         counters.add(Counter::texture_samples);
         color.specular *= Vec3<F>(
             sample(*surface.specular_texture, filter, fragment_uv(surface.specular_uvs, at)));
+    }
+    if (surface.effects[Effect::emission_map]) {
+        counters.add(Counter::texture_samples);
+        color.emission *= Vec3<F>(
+            sample(*surface.emission_texture, filter, fragment_uv(surface.emission_uvs, at)));
     }
     return color;
 }

@@ -172,6 +172,7 @@ ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
         plan.set(Effect::texture, effects[i][Effect::texture], "names no picture");
         plan.set(Effect::specular_map, is_phong && effects[i][Effect::specular_map],
                  is_phong ? "names no picture" : unlit);
+        plan.set(Effect::emission_map, effects[i][Effect::emission_map], "names no picture");
         plan.set(Effect::vertex_colors, has_colors[i] || inputs.all_effects, "vertices have none");
         plan.set(Effect::normal_map, !is_unlit && effects[i][Effect::normal_map],
                  is_unlit              ? "unlit"

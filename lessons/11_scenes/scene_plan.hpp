@@ -15,8 +15,8 @@
 namespace rasterbook {
 
 constexpr std::array<std::string_view, effect_count> effect_names = {
-    "light",  "highlight", "texture", "specular map", "vertex colours", "normal map",
-    "shadow", "toon",      "outline", "mask",         "blend"};
+    "light",      "highlight", "texture", "specular map", "emission map", "vertex colours",
+    "normal map", "shadow",    "toon",    "outline",      "mask",         "blend"};
 
 /// A material's effects. Where one does not run, why.
 struct MaterialPlan {

@@ -71,6 +71,7 @@ struct LaneInputs {
                   .effects = triangle.surface.effects,
                   .texture = triangle.surface.texture,
                   .specular_texture = triangle.surface.specular_texture,
+                  .emission_texture = triangle.surface.emission_texture,
                   .own_color = triangle.surface.own_color,
                   .positions_world = {},
                   .normals_world = {}},
@@ -86,6 +87,7 @@ struct LaneInputs {
         const TriangleSurface& own = triangle.surface;
         if (own.effects[Effect::texture]) blend(lanes, surface.uvs, own.uvs);
         if (own.effects[Effect::specular_map]) blend(lanes, surface.specular_uvs, own.specular_uvs);
+        if (own.effects[Effect::emission_map]) blend(lanes, surface.emission_uvs, own.emission_uvs);
         if (colors.are_there) blend(lanes, colors.of_vertices, triangle.colors.of_vertices);
         if constexpr (with.model != ShadingModel::unlit) {
             blend(lanes, surface.positions_world, own.positions_world);

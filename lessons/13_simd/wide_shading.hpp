@@ -196,12 +196,13 @@ inline bool are_alike(const ProjectedTriangle& a, const ProjectedTriangle& b) {
 }
 
 /// The colour of all of a triangle's pixels, if there is one: its material is unlit, and has
-/// neither a texture nor vertex colours.
+/// neither textures nor vertex colours.
 inline std::optional<vec3> flat_color(const Frame<ShadowMapsOnDemand>& frame,
                                       const ProjectedTriangle& projected) {
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
     if (all_permutations[permutation_of(plan)].model != ShadingModel::unlit ||
-        plan[Effect::texture] || vertex_colors(plan.effects, projected).are_there)
+        plan[Effect::texture] || plan[Effect::emission_map] ||
+        vertex_colors(plan.effects, projected).are_there)
         return std::nullopt;
     return unlit(surface_color(frame.assets.scene.materials[projected.triangle.material]));
 }

@@ -100,6 +100,7 @@ Material any_material(Numbers& numbers, bool is_gltf) {
     material.opacity = numbers.share();
     material.illumination = numbers.whole(0, 2);
     material.diffuse_map = any_map(numbers), material.specular_map = any_map(numbers);
+    material.emission_map = any_map(numbers);
     material.bump_map = any_map(numbers), material.normal_map = any_map(numbers);
     material.alpha = numbers.one_of({AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend});
     material.alpha_cutoff = numbers.any();

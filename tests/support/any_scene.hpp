@@ -91,6 +91,7 @@ inline Material material_of(AnyMaterial kind, Dice& dice) {
         default:
             break;
     }
+    if (dice.one_in(4)) material.emission = dice.color(), material.emission_map = picture();
     return material;
 }
 

@@ -60,7 +60,7 @@ struct LitSphere {
     static constexpr float diffuse = 0.6f, specular = 0.4f, shininess = 90;
 
     Scene scene;
-    SurfaceTextures textures{MaterialTextures(1), MaterialTextures(1)};
+    SurfaceTextures textures{MaterialTextures(1), MaterialTextures(1), MaterialTextures(1)};
     EffectMask effects = plan_effects(scene, textures, false)[0];
     Camera camera = orbit_camera({.distance = 2}, scene.bounds());
     std::array<Light, 1> lights{

@@ -108,7 +108,7 @@ class OneTriangle {
 
     ShadingVariant variant_;
     Scene scene_;
-    SurfaceTextures textures_{MaterialTextures(1), MaterialTextures(1)};
+    SurfaceTextures textures_{MaterialTextures(1), MaterialTextures(1), MaterialTextures(1)};
     EffectMask effects_ = plan_effects(scene_, textures_, false)[0];
 };
 
