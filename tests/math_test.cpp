@@ -65,6 +65,21 @@ TEST(NormalizeOr, HardCase_SmallestAndGreatest) {
     EXPECT_EQ(normalize_or(dvec3(1e300, 0, 0), dvec3(1)), dvec3(1, 0, 0));
 }
 
+TEST(NormalizeOr, DoublesOfAnySizeNeedNoWiderType) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> component(-1, 1);
+    std::uniform_int_distribution<int> exponent(-1000, 1020);
+    for (int i = 0; i < 100'000; ++i) {
+        const dvec3 v(component(random), component(random), component(random));
+        const int power = exponent(random);  // exact: no number becomes subnormal
+        const dvec3 scaled(std::ldexp(v.x, power), std::ldexp(v.y, power), std::ldexp(v.z, power));
+        const dvec3 unit = normalize_or(scaled, dvec3(9));
+        for (int k = 0; k < 3; ++k)
+            ASSERT_NEAR(unit[k], v[k] / glm::length(v), 4 * DBL_EPSILON * std::abs(unit[k]))
+                << "seed 1, case " << i << ", times 2^" << power;
+    }
+}
+
 TEST(DifferenceOfProducts, IsWithinTwoUlpWherePlainFloatLosesAllDigits) {
     std::mt19937 random(2);
     std::uniform_real_distribution<float> any(1, 2);

@@ -3,12 +3,12 @@
 /// Arithmetic that stays right where the plain formula does not.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
-#include <type_traits>
 
 #include "common/math/types.hpp"
 
@@ -19,19 +19,28 @@ __extension__ typedef __int128 int128;
 
 /// v scaled to length 1, or `fallback` when v has no direction.
 ///
-/// The square of the length is taken in a wider type: it neither overflows nor underflows, so that
-/// 1e-40 and 1e30 are ordinary lengths. (v / length(v) in float gives NaN for 0 and 0 for 1e30.)
+/// The square of the length is taken in double, which holds that of any float. Where it nears the
+/// ends of double, a power of two first brings the largest component to between 1 and 2. So 1e-40
+/// and 1e30 are ordinary lengths, and so is 1e300 in double. (v / length(v) in float gives NaN for
+/// 0 and 0 for 1e30.)
 ///
 /// @param v         Any values; zero, NaN and infinity have no direction.
 /// @param fallback  Returned as it is.
-/// @return          Each component within 1 ulp.
+/// @return          Each component within 1 ulp; within 3 for double.
 template <std::floating_point T>
 glm::vec<3, T> normalize_or(glm::vec<3, T> v, glm::vec<3, T> fallback) {
-    using Wide = std::conditional_t<std::is_same_v<T, float>, double, long double>;
-    const Wide x = v.x, y = v.y, z = v.z;
-    const Wide length = std::sqrt(x * x + y * y + z * z);
-    if (!(length > 0 && length <= std::numeric_limits<Wide>::max())) return fallback;
-    return {static_cast<T>(x / length), static_cast<T>(y / length), static_cast<T>(z / length)};
+    const auto squared = [](dvec3 a) { return a.x * a.x + a.y * a.y + a.z * a.z; };
+    dvec3 wide(v);
+    if (!(squared(wide) > 1e-200 && squared(wide) < 1e200)) {
+        const double largest = std::max({std::abs(wide.x), std::abs(wide.y), std::abs(wide.z)});
+        if (!(largest > 0 && largest <= std::numeric_limits<double>::max())) return fallback;
+        const int exponent = std::ilogb(largest);
+        for (int i = 0; i < 3; ++i) wide[i] = std::scalbn(wide[i], -exponent);
+    }
+    const double length = std::sqrt(squared(wide));
+    if (!(length > 0)) return fallback;  // NaN
+    return {static_cast<T>(wide.x / length), static_cast<T>(wide.y / length),
+            static_cast<T>(wide.z / length)};
 }
 
 /// a b - c d within 1.5 ulp, even where the two products nearly cancel.
