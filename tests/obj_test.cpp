@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -664,6 +667,49 @@ class RandomWriter {
     std::mt19937& random_;
     std::string line_end_;
 };
+
+/// A number just beside the middle between two floats, exactly, so that to round it to double first
+/// gives that middle.
+std::string beside_a_middle(std::mt19937& random) {
+    const float low = std::ldexp(1.0f + float(random() >> 9) * 0x1p-23f, -int(random() % 8));
+    char middle[80];
+    std::snprintf(middle, sizeof middle, "%.60g", (double{low} + std::nextafter(low, 2.0f)) / 2);
+    std::string digits = middle;  // all of them; the last is 5
+    if (random() % 2 == 0) return digits + "00000000000000001";
+    digits.back() = '4';
+    return digits + "99999999999999999";
+}
+
+/// As files may have it: up to 20 digits, perhaps an exponent.
+std::string any_number(std::mt19937& random) {
+    std::string digits;
+    for (std::size_t i = 0, count = 1 + random() % 20; i < count; ++i)
+        digits += char('0' + random() % 10);
+    std::string number = (random() % 2 ? "-0." : "0.") + digits;
+    if (random() % 3 == 0) number += "e" + std::to_string(int(random() % 60) - 55);
+    return number;
+}
+
+TEST(Obj, NumbersAreTheNearestFloats) {
+    std::mt19937 random(seed);
+    for (int i = 0; i < 20; ++i) {
+        std::vector<std::string> numbers{"-0", "0.5", "0.000000000000001", "00001.5"};
+        for (int k = 0; k < 146; ++k) numbers.push_back(any_number(random));
+        for (int k = 0; k < 150; ++k) numbers.push_back(beside_a_middle(random));
+        std::string text = "v 1 1 -1\nv -1 0 0\nv 0 -1 1\nf 1 2 3\n";
+        for (std::size_t k = 0; k < numbers.size(); k += 3)
+            text += "v " + numbers[k] + ' ' + numbers[k + 1] + ' ' + numbers[k + 2] + '\n';
+        const Scene scene = load_obj(write_file("numbers.obj", text));
+        ASSERT_EQ(scene.origin, dvec3(0));
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+            const float nearest = std::strtof(numbers[k].c_str(), nullptr);
+            ASSERT_EQ(
+                std::bit_cast<std::uint32_t>(scene.meshes[0].positions[3 + k / 3][int(k % 3)]),
+                std::bit_cast<std::uint32_t>(nearest))
+                << numbers[k] << " is not read as " << nearest;
+        }
+    }
+}
 
 TEST(Obj, RandomModelsAreReadBackEqual) {
     for (unsigned i = 0; i < 300; ++i) {

@@ -17,6 +17,7 @@
 #include "common/model/gltf_document.hpp"
 #include "common/model/gltf_materials.hpp"
 #include "common/model/mtl.hpp"
+#include "common/model/world_box.hpp"
 
 namespace rasterbook {
 namespace {
@@ -92,7 +93,10 @@ class GltfReader {
     void read_primitive(const tinygltf::Primitive& primitive, const dmat4& world_from_node);
     Arrays arrays_of(const tinygltf::Primitive& primitive) const;
     Vertex add_vertex(const Arrays& arrays, std::uint32_t element, const Place& place);
-    void add_flat_normal(Triangle& triangle);
+    void place_scene();
+    void finish(Mesh& mesh, const std::vector<dvec3>& positions_world) const;
+    std::vector<std::uint32_t> add_points(Mesh& mesh,
+                                          const std::vector<dvec3>& positions_world) const;
     std::vector<std::uint32_t> triangle_vertices(const tinygltf::Primitive& primitive,
                                                  std::size_t points);
     void add_camera(const tinygltf::Node& node, const dmat4& world_from_node);
@@ -123,10 +127,15 @@ class GltfReader {
     Warnings warnings_;
     std::string node_name_, where_;  ///< For messages: the node's, and the primitive's.
 
-    // Of the mesh that is being read.
+    // World space; of meshes, those of their vertices' elements, until the origin is known.
+    std::vector<std::vector<dvec3>> positions_of_mesh_;
+    std::vector<dvec3> positions_of_cameras_, positions_of_lights_;
+    WorldBox box_;
+
+    // Of the mesh that is being read; its colors are the elements'.
     Mesh mesh_;
+    std::vector<dvec3> positions_world_;
     bool has_colors_ = false;
-    std::unordered_map<PointKey, std::uint32_t, PointHash> index_of_point_;
 };
 
 void GltfReader::warn_of_document() {
@@ -141,6 +150,7 @@ Scene GltfReader::read() {
     scene_.materials = gltf_materials(model_, file_, budget_, warnings_);
     read_nodes(roots());
     if (scene_.meshes.empty()) fail("holds no faces");
+    place_scene();
     scene_.warnings = warnings_.take();
     scene_.is_gltf = true;
     scene_.budget = budget_;
@@ -226,8 +236,8 @@ void GltfReader::read_mesh(const tinygltf::Node& node, const dmat4& world_from_n
     const tinygltf::Mesh& from = at(model_.meshes, node.mesh, node_name_ + ": mesh");
     if (node.skin >= 0) warn("skins are passed over: figures stand as they were modelled");
     mesh_ = {};
+    positions_world_ = {};
     mesh_.name = node.name.empty() ? from.name : node.name;
-    index_of_point_ = {};  // clear() would take as long as the largest mesh before
     has_colors_ = std::ranges::any_of(from.primitives, [](const tinygltf::Primitive& primitive) {
         return primitive.attributes.contains("COLOR_0");
     });
@@ -238,7 +248,9 @@ void GltfReader::read_mesh(const tinygltf::Node& node, const dmat4& world_from_n
         // The place of a skinned mesh is that of its joints, not of its node.
         read_primitive(from.primitives[i], node.skin >= 0 ? dmat4(1) : world_from_node);
     }
-    if (!mesh_.triangles.empty()) scene_.meshes.push_back(std::move(mesh_));
+    if (mesh_.triangles.empty()) return;
+    scene_.meshes.push_back(std::move(mesh_));
+    positions_of_mesh_.push_back(std::move(positions_world_));
 }
 
 /// The points of a primitive's triangles: strips and fans are taken apart.
@@ -306,10 +318,6 @@ void GltfReader::read_primitive(const tinygltf::Primitive& primitive,
         Triangle triangle{{vertex(elements[i]), vertex(elements[i + 1]), vertex(elements[i + 2])},
                           material};
         if (turns_winding) std::swap(triangle.vertices[1], triangle.vertices[2]);
-        if (!arrays.normals) add_flat_normal(triangle);
-        mesh_.faces.push_back({static_cast<std::uint32_t>(mesh_.vertices.size()), 3, material});
-        mesh_.vertices.insert(mesh_.vertices.end(), triangle.vertices.begin(),
-                              triangle.vertices.end());
         mesh_.triangles.push_back(triangle);
     }
 }
@@ -338,27 +346,18 @@ GltfReader::Arrays GltfReader::arrays_of(const tinygltf::Primitive& primitive) c
     return arrays;
 }
 
-/// A point of the mesh, new unless one of its position and colour is there, and what else a vertex
-/// has.
+/// What a vertex has. Its position is the element's, until points of one place become one.
 Vertex GltfReader::add_vertex(const Arrays& arrays, std::uint32_t element, const Place& place) {
-    // + 0.0f: of -0 and 0 one.
-    const vec3 position = narrowed(place.world_from_node * arrays.positions->vector(element),
-                                   where_ + ": a position") +
-                          0.0f;
+    const dvec3 position(place.world_from_node * arrays.positions->vector(element));
+    narrowed(position, where_ + ": a position");
+    Vertex vertex{static_cast<std::uint32_t>(positions_world_.size())};
+    positions_world_.push_back(position);
+    box_.add(position);
     // Colours are brought into 0 to 1, as the specification has it.
-    const vec4 color =
-        arrays.colors ? vec4(glm::clamp(arrays.colors->vector(element), 0.0, 1.0)) + 0.0f : vec4(1);
-    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-    const PointKey key{{bits(position.x), bits(position.y), bits(position.z), bits(color.r),
-                        bits(color.g), bits(color.b), bits(color.a)}};
-    const auto [point, is_new] =
-        index_of_point_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
-    if (is_new) {
-        mesh_.positions.push_back(position);
-        mesh_.bounds.add(position);
-        if (has_colors_) mesh_.colors.push_back(color);
-    }
-    Vertex vertex{point->second};
+    if (has_colors_)
+        mesh_.colors.push_back(
+            arrays.colors ? vec4(glm::clamp(arrays.colors->vector(element), 0.0, 1.0)) + 0.0f
+                          : vec4(1));
     if (arrays.uvs) {
         const dvec4 uv = arrays.uvs->vector(element);
         vertex.uv = static_cast<std::uint32_t>(mesh_.uvs.size());
@@ -372,15 +371,65 @@ Vertex GltfReader::add_vertex(const Arrays& arrays, std::uint32_t element, const
     return vertex;
 }
 
-/// Of the face itself, as the specification has it where a file gives none.
-void GltfReader::add_flat_normal(Triangle& triangle) {
-    const auto position = [&](std::size_t i) {
-        return dvec3(mesh_.positions[triangle.vertices[i].position]);
-    };
-    const dvec3 across = glm::cross(position(1) - position(0), position(2) - position(0));
-    for (Vertex& vertex : triangle.vertices)
-        vertex.normal = static_cast<std::uint32_t>(mesh_.normals.size());
-    mesh_.normals.push_back(vec3(normalize_or(across, dvec3(0))));
+/// Puts meshes, cameras and lights where they stand, relative to the scene's origin.
+void GltfReader::place_scene() {
+    scene_.origin = box_.origin();
+    for (std::size_t i = 0; i < scene_.meshes.size(); ++i)
+        finish(scene_.meshes[i], std::exchange(positions_of_mesh_[i], {}));
+    for (std::size_t i = 0; i < scene_.cameras.size(); ++i)
+        scene_.cameras[i].world_from_view[3] =
+            vec4(narrowed(positions_of_cameras_[i] - scene_.origin, "a camera's place"), 1);
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i)
+        scene_.lights[i].position_world =
+            narrowed(positions_of_lights_[i] - scene_.origin, "a light's place");
+}
+
+/// Gives a mesh its points and faces. Where the file gives no normals, the face's own, as the
+/// specification has it.
+void GltfReader::finish(Mesh& mesh, const std::vector<dvec3>& positions_world) const {
+    const std::vector<std::uint32_t> point_of_element = add_points(mesh, positions_world);
+    mesh.faces.reserve(mesh.triangles.size());
+    mesh.vertices.reserve(3 * mesh.triangles.size());
+    for (Triangle& triangle : mesh.triangles) {
+        for (Vertex& vertex : triangle.vertices)
+            vertex.position = point_of_element[vertex.position];
+        auto& [a, b, c] = triangle.vertices;
+        if (a.normal == no_index) {
+            const auto position = [&](Vertex v) { return dvec3(mesh.positions[v.position]); };
+            const dvec3 across = glm::cross(position(b) - position(a), position(c) - position(a));
+            a.normal = b.normal = c.normal = static_cast<std::uint32_t>(mesh.normals.size());
+            mesh.normals.push_back(vec3(normalize_or(across, dvec3(0))));
+        }
+        mesh.faces.push_back(
+            {static_cast<std::uint32_t>(mesh.vertices.size()), 3, triangle.material});
+        mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
+    }
+}
+
+/// The points of a mesh, rounded to float: elements of one position and colour are one.
+///
+/// @return  For each element its point.
+std::vector<std::uint32_t> GltfReader::add_points(Mesh& mesh,
+                                                  const std::vector<dvec3>& positions_world) const {
+    const std::vector<vec4> colors = std::exchange(mesh.colors, {});
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    std::unordered_map<PointKey, std::uint32_t, PointHash> index_of_point;
+    std::vector<std::uint32_t> point_of_element;
+    point_of_element.reserve(positions_world.size());
+    for (std::size_t i = 0; i < positions_world.size(); ++i) {
+        const vec3 p = vec3(positions_world[i] - scene_.origin) + 0.0f;  // of -0 and 0 one
+        const vec4 color = colors.empty() ? vec4(1) : colors[i];
+        const PointKey key{{bits(p.x), bits(p.y), bits(p.z), bits(color.r), bits(color.g),
+                            bits(color.b), bits(color.a)}};
+        const auto [point, is_new] =
+            index_of_point.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+        point_of_element.push_back(point->second);
+        if (!is_new) continue;
+        mesh.positions.push_back(p);
+        mesh.bounds.add(p);
+        if (!colors.empty()) mesh.colors.push_back(color);
+    }
+    return point_of_element;
 }
 
 void GltfReader::add_camera(const tinygltf::Node& node, const dmat4& world_from_node) {
@@ -398,6 +447,7 @@ void GltfReader::add_camera(const tinygltf::Node& node, const dmat4& world_from_
           camera.near < camera.far))
         fail(node_name_ + ": its camera has no possible yfov, znear and zfar");
     scene_.cameras.push_back(camera);
+    positions_of_cameras_.emplace_back(place[3]);
 }
 
 /// The cone of a spot, between whose angles its light fades.
@@ -431,12 +481,13 @@ void GltfReader::add_light(const tinygltf::Node& node, const dmat4& world_from_n
     light.name = node.name.empty() ? from.name : node.name;
     light.kind = kinds.at(from.type);
     light.color = narrowed(glm::max(from.intensity * color, dvec3(0)), node_name_ + ": its light");
-    light.position_world = narrowed(world_from_node[3], node_name_ + ": its place");
+    narrowed(world_from_node[3], node_name_ + ": its place");
     light.direction_world = vec3(normalize_or(-dvec3(world_from_node[2]), dvec3(0, 0, -1)));
     light.range =
         from.range > 0 ? static_cast<float>(from.range) : std::numeric_limits<float>::infinity();
     if (light.kind == SceneLight::Kind::spot) add_cone(light, from.spot);
     scene_.lights.push_back(light);
+    positions_of_lights_.emplace_back(world_from_node[3]);
 }
 
 }  // namespace

@@ -188,6 +188,10 @@ struct Scene {
     LoadBudget budget{};                 ///< What is left for its images.
     std::filesystem::path file{};        ///< That it was read from.
 
+    /// World space: what all positions are relative to, those of meshes, cameras and lights. Not 0
+    /// only where a file's scene stands far from 0 (WorldBox::origin()).
+    dvec3 origin{0.0};
+
     Bounds bounds() const {
         Bounds all;
         for (const Mesh& mesh : meshes) all.add(mesh.bounds.min), all.add(mesh.bounds.max);

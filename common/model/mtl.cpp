@@ -39,12 +39,12 @@ bool changes_nothing(std::string_view keyword) {
 
 /// Up to three numbers of an option; the picture's name follows them.
 vec3 read_option_vector(const StatementReader& in, std::string_view& words, vec3 vector) {
-    vector.x = read_number(in, next_word(words));
+    vector.x = static_cast<float>(read_number(in, next_word(words)));
     for (int i = 1; i < 3; ++i) {
         std::string_view after = words;
         float number = 0;
         if (parse(next_word(after), number) == std::errc::invalid_argument) break;
-        vector[i] = read_number(in, next_word(words));
+        vector[i] = static_cast<float>(read_number(in, next_word(words)));
     }
     return vector;
 }
@@ -152,7 +152,7 @@ void MaterialReader::read_map(const StatementReader& in, const Statement& statem
         else if (option == "-t")
             read_option_vector(in, words, vec3(0.0f));
         else if (option == "-bm")
-            map.bump_multiplier = read_number(in, next_word(words));
+            map.bump_multiplier = static_cast<float>(read_number(in, next_word(words)));
         else if (option == "-clamp")
             map.clamp = next_word(words) == "on";
         else if (option == "-mm")

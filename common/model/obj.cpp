@@ -12,6 +12,7 @@
 #include "common/model/mtl.hpp"
 #include "common/model/statements.hpp"
 #include "common/model/triangulate.hpp"
+#include "common/model/world_box.hpp"
 
 namespace rasterbook {
 namespace {
@@ -56,6 +57,7 @@ class ObjReader {
     void check_forward_references() const;
     void resolve_materials();
     void decode_colors();
+    dvec3 round_positions();
     void share_out_elements();
     template <typename... Element>
     void share_out(std::uint32_t Vertex::* index, std::size_t count, Column<Element>... columns);
@@ -66,7 +68,7 @@ class ObjReader {
         elements.push_back(element);
     }
     std::size_t count_of(std::size_t kind) const {
-        return kind == 0 ? positions_.size() : kind == 1 ? uvs_.size() : normals_.size();
+        return kind == 0 ? positions_world_.size() : kind == 1 ? uvs_.size() : normals_.size();
     }
 
     LoadBudget budget_;
@@ -76,13 +78,14 @@ class ObjReader {
     MaterialReader materials_{budget_, warnings_};
     std::set<fs::path> libraries_;  ///< Those read.
 
-    std::vector<vec3> positions_, normals_;
+    std::vector<dvec3> positions_world_;
+    std::vector<vec3> positions_, normals_;  ///< Positions: relative to the scene's origin.
     std::vector<vec2> uvs_;
     std::vector<vec4> colors_;                   ///< Of the positions, as written, opaque; 0: none.
     std::size_t colors_line_ = 0;                ///< Of the first number above 1.
     std::uint32_t smoothing_ = smooth_by_angle;  ///< The current smoothing group.
     bool lacks_normals_ = false;                 ///< A face has vertices without.
-    std::vector<Mesh> meshes_;  ///< Their vertices are indices into the three arrays above.
+    std::vector<Mesh> meshes_;  ///< Their vertices are indices into the arrays above.
     std::unordered_map<std::string, std::size_t> mesh_of_group_;
     std::size_t mesh_ = 0;  ///< The current group's.
 
@@ -106,9 +109,11 @@ Scene ObjReader::read() {
     std::erase_if(meshes_, [](const Mesh& mesh) { return mesh.faces.empty(); });
     if (meshes_.empty()) throw InputError(in_.file(), "holds no faces");
     resolve_materials();
+    const dvec3 origin = round_positions();
     decode_colors();
     share_out_elements();
     Scene scene{std::move(meshes_), materials_.take(), warnings_.take()};
+    scene.origin = origin;
     scene.budget = budget_;
     return scene;
 }
@@ -140,7 +145,7 @@ void ObjReader::read_statement(const Statement& statement) {
 
 void ObjReader::read_position(const Statement& statement) {
     std::string_view rest;
-    append(positions_, read_vector<3>(in_, statement, 3, 3, &rest), kinds_[0]);
+    append(positions_world_, read_vector<3, double>(in_, statement, 3, 3, &rest), kinds_[0]);
     if (!rest.empty()) read_color(rest);
 }
 
@@ -151,11 +156,11 @@ void ObjReader::read_color(std::string_view words) {
     for (int i = 0; i < 4; ++i) {
         const std::string_view word = next_word(words);
         if (word.empty() && i < 3) return;
-        if (!word.empty()) color[i] = read_number(in_, word);
+        if (!word.empty()) color[i] = static_cast<float>(read_number(in_, word));
     }
     color.a = 1;
     if (colors_line_ == 0 && glm::max(color, vec4(1)) != vec4(1)) colors_line_ = in_.line();
-    colors_.resize(positions_.size() - 1, vec4(0));
+    colors_.resize(positions_world_.size() - 1, vec4(0));
     colors_.push_back(color);
 }
 
@@ -300,6 +305,18 @@ void ObjReader::decode_colors() {
             color[i] = linear_from_srgb(glm::clamp(color[i] / most, 0.0f, 1.0f));
         color.a = 1;
     }
+}
+
+/// Rounds all positions to float, relative to the scene's origin, which it returns.
+dvec3 ObjReader::round_positions() {
+    WorldBox box;
+    for (const Mesh& mesh : meshes_)
+        for (const Vertex& vertex : mesh.vertices) box.add(positions_world_[vertex.position]);
+    const dvec3 origin = box.origin();
+    positions_.reserve(positions_world_.size());
+    for (const dvec3 position : positions_world_) positions_.emplace_back(position - origin);
+    positions_world_ = {};
+    return origin;
 }
 
 /// Gives each mesh the elements that its faces use, in the order of first use, and frees the rest.

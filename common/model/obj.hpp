@@ -16,9 +16,9 @@ namespace rasterbook {
 /// as sRGB, 0 to 1, or to 255 where any is above 1. Other numbers there and behind u v are ignored.
 /// The smoothing group is that of the last `s`, smooth_by_angle before the first. A comment begins
 /// with a `#` at the beginning of a word; it belongs to a name where a material or file has that
-/// whole name. A positive index may refer to an element further down. A missing material library or
-/// an unknown material is a warning and gives the default material; of two materials with one name
-/// the first counts.
+/// whole name. A positive index may refer to an element further down. Positions far from 0 are
+/// stored relative to Scene::origin. A missing material library or an unknown material is a warning
+/// and gives the default material; of two materials with one name the first counts.
 ///
 /// @param budget        What the files may ask for.
 /// @param max_elements  As many positions, uvs, normals, and vertices of one group, are accepted.

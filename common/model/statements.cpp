@@ -2,6 +2,7 @@
 #include "common/model/statements.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -101,22 +102,22 @@ bool StatementReader::read_more() {
 namespace {
 
 /// A number that from_chars finds out of range: infinite, or rounded when it is too small.
-float read_extreme_number(std::string_view word) {
+double read_extreme_number(std::string_view word) {
     std::istringstream stream{std::string(word)};
     stream.imbue(std::locale::classic());
-    float number = 0;
-    return stream >> number ? number : std::numeric_limits<float>::infinity();
+    double number = 0;
+    return stream >> number ? number : std::numeric_limits<double>::infinity();
 }
 
-/// Numbers as most files have them, "-12.3456": at most 8 digits, no exponent. The digits as a
-/// whole number and the power of ten are both exact in float, so their quotient is rounded only
+/// Numbers as most files have them, "-12.3456": at most 15 digits, no exponent. The digits as a
+/// whole number and the power of ten are both exact in double, so their quotient is rounded only
 /// once. False for all others.
-bool parse_short_decimal(std::string_view word, float& number) {
-    constexpr std::array powers_of_ten{1.0f, 1e1f, 1e2f, 1e3f, 1e4f, 1e5f, 1e6f, 1e7f, 1e8f};
-    constexpr std::uint32_t exact_in_float = 1 << 24;
+bool parse_short_decimal(std::string_view word, double& number) {
+    constexpr std::array powers_of_ten{1.0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                       1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
     const bool is_negative = word.starts_with('-');
     if (is_negative) word.remove_prefix(1);
-    std::uint32_t digits = 0;
+    std::int64_t digits = 0;
     std::size_t count = 0, point = word.size();
     for (std::size_t i = 0; i < word.size(); ++i) {
         const unsigned digit = static_cast<unsigned char>(word[i]) - unsigned{'0'};
@@ -127,22 +128,35 @@ bool parse_short_decimal(std::string_view word, float& number) {
         else
             return false;
     }
-    if (count == 0 || digits > exact_in_float) return false;
+    if (count == 0) return false;
     const std::size_t decimals = point == word.size() ? 0 : word.size() - point - 1;
-    const float size = static_cast<float>(digits) / powers_of_ten[decimals];
+    const double size = static_cast<double>(digits) / powers_of_ten[decimals];
     number = is_negative ? -size : size;
     return true;
 }
 
+/// Whether a number may lie halfway between two floats: then it has no digits beyond the one behind
+/// a float's last.
+bool may_be_halfway(double number) {
+    constexpr std::uint64_t beyond = (std::uint64_t{1} << 28) - 1;
+    return (std::bit_cast<std::uint64_t>(number) & beyond) == 0 &&
+           number != static_cast<float>(number);
+}
+
 }  // namespace
 
-float read_number(const StatementReader& in, std::string_view word) {
-    float number = 0;
-    if (parse_short_decimal(word, number)) return number;
-    const std::errc error = parse(word, number);
-    if (error == std::errc::invalid_argument) in.fail(in_quotes(word) + " is not a number");
-    if (error == std::errc::result_out_of_range) number = read_extreme_number(word);
-    if (!std::isfinite(number)) in.fail(in_quotes(word) + " is not a finite number");
+double read_number(const StatementReader& in, std::string_view word) {
+    double number = 0;
+    if (!parse_short_decimal(word, number)) {
+        const std::errc error = parse(word, number);
+        if (error == std::errc::invalid_argument) in.fail(in_quotes(word) + " is not a number");
+        if (error == std::errc::result_out_of_range) number = read_extreme_number(word);
+    }
+    if (!std::isfinite(static_cast<float>(number)))
+        in.fail(in_quotes(word) + " is not a finite number");
+    // Rounded to double, then to float, a number just off halfway might go to the wrong float.
+    if (float once = 0; may_be_halfway(number) && parse(word, once) == std::errc{})
+        if (once != static_cast<float>(number)) number = std::nextafter(number, double{once});
     return number;
 }
 

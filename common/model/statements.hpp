@@ -102,18 +102,21 @@ std::errc parse(std::string_view word, Number& number) {
     return end == word_end ? error : std::errc::invalid_argument;
 }
 
+/// @return  The double next to the word's number; or the one beside it, where only that rounds to
+/// the
+///          float next to the word's number. As a float it is therefore always the nearest.
 /// @throws InputError  Unless the word is a number that is finite as a float.
-float read_number(const StatementReader& in, std::string_view word);
+double read_number(const StatementReader& in, std::string_view word);
 
 /// The first `count` numbers of a statement, 0 where those after `needed` are missing. Up to `most`
 /// have to be numbers; what follows is not looked at.
 ///
 /// @param rest  Takes what follows.
-template <int count>
-glm::vec<count, float> read_vector(const StatementReader& in, const Statement& statement,
-                                   int needed = count, int most = count,
-                                   std::string_view* rest = nullptr) {
-    glm::vec<count, float> vector(0.0f);
+template <int count, typename Number = float>
+glm::vec<count, Number> read_vector(const StatementReader& in, const Statement& statement,
+                                    int needed = count, int most = count,
+                                    std::string_view* rest = nullptr) {
+    glm::vec<count, Number> vector(Number(0));
     std::string_view words = statement.arguments;
     for (int i = 0; i < most; ++i) {
         const std::string_view word = next_word(words);
@@ -121,8 +124,8 @@ glm::vec<count, float> read_vector(const StatementReader& in, const Statement& s
         if (word.empty())
             in.fail(std::string(statement.keyword) + " needs " + std::to_string(needed) +
                     " numbers and has " + std::to_string(i));
-        const float number = read_number(in, word);
-        if (i < count) vector[i] = number;
+        const double number = read_number(in, word);
+        if (i < count) vector[i] = static_cast<Number>(number);
     }
     if (rest) *rest = words;
     return vector;

@@ -40,9 +40,9 @@ std::string words(float number, int digits) { return formatted("%.*g", digits, d
 
 std::string words(vec2 v) { return formatted("%.3f %.3f", double{v.x}, double{v.y}); }
 
-std::string words(vec3 v) {
-    return formatted("%.3f %.3f %.3f", double{v.x}, double{v.y}, double{v.z});
-}
+std::string words(vec3 v) { return words(dvec3(v)); }
+
+std::string words(dvec3 v) { return formatted("%.3f %.3f %.3f", v.x, v.y, v.z); }
 
 std::string words(ivec2 v) { return formatted("%d, %d", v.x, v.y); }
 

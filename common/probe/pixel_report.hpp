@@ -21,6 +21,7 @@ namespace rasterbook {
 std::string words(float number, int digits = 4);
 std::string words(vec2 numbers);
 std::string words(vec3 numbers);
+std::string words(dvec3 numbers);
 std::string words(ivec2 numbers);
 
 /// "teapot #12 (copper)": the mesh, the triangle's number in it, from 0, and its material.

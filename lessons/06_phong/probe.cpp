@@ -38,7 +38,7 @@ PixelProbe phong_probe(const PhongProbeOptions& options, const PhongAssets& asse
         SurfacePoint<float> point =
             surface_point(surface, on_surface.here, normal, camera.position_world, uncounted);
         scale_normal(shading, normal, point);
-        report_point(report, point);
+        report_point(report, point, scene.origin);
         const VariantHighlight highlight = highlight_of(shading, surface);
         report_lights(report, lights, point, highlight, [](std::size_t) { return 1.0f; });
         return report_phong(report, base_color, ambient_light,

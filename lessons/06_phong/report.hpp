@@ -49,8 +49,10 @@ inline SeenSurface report_surface(PixelReport& report, const SeenFragment& seen,
 }
 
 /// Says where the light of a fragment is computed, and with which normal.
-inline void report_point(PixelReport& report, const SurfacePoint<float>& point) {
-    report.line("position in the world", point.position_world, "Eq. 5.1");
+///
+/// @param origin  Of the scene: the world position of what is 0 in it.
+inline void report_point(PixelReport& report, const SurfacePoint<float>& point, dvec3 origin) {
+    report.line("position in the world", words(origin + dvec3(point.position_world)), "Eq. 5.1");
     report.line("normal", point.normal_world, "Eq. 6.8");
 }
 

@@ -130,7 +130,7 @@ vec3 report_paint(PixelReport& report, const ToonProbeOptions& options, const Sc
     const SurfacePoint<float> point = point_at(on_surface.here);
     const ReflectedLight light = light_at(on_surface.here);
     const int tones = options.shading.tones;
-    report_point(report, point);
+    report_point(report, point, scene.origin);
     report_lights(report, lights, point, highlight_of(surface), [](std::size_t) { return 1.0f; });
     report_tone(report, base_color, light, tones);
     const vec3 color = options.shading.smooth

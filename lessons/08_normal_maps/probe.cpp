@@ -34,7 +34,7 @@ PixelProbe normal_map_probe(const NormalMapProbeOptions& options, const NormalMa
             filter);
         const SurfacePoint<float> point =
             surface_point(surface, on_surface.here, normal, camera.position_world, uncounted);
-        report_point(report, point);
+        report_point(report, point, scene.origin);
         const std::array lights = studio_lights(options.shading.key_light, scene.bounds(), low_key);
         report_lights(report, lights, point, highlight_of(surface),
                       [](std::size_t) { return 1.0f; });

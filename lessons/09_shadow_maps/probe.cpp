@@ -41,7 +41,7 @@ PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& a
             options.normal_map, on_surface, smooth_normal, filter);
         const SurfacePoint<float> point =
             surface_point(surface, on_surface.here, normal, camera.position_world, uncounted);
-        report_point(report, point);
+        report_point(report, point, scene.origin);
         TriangleReceiver receiver = triangle_receiver(surface.positions_world);
         report_lights(report, lights, point, highlight_of(surface), [&](std::size_t l) {
             return report_visibility(report, *shadow_maps, l, receiver, point.position_world,

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "common/probe/pixel_report.hpp"
+
 namespace rasterbook {
 
 namespace {
@@ -28,6 +30,8 @@ void explain(const Scene& scene, const ScenePlan& plan, const std::string& camer
     for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size();
     out << scene.meshes.size() << " meshes, " << triangles << " triangles, "
         << scene.materials.size() << " materials\n";
+    if (const dvec3 at = scene.origin; at != dvec3(0))
+        out << "far from 0: stored relative to " << words(at) << '\n';
     out << "camera: " << camera << '\n';
     for (const std::string& light : lights) out << "light: " << light << '\n';
     out << "\neffects\n";

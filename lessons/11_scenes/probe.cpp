@@ -72,7 +72,7 @@ void report_stages(PixelReport& report, const Frame<>& frame, const SeenFragment
         report_normal(report, inputs.normal_map, frame.normal_map, at, own_normal, frame.filter);
     const SurfacePoint<float> point =
         surface_point(surface, at.here, normal, frame.eye_world, uncounted);
-    report_point(report, point);
+    report_point(report, point, frame.assets.scene.origin);
     const std::span<const Light> lights = frame.assets.lit_by.lights;
     const auto said_visibility = [&](std::size_t l) {
         return with.shadow ? report_visibility(report, frame.shadow_maps, l, inputs.receiver,
