@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "common/math/types.hpp"
 
@@ -17,30 +18,34 @@ namespace rasterbook {
 /// 128-bit integer, for products of two 64-bit ones.
 __extension__ typedef __int128 int128;
 
+/// v times a power of two, which is exact, so that squares neither overflow nor underflow where
+/// they count: unless v has an ordinary size, its largest component becomes 1 to 2. Zero, and what
+/// is not finite, stays.
+inline dvec3 with_ordinary_size(dvec3 v) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const bool is_ordinary = largest > 1e-140 && largest < 1e140;
+    if (is_ordinary || !(largest > 0 && largest <= std::numeric_limits<double>::max())) return v;
+    const int exponent = std::ilogb(largest);
+    return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
+}
+
 /// v scaled to length 1, or `fallback` when v has no direction.
 ///
-/// The square of the length is taken in double, which holds that of any float. Where it nears the
-/// ends of double, a power of two first brings the largest component to between 1 and 2. So 1e-40
-/// and 1e30 are ordinary lengths, and so is 1e300 in double. (v / length(v) in float gives NaN for
-/// 0 and 0 for 1e30.)
+/// The square of the length is taken in double, which holds that of any float; for doubles, after
+/// with_ordinary_size(). So 1e-40 and 1e30 are ordinary lengths, and so is 1e300 in double.
+/// (v / length(v) in float gives NaN for 0 and 0 for 1e30.)
 ///
 /// @param v         Any values; zero, NaN and infinity have no direction.
 /// @param fallback  Returned as it is.
 /// @return          Each component within 1 ulp; within 3 for double.
 template <std::floating_point T>
 glm::vec<3, T> normalize_or(glm::vec<3, T> v, glm::vec<3, T> fallback) {
-    const auto squared = [](dvec3 a) { return a.x * a.x + a.y * a.y + a.z * a.z; };
     dvec3 wide(v);
-    if (!(squared(wide) > 1e-200 && squared(wide) < 1e200)) {
-        const double largest = std::max({std::abs(wide.x), std::abs(wide.y), std::abs(wide.z)});
-        if (!(largest > 0 && largest <= std::numeric_limits<double>::max())) return fallback;
-        const int exponent = std::ilogb(largest);
-        for (int i = 0; i < 3; ++i) wide[i] = std::scalbn(wide[i], -exponent);
-    }
-    const double length = std::sqrt(squared(wide));
-    if (!(length > 0)) return fallback;  // NaN
-    return {static_cast<T>(wide.x / length), static_cast<T>(wide.y / length),
-            static_cast<T>(wide.z / length)};
+    if constexpr (std::is_same_v<T, double>) wide = with_ordinary_size(v);
+    const double x = wide.x, y = wide.y, z = wide.z;
+    const double length = std::sqrt(x * x + y * y + z * z);
+    if (!(length > 0 && length <= std::numeric_limits<double>::max())) return fallback;
+    return {static_cast<T>(x / length), static_cast<T>(y / length), static_cast<T>(z / length)};
 }
 
 /// a b - c d within 1.5 ulp, even where the two products nearly cancel.

@@ -151,9 +151,9 @@ double read_number(const StatementReader& in, std::string_view word) {
         const std::errc error = parse(word, number);
         if (error == std::errc::invalid_argument) in.fail(in_quotes(word) + " is not a number");
         if (error == std::errc::result_out_of_range) number = read_extreme_number(word);
+        if (!std::isfinite(static_cast<float>(number)))
+            in.fail(in_quotes(word) + " is not a finite number");
     }
-    if (!std::isfinite(static_cast<float>(number)))
-        in.fail(in_quotes(word) + " is not a finite number");
     // Rounded to double, then to float, a number just off halfway might go to the wrong float.
     if (float once = 0; may_be_halfway(number) && parse(word, once) == std::errc{})
         if (once != static_cast<float>(number)) number = std::nextafter(number, double{once});
