@@ -17,8 +17,12 @@ enum class Counter {
     meshes_culled_by_frustum,
     triangles_in,
     triangles_culled_by_facing,
-    fragments_tested,  ///< Compared with the depth buffer.
-    fragments_shaded,  ///< Written into the picture.
+    triangles_without_area,   ///< On the screen. Lessons 02 and 03 count them as culled.
+    triangles_outside_view,   ///< Outside of the frustum, each alone or with its mesh.
+    triangles_behind_camera,  ///< Outside of the frustum, behind the camera.
+    triangles_overflowing,    ///< Clip space has larger numbers than can be computed with.
+    fragments_tested,         ///< Compared with the depth buffer.
+    fragments_shaded,         ///< Written into the picture.
     texture_samples,
     fragments_lit,
     highlights,      ///< Fragments for which highlights are computed.
@@ -45,6 +49,10 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "meshes_culled_by_frustum",
     "triangles_in",
     "triangles_culled_by_facing",
+    "triangles_without_area",
+    "triangles_outside_view",
+    "triangles_behind_camera",
+    "triangles_overflowing",
     "fragments_tested",
     "fragments_shaded",
     "texture_samples",

@@ -16,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/empty_picture.hpp"
 #include "common/app/memory.hpp"
 #include "common/app/threads.hpp"
 #include "common/image/backdrop.hpp"
@@ -244,9 +245,8 @@ void make_pictures(const LessonProgram& program) {
     const Tally tally = make_film(program);
 
     if (tally.is_empty)
-        std::cerr << "warning: " << options.model.string()
-                  << ": nothing of it is to be seen; perhaps its faces are named clockwise or have "
-                     "no area\n";
+        std::cerr << "warning: " << options.model.string() << ": nothing of it is to be seen: "
+                  << why_empty(tally.counters, scene, program.orbit != nullptr) << '\n';
     if (options.stats)
         print_stats(program, size, tally, load_ms, elapsed_ms(start));
     else if (const std::string first = file_of(options, options.frames.first).string();

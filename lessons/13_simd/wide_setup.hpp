@@ -107,11 +107,11 @@ WideScreenTriangles<N> project_plain(std::span<const Triangle> triangles,
 /// As project_triangles() of lesson 10: as many triangles at once as F has numbers. Those that have
 /// to be clipped, or are unusual, take the steps of lesson 10.
 template <typename F>
-std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle> triangles,
-                              const vec4* positions_clip, ivec2 size, Culling culling,
-                              std::vector<ProjectedTriangle>& projected) {
+CulledTriangles project_triangles(const Mesh& mesh, std::span<const Triangle> triangles,
+                                  const vec4* positions_clip, ivec2 size, Culling culling,
+                                  std::vector<ProjectedTriangle>& projected) {
     constexpr std::size_t N = width_of<F>;
-    std::size_t culled = 0;
+    CulledTriangles culled;
     if constexpr (N > 1)
         for (; triangles.size() >= N; triangles = triangles.subspan(N)) {
             const auto [x, y, z, twice_area, is_plain] =
@@ -119,17 +119,20 @@ std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle> triang
             for (int i = 0; i < static_cast<int>(N); ++i) {
                 const auto one = triangles.subspan(static_cast<std::size_t>(i), 1);
                 if (!is_plain[i]) {
-                    culled +=
-                        project_triangles(mesh, one, positions_clip, size, culling, projected);
+                    culled.add(
+                        project_triangles(mesh, one, positions_clip, size, culling, projected));
                     continue;
                 }
                 const auto area = static_cast<std::int64_t>(twice_area[i]);
-                const bool is_back_facing = area <= 0;
-                if (is_back_facing && culling == Culling::back_faces) {
-                    ++culled;
+                if (area == 0) {
+                    ++culled.without_area;
                     continue;
                 }
-                if (area == 0) continue;
+                const bool is_back_facing = area < 0;
+                if (is_back_facing && culling == Culling::back_faces) {
+                    ++culled.facing;
+                    continue;
+                }
                 const auto& [p, q, r] = one[0].vertices;
                 projected.push_back(
                     {mesh,
@@ -143,7 +146,8 @@ std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle> triang
                      is_back_facing});
             }
         }
-    return culled + project_triangles(mesh, triangles, positions_clip, size, culling, projected);
+    culled.add(project_triangles(mesh, triangles, positions_clip, size, culling, projected));
+    return culled;
 }
 
 }  // namespace rasterbook
