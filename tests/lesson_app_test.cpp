@@ -238,7 +238,7 @@ TEST(LessonApp, HardCase_SmallestPicture) {
 TEST(LessonApp, HardCase_ModelOfExtremeSizeIsDrawnAllTheSame) {
     const auto folder = fresh_folder("app");
     for (const char* program : {lesson, "04_mvp"})
-        for (const char* scale : {"e-38", "", "e37"}) {
+        for (const char* scale : {"e-41", "e-38", "", "e37"}) {
             std::ofstream(folder / "a.obj") << "v -1" << scale << " 0 0\nv 1" << scale
                                             << " 0 0\nv 0 1" << scale << " 0\nf 1 2 3\n";
             const ProcessResult result = run_program(
@@ -250,16 +250,23 @@ TEST(LessonApp, HardCase_ModelOfExtremeSizeIsDrawnAllTheSame) {
         }
 }
 
-TEST(LessonApp, HardCase_ModelThatCannotBeSeenIsAWarning) {
+TEST(LessonApp, HardCase_ModelBeyondWhatCanBeDrawnIsAnError) {
     const auto folder = fresh_folder("app");
-    for (const char* face : {"f 3 2 1", "f 1 2 1"}) {
-        std::ofstream(folder / "a.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\n" << face << '\n';
-        const ProcessResult result =
-            run_program(lesson, {"--size", "64x48", "--model", (folder / "a.obj").string(), "--out",
-                                 (folder / "a.png").string()});
-        EXPECT_EQ(result.exit_status, 0);
-        EXPECT_NE(result.err.find("nothing of it is to be seen"), std::string::npos) << result.err;
+    struct Extreme {
+        const char *positions, *says;
+    };
+    for (const auto& [positions, says] :
+         {Extreme{"v -3e38 0 0\nv 3e38 0 0\nv 0 3e38 0\n", "measures 6.7082e+38"},
+          {"v -3e38 -3e38 -3e38\nv 3e38 3e38 3e38\nv 0 3e38 0\n", "measures 1.03923e+39"},
+          {"v 2e38 2e38 2e38\nv 3e38 2e38 2e38\nv 2e38 3e38 2e38\n", "measures 1.41421e+38"},
+          {"v 0 0 0\nv 1e-44 0 0\nv 0 1e-44 0\n", "measures 1.38"}}) {
+        std::ofstream(folder / "a.obj") << positions << "f 1 2 3\n";
+        for (const char* program : {lesson, "04_mvp", "11_scenes"})
+            expect_error(run_program(program, {"--model", (folder / "a.obj").string(), "--out",
+                                               (folder / "a.png").string()}),
+                         1, says);
     }
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
 }
 
 TEST(LessonApp, WarningsOfTheModelAreShown) {

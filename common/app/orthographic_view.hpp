@@ -27,7 +27,7 @@ class OrthographicView {
                 min_ = glm::min(min_, place);
                 max_ = glm::max(max_, place);
             }
-        const dvec3 extent = glm::max(max_ - min_, dvec3(std::numeric_limits<float>::min()));
+        const dvec3 extent = glm::max(max_ - min_, dvec3(least_extent));
         pixels_per_unit_ = 0.8 * std::min(size.x / extent.x, size.y / extent.y);
     }
 
@@ -35,8 +35,7 @@ class OrthographicView {
     ///          nearest point of the scene to 0.01 for the farthest.
     std::vector<vec3> screen_from_model(const std::vector<vec3>& positions_model) const {
         const dvec3 middle = 0.5 * (min_ + max_);
-        const double depth_extent =
-            std::max(max_.z - min_.z, double{std::numeric_limits<float>::min()});
+        const double depth_extent = std::max(max_.z - min_.z, least_extent);
         std::vector<vec3> positions_screen;
         positions_screen.reserve(positions_model.size());
         for (const vec3 position : positions_model) {
@@ -49,6 +48,8 @@ class OrthographicView {
     }
 
   private:
+    static constexpr double least_extent = 1e-60;  ///< Far below all floats but 0.
+
     static dvec3 along_axes(vec3 position) {
         // The camera turned by 30 degrees to the side, then by 25 degrees down.
         constexpr double cos_yaw = 0.866025403784439, sin_yaw = 0.5;

@@ -12,7 +12,8 @@ namespace rasterbook {
 /// Reads a model: by load_gltf() where its name ends in .gltf, .glb or .vrm (in any case), else by
 /// load_obj().
 ///
-/// @throws InputError  As these do.
+/// @throws InputError  As these do; and when the scene is too large or too small to be drawn: its
+///          box's diagonal is above 2.5e37, or below 2.5e-42 and not 0.
 Scene load_model(const std::filesystem::path& file, const LoadBudget& budget = {});
 
 }  // namespace rasterbook
