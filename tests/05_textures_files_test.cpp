@@ -276,16 +276,45 @@ TEST(Textures, OneImageMayBeClampedByOneMaterialAndRepeatedByAnother) {
     EXPECT_EQ(textures[4], nullptr) << "the last material names none";
 }
 
+TEST(Textures, Eq5_4_HardCase_CoordinatesFarFrom0AreMovedNearIt) {
+    look_up("Eq. 5.4");
+    const Triangle triangle = {{Vertex{0, 0}, Vertex{1, 1}, Vertex{2, 2}}, 0};
+    Mesh mesh;
+    mesh.uvs = {{65537.3, -2.7}, {65536.1, 0.2}, {65540, -65536.4}};
+    const std::array<vec2, 3> repeated = {vec2(0.3f, 0.3f), vec2(-0.9f, 3.2f), vec2(3, -65533.4f)};
+    const std::array<vec2, 3> mirrored = {vec2(1.3f, 1.3f), vec2(0.1f, 4.2f), vec2(4, -65532.4f)};
+    const auto uvs = [&](Wrap wrap, const TextureMap& map) {
+        const Texture texture = make_texture(Image<vec4>({1, 1}), wrap);
+        return uvs_of(mesh, triangle, map, &texture);
+    };
+    EXPECT_EQ(uvs(Wrap::repeat, {}), repeated);
+    EXPECT_EQ(uvs(Wrap::mirror, {}), mirrored);
+    const std::array<vec2, 3> as_they_are = {vec2(mesh.uvs[0]), vec2(mesh.uvs[1]),
+                                             vec2(mesh.uvs[2])};
+    EXPECT_EQ(uvs(Wrap::clamp, {}), as_they_are);
+    // What the map's own -s and -o make far.
+    mesh.uvs = {{0.25f, 0}, {0.5f, 1}, {1, 0.75f}};
+    TextureMap far;
+    far.scale = {65536, -2, 1}, far.offset = {65536.3, 1e6 + 0.7, 0};
+    const std::array<vec2, 3> near = {vec2(0.3f, 0.7f), vec2(16384.3f, -1.3f),
+                                      vec2(49152.3f, -0.8f)};
+    EXPECT_EQ(uvs(Wrap::repeat, far), near);
+}
+
 TEST(Textures, Eq5_1_OffsetAndScaleOfTheMap) {
     Mesh mesh;
     mesh.uvs = {{0, 0}, {1, 0.5f}, {0.25f, 1}};
     const Triangle triangle = {{Vertex{0, 2}, Vertex{1, no_index}, Vertex{2, 1}}, 0};
     TextureMap map;
     const std::array<vec2, 3> plainly = {vec2(0.25f, 1), vec2(0), vec2(1, 0.5f)};
-    EXPECT_EQ(uvs_of(mesh, triangle, map), plainly);
+    const auto uvs = [&] {
+        const std::array<dvec2, 3> exact = exact_uvs_of(mesh, triangle, map);
+        return std::array{vec2(exact[0]), vec2(exact[1]), vec2(exact[2])};
+    };
+    EXPECT_EQ(uvs(), plainly);
     map.scale = {4, 2, 7}, map.offset = {0.5f, -1, 7};
     const std::array<vec2, 3> scaled = {vec2(1.5f, 1), vec2(0.5f, -1), vec2(4.5f, 0)};
-    EXPECT_EQ(uvs_of(mesh, triangle, map), scaled);
+    EXPECT_EQ(uvs(), scaled);
 
     expect_picture_moved_by_half(of_step_1);
 }

@@ -121,7 +121,7 @@ struct Patch {
           const std::vector<std::array<std::uint32_t, 3>>& faces,
           const std::vector<vec3>& normals = {}) {
         mesh = mesh_of(std::move(positions), faces);
-        mesh.uvs = std::move(uvs);
+        mesh.uvs.assign(uvs.begin(), uvs.end());
         mesh.normals = normals;
         for (Triangle& triangle : mesh.triangles)
             for (Vertex& vertex : triangle.vertices) {
@@ -462,7 +462,7 @@ TEST(NormalMaps, Eq8_6_AWorkedExample) {
                       {vec2(0), {1, 0}, {0, 1}, slanted_uv(second_end), slanted_uv(third_end)},
                       {{0, 1, 2}, {0, 3, 4}});
     EXPECT_TRUE(are_near(uv_directions({vec3(0), second_end, third_end},
-                                       {vec2(0), patch.mesh.uvs[3], patch.mesh.uvs[4]})
+                                       {vec2(0), vec2(patch.mesh.uvs[3]), vec2(patch.mesh.uvs[4])})
                              .tangent,
                          {0.8f, 0, -0.6f}));
     for (std::size_t triangle = 0; triangle < 2; ++triangle) {
@@ -606,7 +606,7 @@ TEST(NormalMaps, HardCase_TexturesOfAnySize) {
     for (const vec2 scale : {vec2(1e-36f), vec2(1e-20f, 1), vec2(1, 1e20f), vec2(1e36f),
                              vec2(1e-30f, 1e30f), vec2(0x1p-120f)}) {
         Patch pipe = half_pipe(8);
-        for (vec2& uv : pipe.mesh.uvs) uv *= scale;
+        for (dvec2& uv : pipe.mesh.uvs) uv *= scale;
         const std::vector<vec4> tangents = pipe.tangents(), plain = expected.tangents();
         for (std::size_t i = 0; i < plain.size(); ++i) {
             ASSERT_TRUE(are_near(vec3(tangents[i]), vec3(plain[i])))

@@ -4,8 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
+#include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -96,6 +100,42 @@ std::string plain_picture(const std::string& name, u8vec3 color) {
 }
 
 constexpr std::array all_frames = {FrameOf::face, FrameOf::vertex, FrameOf::pixel};
+
+/// A wavy sheet of 5 x 5 vertices, whose uvs have so many decimals and have been moved; with all
+/// kinds of maps.
+Scene sheet(const fs::path& folder, int decimals, const std::array<int, 2>& moved,
+            const std::string& options) {
+    std::mt19937 random(13);
+    const auto unit = [&] { return static_cast<double>(random() % 1024) / 1024; };
+    std::ostringstream obj;
+    obj << std::fixed << "mtllib m.mtl\nusemtl m\n";
+    const int scale = decimals == 0 ? 128 : 1000;  // 128: exact as floats, also when moved
+    for (int i = 0; i < 25; ++i) {
+        obj << std::setprecision(6) << "v " << i % 5 << ' ' << i / 5 << ' ' << unit() << '\n';
+        std::string uv;
+        for (const int axis : {0, 1}) {
+            const auto near =
+                std::lround((0.6 * (axis == 0 ? i % 5 : i / 5) + unit() - 1.1) * scale);
+            const std::int64_t far = near + std::int64_t{moved[std::size_t(axis)]} * scale;
+            std::ostringstream number;  // in decimals, without any rounding
+            number << (far < 0 ? "-" : "") << std::abs(far) / scale << '.' << std::setfill('0')
+                   << std::setw(decimals == 0 ? 7 : 3)
+                   << std::abs(far) % scale * (decimals == 0 ? 78125 : 1);
+            uv += ' ' + number.str();
+        }
+        obj << "vt" << uv << '\n';
+    }
+    for (int i = 0; i < 16; ++i) {
+        const int a = 1 + i % 4 + 5 * (i / 4);
+        for (const int vertex : {a, a + 1, a + 6, a + 5})
+            obj << (vertex == a ? "f " : " ") << vertex << '/' << vertex;
+        obj << '\n';
+    }
+    written(folder / "m.mtl", "newmtl m\nKs 0.5 0.5 0.5\nNs 9\nKe 0.2 0.2 0.2\nmap_Kd " + options +
+                                  "a.png\nmap_Ks " + options + "b.png\nmap_Ke " + options +
+                                  "c.png\nnorm " + options + "n.png\n");
+    return load_obj(written(folder / "m.obj", obj.str()));
+}
 
 }  // namespace
 
@@ -515,4 +555,42 @@ TEST(NormalMaps, PictureOfObjectSpaceMaps) {
 
 TEST(NormalMaps, PictureOfTheSceneWithoutMaps) {
     EXPECT_TRUE(equals_golden("08_normal_maps", "08_normal_maps_none", {"--normal-map", "none"}));
+}
+
+TEST(NormalMaps, Eq5_4_HardCase_UvsMovedByWholeNumbersLookTheSame) {
+    const fs::path folder = fresh_folder("far_uvs");
+    std::mt19937 random(5);
+    for (const char* name : {"a.png", "b.png", "c.png", "n.png"}) {
+        Image<u8vec3> noise({16, 16});
+        for (u8vec3& texel : noise.pixels())
+            texel = {random() % 256, random() % 256, name[0] == 'n' ? 255 : random() % 256};
+        write_image(folder / name, noise);
+    }
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+        for (const Filter filter : {Filter::nearest, Filter::trilinear})
+            for (const int decimals : {3, 0})
+                for (const std::string options : {"", "-s 3 2 1 -o 0.3 -0.7 0 "}) {
+                    lesson_08::Options with = small_picture();
+                    with.size = {120, 90};
+                    with.texture.wrap = wrap, with.texture.filter = filter;
+                    with.orbit.yaw_degrees = 0;
+                    const auto picture = [&](const std::array<int, 2>& moved) {
+                        Scene scene = sheet(folder, decimals, moved, options);
+                        if (decimals == 0)  // as a glTF file has them
+                            for (dvec2& uv : scene.meshes[0].uvs) uv = vec2(uv);
+                        return picture_of(scene, with);
+                    };
+                    const Image<vec3> near = picture({0, 0});
+                    for (const auto& moved : {std::array{2, -2},
+                                              {-4, 100},
+                                              {65536, 65536},
+                                              {-65536, 2},
+                                              {30'000, -60'002}})
+                        EXPECT_EQ(have_the_same_bits(picture(moved), near), wrap != Wrap::clamp)
+                            << "moved by " << moved[0] << ", " << moved[1] << "; wrap "
+                            << static_cast<int>(wrap) << ", filter " << static_cast<int>(filter)
+                            << ", decimals " << decimals << ' ' << options;
+                    const bool is_moved = !have_the_same_bits(picture({1, -65535}), near);
+                    EXPECT_EQ(is_moved, wrap != Wrap::repeat) << "moved by an odd number";
+                }
 }

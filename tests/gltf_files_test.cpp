@@ -51,7 +51,7 @@ testing::AssertionResult is_sound(const Scene& scene) {
                     return testing::AssertionFailure() << "wrong triangle in " << mesh.name;
         if (!std::ranges::all_of(mesh.positions, is_finite<vec3>) ||
             !std::ranges::all_of(mesh.normals, is_finite<vec3>) ||
-            !std::ranges::all_of(mesh.uvs, is_finite<vec2>) ||
+            !std::ranges::all_of(mesh.uvs, is_finite<dvec2>) ||
             !std::ranges::all_of(mesh.colors, is_finite<vec4>))
             return testing::AssertionFailure() << "a number in " << mesh.name << " is not finite";
     }

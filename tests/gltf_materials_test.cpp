@@ -223,7 +223,7 @@ TEST(GltfMaterials, TheMaterialChoosesTheSetOfTextureCoordinates) {
     made.primitive()["attributes"]["TEXCOORD_1"] =
         made.add({0.5, 0.5, 0.5, 0.5, 0.5, 0.5}, "VEC2", gl_float);
     const Scene scene = load_gltf(made.write(fresh_folder("gltf_sets") / "scene.gltf"));
-    EXPECT_EQ(scene.meshes.at(0).uvs.at(0), vec2(0.5f));
+    EXPECT_EQ(scene.meshes.at(0).uvs.at(0), dvec2(0.5));
 }
 
 TEST(GltfMaterials, OfAMetallicRoughnessTextureTheMeanCounts) {
@@ -253,7 +253,7 @@ TEST(GltfMaterials, AnEmissiveTextureIsAnEmissionMap) {
     const Material& material = scene.materials.at(1);
     EXPECT_EQ(material.emission, vec3(1, 1, 0.5f));
     ASSERT_TRUE(material.emission_map.embedded);
-    EXPECT_EQ(scene.meshes.at(0).uvs.at(0), vec2(0.5f));
+    EXPECT_EQ(scene.meshes.at(0).uvs.at(0), dvec2(0.5));
     EXPECT_TRUE(scene.warnings.empty());
     made.material()["emissiveFactor"] = {0, 0, 0};
     EXPECT_TRUE(material_of(made).emission_map.file.empty());

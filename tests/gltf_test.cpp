@@ -35,7 +35,7 @@ vec3 normal(const Mesh& mesh, std::size_t triangle, std::size_t vertex) {
 std::vector<float> numbers_of(const Scene& scene) {
     std::vector<float> numbers;
     const auto add = [&](const auto& v) {
-        for (int i = 0; i < v.length(); ++i) numbers.push_back(v[i]);
+        for (int i = 0; i < v.length(); ++i) numbers.push_back(float(v[i]));
     };
     for (const Mesh& mesh : scene.meshes)
         for (const Triangle& triangle : mesh.triangles)
@@ -335,13 +335,13 @@ TEST(Gltf, AttributesMayBeWholeNumbersAndInterleaved) {
     EXPECT_EQ(position(whole.meshes.at(0), 0, 2), vec3(0, -300, 0));
     EXPECT_EQ(normal(whole.meshes[0], 0, 0), vec3(0, 0, 1));
     EXPECT_EQ(normal(whole.meshes[0], 0, 1), vec3(0, 0, -1));
-    EXPECT_EQ(whole.meshes[0].uvs.at(0), vec2(0, 0));
-    EXPECT_EQ(whole.meshes[0].uvs.at(1), vec2(0.2f, 1));
+    EXPECT_EQ(whole.meshes[0].uvs.at(0), dvec2(0, 0));
+    EXPECT_EQ(vec2(whole.meshes[0].uvs.at(1)), vec2(0.2f, 1));
     attributes["TEXCOORD_0"] = made.add({-128, -128, 127, 0, -127, 0}, "VEC2", gl_byte, true);
     const Scene with_signs = read(made);
-    EXPECT_EQ(with_signs.meshes.at(0).uvs.at(0), vec2(-1, 2));
-    EXPECT_EQ(with_signs.meshes[0].uvs.at(1), vec2(1, 1));
-    EXPECT_EQ(with_signs.meshes[0].uvs.at(2), vec2(-1, 1));
+    EXPECT_EQ(with_signs.meshes.at(0).uvs.at(0), dvec2(-1, 2));
+    EXPECT_EQ(with_signs.meshes[0].uvs.at(1), dvec2(1, 1));
+    EXPECT_EQ(with_signs.meshes[0].uvs.at(2), dvec2(-1, 1));
 
     GltfBuilder mixed = one_triangle();
     std::vector<double> both;

@@ -102,12 +102,13 @@ std::string with_commas(const Vector& vector, int digits) {
     std::ostringstream out;
     out.precision(digits);
     for (int i = 0; i < vector.length(); ++i)
-        out << (i > 0 ? "," : "") << vector[i] + 0.0f;  // no -0
+        out << (i > 0 ? "," : "") << float(vector[i]) + 0.0f;  // no -0
     return out.str();
 }
 
 /// A vertex as OBJ has it, but with values in place of indices.
-std::string vertex_text(const vec3& position, const vec2* uv, const vec3* normal, int digits) {
+template <typename Uv>
+std::string vertex_text(const vec3& position, const Uv* uv, const vec3* normal, int digits) {
     std::string text = with_commas(position, digits);
     if (uv || normal) text += "/";
     if (uv) text += with_commas(*uv, digits);
@@ -319,19 +320,19 @@ TEST(Obj, MaterialsAreReadWithAllThatTheCourseUses) {
     EXPECT_EQ(all.illumination, 1);
     EXPECT_EQ(all.diffuse_map.file, folder / "wood.png");
     EXPECT_EQ(all.specular_map.file, folder / "shine map.png");
-    EXPECT_EQ(all.specular_map.offset, vec3(1, 2, 3));
-    EXPECT_EQ(all.specular_map.scale, vec3(4, 5, 6));
+    EXPECT_EQ(all.specular_map.offset, dvec3(1, 2, 3));
+    EXPECT_EQ(all.specular_map.scale, dvec3(4, 5, 6));
     EXPECT_TRUE(all.specular_map.clamp);
     EXPECT_EQ(all.opacity_map.file, folder / "./masks/leaf.png");
     EXPECT_EQ(all.bump_map.file, folder / "height map.png");
     EXPECT_EQ(all.bump_map.bump_multiplier, 0.5f);
     EXPECT_EQ(all.normal_map.file, folder / "normal.png");
-    EXPECT_EQ(all.normal_map.scale, vec3(2, 1, 1));
+    EXPECT_EQ(all.normal_map.scale, dvec3(2, 1, 1));
 
     const Material& clear = scene.materials[3];
     EXPECT_EQ(clear.opacity, 0.25f);
     EXPECT_EQ(clear.diffuse_map.file, "/textures/absolute.png");
-    EXPECT_EQ(clear.bump_map.offset, vec3(0.5f, 0.25f, 0));
+    EXPECT_EQ(clear.bump_map.offset, dvec3(0.5, 0.25, 0));
     EXPECT_FALSE(clear.bump_map.clamp);
 
     const Material& limits = scene.materials[4];
@@ -545,7 +546,7 @@ TEST(Obj, EachOfSeveralMeshesHasTheElementsThatItUses) {
     const Scene scene = load_obj(data / "good/elements_between_groups.obj");
     ASSERT_EQ(scene.meshes.size(), 2u);
     EXPECT_EQ(scene.meshes[0].positions.size(), 3u);
-    EXPECT_EQ(scene.meshes[0].uvs, std::vector<vec2>{vec2(1)});
+    EXPECT_EQ(scene.meshes[0].uvs, std::vector<dvec2>{dvec2(1)});
     EXPECT_EQ(scene.meshes[0].normals.size(), 0u);
     EXPECT_EQ(scene.meshes[1].uvs.size(), 0u);
     EXPECT_EQ(scene.meshes[1].normals.size(), 1u);

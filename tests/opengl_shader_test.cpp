@@ -58,7 +58,7 @@ std::vector<OpenGlPart> parts_of(const Scene& scene) {
             if (parts.empty() || parts.back().material != triangle.material)
                 parts.push_back({triangle.material});
             const std::array<vec2, 3> uvs =
-                uvs_of(mesh, triangle, scene.materials[triangle.material].diffuse_map);
+                uvs_of(mesh, triangle, scene.materials[triangle.material].diffuse_map, nullptr);
             for (std::size_t i = 0; i < 3; ++i) {
                 const Vertex& vertex = triangle.vertices[i];
                 parts.back().vertices.push_back({mesh.positions[vertex.position],

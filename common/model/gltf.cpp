@@ -361,7 +361,8 @@ Vertex GltfReader::add_vertex(const Arrays& arrays, std::uint32_t element, const
     if (arrays.uvs) {
         const dvec4 uv = arrays.uvs->vector(element);
         vertex.uv = static_cast<std::uint32_t>(mesh_.uvs.size());
-        mesh_.uvs.push_back(vec2(narrowed({uv.x, 1 - uv.y, 0}, where_ + ": a TEXCOORD")));
+        mesh_.uvs.emplace_back(uv.x, 1 - uv.y);
+        narrowed({mesh_.uvs.back(), 0}, where_ + ": a TEXCOORD");
     }
     if (arrays.normals) {
         const dvec3 normal = place.world_from_normal * dvec3(arrays.normals->vector(element));

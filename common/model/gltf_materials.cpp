@@ -161,8 +161,9 @@ TextureMap MaterialMaker::map_of(int texture, const tinygltf::ExtensionMap& exte
         };
         const dvec2 offset = numbers("offset", 0), scale = numbers("scale", 1);
         // There v points down: 1 - v becomes (1 - v) s + o, and v becomes v s + (1 - s - o).
-        map.scale = {finite(scale.x, "scale"), finite(scale.y, "scale"), 1};
-        map.offset = {finite(offset.x, "offset"), finite(1 - scale.y - offset.y, "offset"), 0};
+        finite(glm::length(scale), "scale"), finite(glm::length(offset), "offset");
+        map.scale = {scale, 1};
+        map.offset = {offset.x, 1 - scale.y - offset.y, 0};
         if (transform->Has("texCoord"))
             warn(std::string(which) +
                  ": KHR_texture_transform's own set of texture coordinates is "

@@ -70,7 +70,7 @@ struct Bounds {
 struct Mesh {
     std::string name;
     std::vector<vec3> positions;  ///< Model space.
-    std::vector<vec2> uvs;        ///< v points up, as in OBJ.
+    std::vector<dvec2> uvs;       ///< v points up, as in OBJ; they may be far from 0.
     std::vector<vec3> normals;    ///< Model space, as in the file: perhaps not of unit length.
     std::vector<vec4> colors{};   ///< Of the positions, linear, with opacity, 0 to 1; empty: white.
     std::vector<vec4> tangents{};  ///< Of the normals, with handedness; empty until lesson 08.
@@ -94,8 +94,8 @@ struct TextureMap {
     std::filesystem::path file;     ///< Ready to open; empty when there is no map.
     std::filesystem::path library;  ///< The material library, or glTF file, that names it.
     std::size_t line = 0;           ///< Of that library, from 1; 0: none in particular.
-    vec3 offset{0.0f};              ///< -o, in uv.
-    vec3 scale{1.0f};               ///< -s, in uv.
+    dvec3 offset{0.0};              ///< -o, in uv.
+    dvec3 scale{1.0};               ///< -s, in uv.
     float bump_multiplier = 1.0f;   ///< -bm, or the scale of a glTF normal map.
     bool clamp = false;             ///< -clamp on.
     bool mirror = false;            ///< Every other copy is mirrored; only where `clamp` is off.

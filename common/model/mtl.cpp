@@ -38,8 +38,8 @@ bool changes_nothing(std::string_view keyword) {
 }
 
 /// Up to three numbers of an option; the picture's name follows them.
-vec3 read_option_vector(const StatementReader& in, std::string_view& words, vec3 vector) {
-    vector.x = static_cast<float>(read_number(in, next_word(words)));
+dvec3 read_option_vector(const StatementReader& in, std::string_view& words, dvec3 vector) {
+    vector.x = read_number(in, next_word(words));
     for (int i = 1; i < 3; ++i) {
         std::string_view after = words;
         float number = 0;
@@ -146,11 +146,11 @@ void MaterialReader::read_map(const StatementReader& in, const Statement& statem
     for (std::string_view words = name;; name = words) {
         const std::string_view option = next_word(words);
         if (option == "-o")
-            map.offset = read_option_vector(in, words, vec3(0.0f));
+            map.offset = read_option_vector(in, words, dvec3(0));
         else if (option == "-s")
-            map.scale = read_option_vector(in, words, vec3(1.0f));
+            map.scale = read_option_vector(in, words, dvec3(1));
         else if (option == "-t")
-            read_option_vector(in, words, vec3(0.0f));
+            read_option_vector(in, words, dvec3(0));
         else if (option == "-bm")
             map.bump_multiplier = static_cast<float>(read_number(in, next_word(words)));
         else if (option == "-clamp")

@@ -80,7 +80,7 @@ class ObjReader {
 
     std::vector<dvec3> positions_world_;
     std::vector<vec3> positions_, normals_;  ///< Positions: relative to the scene's origin.
-    std::vector<vec2> uvs_;
+    std::vector<dvec2> uvs_;
     std::vector<vec4> colors_;                   ///< Of the positions, as written, opaque; 0: none.
     std::size_t colors_line_ = 0;                ///< Of the first number above 1.
     std::uint32_t smoothing_ = smooth_by_angle;  ///< The current smoothing group.
@@ -123,7 +123,7 @@ void ObjReader::read_statement(const Statement& statement) {
     if (keyword == "v")
         read_position(statement);
     else if (keyword == "vt")
-        append(uvs_, read_vector<2>(in_, statement, 1, 3), kinds_[1]);
+        append(uvs_, read_vector<2, double>(in_, statement, 1, 3), kinds_[1]);
     else if (keyword == "vn")
         append(normals_, read_vector<3>(in_, statement), kinds_[2]);
     else if (keyword == "f")

@@ -47,7 +47,7 @@ static Image<vec3> render(const Options& options, const Assets& assets, CounterP
         const vec3 face_color = flat_color(projected.mesh, projected.triangle, material);
         const Texture* const texture = textures[projected.triangle.material].get();
         const std::array<vec2, 3> uvs =
-            uvs_of(projected.mesh, projected.triangle, material.diffuse_map);
+            uvs_of(projected.mesh, projected.triangle, material.diffuse_map, texture);
         MappedBarycentrics mapped(options.texture, projected.on_screen, projected.clipped);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {

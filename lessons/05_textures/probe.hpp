@@ -134,7 +134,7 @@ PixelProbe texture_probe(const Options& options, const Assets& assets) {
         report.line("flat colour", color);
         if (const Texture* const texture = assets.textures[triangle.material].get()) {
             const FragmentUv uv =
-                fragment_uv(uvs_of(mesh, triangle, material.diffuse_map), on_surface);
+                fragment_uv(uvs_of(mesh, triangle, material.diffuse_map, texture), on_surface);
             color *= vec3(report_sample(report, "texture", *texture, options.texture.filter, uv));
         }
         return color;

@@ -46,11 +46,13 @@ inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTexture
                             .positions_world = {},
                             .normals_world = {}};
     if (surface.effects[Effect::texture])
-        surface.uvs = uvs_of(mesh, triangle, surface.material.diffuse_map);
+        surface.uvs = uvs_of(mesh, triangle, surface.material.diffuse_map, surface.texture);
     if (surface.effects[Effect::specular_map])
-        surface.specular_uvs = uvs_of(mesh, triangle, surface.material.specular_map);
+        surface.specular_uvs =
+            uvs_of(mesh, triangle, surface.material.specular_map, surface.specular_texture);
     if (surface.effects[Effect::emission_map])
-        surface.emission_uvs = uvs_of(mesh, triangle, surface.material.emission_map);
+        surface.emission_uvs =
+            uvs_of(mesh, triangle, surface.material.emission_map, surface.emission_texture);
     for (std::size_t v = 0; v < 3; ++v) {
         const Vertex& vertex = triangle.vertices[v];
         surface.positions_world[v] = mesh.positions[vertex.position];

@@ -57,7 +57,8 @@ inline void make_tangents(Scene& scene, const NormalMaps& maps, const NormalMapV
                                    maps.spaces[triangle.material] == MapSpace::tangent;
                         }))
             mesh.tangents = vertex_tangents(mesh, [&](const Triangle& triangle) {
-                return uvs_of(mesh, triangle, normal_map_of(scene.materials[triangle.material]));
+                return exact_uvs_of(mesh, triangle,
+                                    normal_map_of(scene.materials[triangle.material]));
             });
 }
 

@@ -68,7 +68,7 @@ inline TriangleNormalMap triangle_normal_map(const NormalMapVariant& variant, co
     map.space = maps.spaces[material];
     map.side = projected.is_back_facing ? -1.0f : 1.0f;
     map.bump_multiplier = named.bump_multiplier;
-    map.uvs = uvs_of(projected.mesh, projected.triangle, named);
+    map.uvs = uvs_of(projected.mesh, projected.triangle, named, map.texture);
     if (map.space == MapSpace::object) return map;
     float handedness = 1;
     if (variant.frame == FrameOf::vertex) {

@@ -22,8 +22,8 @@ namespace rasterbook {
 
 /// What one vertex adds to the tangent that it shares with others.
 struct TangentShare {
-    std::array<std::uint32_t, 9> key;  ///< Those with the same bits share a tangent.
-    std::uint32_t normal;              ///< Index of the vertex's normal.
+    std::array<std::uint32_t, 11> key;  ///< Those with the same bits share a tangent.
+    std::uint32_t normal;               ///< Index of the vertex's normal.
     std::array<std::int64_t, 3> share;
 };
 
@@ -35,20 +35,21 @@ struct TangentShare {
 /// @param uvs   Of the triangle's vertices.
 /// @return      A share of 0 where nothing of the tangent is perpendicular to the normal.
 inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
-                                  const std::array<vec2, 3>& uvs, std::size_t vertex) {
+                                  const std::array<dvec2, 3>& uvs, std::size_t vertex) {
     const std::size_t next = (vertex + 1) % 3, last = (vertex + 2) % 3;
     const auto position = [&](std::size_t i) {
         return mesh.positions[triangle.vertices[i].position];
     };
     // Seen from this vertex, as if it were the first one.
-    const auto [tangent, bitangent, handedness] = uv_directions(
+    const auto [tangent, bitangent, handedness] = uv_directions<dvec2>(
         {position(vertex), position(next), position(last)}, {uvs[vertex], uvs[next], uvs[last]});
     const std::uint32_t normal = triangle.vertices[vertex].normal;
     const vec3 p = position(vertex), n = mesh.normals[normal];
-    const vec2 uv = uvs[vertex];
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
-    TangentShare own{{bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z), bits(uv.x),
-                      bits(uv.y), handedness < 0 ? 1u : 0u},
+    const auto [u, v] =
+        std::bit_cast<std::array<std::array<std::uint32_t, 2>, 2>>(uvs[vertex] + 0.0);
+    TangentShare own{{bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z), u[0], u[1],
+                      v[0], v[1], handedness < 0 ? 1u : 0u},
                      normal,
                      {0, 0, 0}};
     const vec3 left = across(tangent, n);
@@ -68,7 +69,7 @@ inline TangentShare tangent_share(const Mesh& mesh, const Triangle& triangle,
 /// count, so that the sum stays in range.
 ///
 /// @param mesh    As complete_normals() leaves it: each vertex has a normal of its own.
-/// @param uvs_of  Called as uvs_of(triangle); gives std::array<vec2, 3>.
+/// @param uvs_of  Called as uvs_of(triangle); gives three dvec2, or vec2.
 /// @return        For each of the mesh's normals: tangent, of length 1 and perpendicular to the
 ///                normal, and handedness, that of the triangles, -1 or 1; 1 where theirs is 0.
 ///                Where no triangle adds anything, the tangent is any_orthogonal().
@@ -76,9 +77,11 @@ template <std::invocable<const Triangle&> UvsOf>
 std::vector<vec4> vertex_tangents(const Mesh& mesh, UvsOf&& uvs_of) {
     std::vector<TangentShare> shares;
     shares.reserve(3 * mesh.triangles.size());
-    for (const Triangle& triangle : mesh.triangles)
+    for (const Triangle& triangle : mesh.triangles) {
+        const auto [a, b, c] = uvs_of(triangle);
         for (std::size_t vertex = 0; vertex < 3; ++vertex)
-            shares.push_back(tangent_share(mesh, triangle, uvs_of(triangle), vertex));
+            shares.push_back(tangent_share(mesh, triangle, {dvec2(a), dvec2(b), dvec2(c)}, vertex));
+    }
     std::sort(shares.begin(), shares.end(),
               [](const TangentShare& a, const TangentShare& b) { return a.key < b.key; });
 

@@ -166,7 +166,7 @@ void add_meshes(const std::string& name, const std::string& model) {
         triangles += static_cast<double>(mesh.triangles.size());
         bytes += static_cast<double>(
             mesh.positions.size() * sizeof(vec3) + mesh.normals.size() * sizeof(vec3) +
-            mesh.uvs.size() * sizeof(vec2) + mesh.vertices.size() * sizeof(Vertex) +
+            mesh.uvs.size() * sizeof(dvec2) + mesh.vertices.size() * sizeof(Vertex) +
             mesh.faces.size() * sizeof(Face) + mesh.triangles.size() * sizeof(Triangle));
     }
     const auto add = [&](const std::string& how, double copied, auto function) {

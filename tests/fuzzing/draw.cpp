@@ -129,7 +129,7 @@ Mesh any_mesh(Numbers& numbers, const Scene& scene) {
     const int points = numbers.whole(3, 9), uvs = numbers.whole(0, 4),
               normals = numbers.whole(0, 3);
     mesh.positions = several<vec3>(points, [&] { return numbers.any_vector(); });
-    mesh.uvs = several<vec2>(uvs, [&] { return vec2(numbers.any_vector()); });
+    mesh.uvs = several<dvec2>(uvs, [&] { return dvec2(numbers.any_vector()); });
     mesh.normals = several<vec3>(normals, [&] { return numbers.any_vector(); });
     if (scene.is_gltf && numbers.flag())
         mesh.colors =

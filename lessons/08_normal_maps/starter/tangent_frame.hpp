@@ -31,10 +31,10 @@ struct UvDirections {
 /// @return  As exact for tiny triangles as for huge ones. The sides are taken from the first
 ///          vertex: another one that comes first changes roundings. All is computed in double, with
 ///          an error of 2^-51 times (|e1 v2| + |e2 v1|) / |v2 e1 - v1 e2|, and then rounded to
-///          float. The handedness is exact where the differences of the uvs are: between numbers
+///          float. The handedness is exact where the differences of the uvs are: between floats
 ///          that are 0 or less than 2^29 times each other.
-inline UvDirections uv_directions(const std::array<vec3, 3>& positions,
-                                  const std::array<vec2, 3>& uvs) {
+template <typename Uv = vec2>
+UvDirections uv_directions(const std::array<vec3, 3>& positions, const std::array<Uv, 3>& uvs) {
     // TODO: step 2: Eq. 8.3. Convert to double first, dvec3(positions[1]) and so on: products of
     // floats may overflow or vanish. normalize_or() with dvec3(0) scales to length 1. Robust: the
     // determinant by difference_of_products(); where it is 0 or not finite, {}. Step 3: the
