@@ -278,7 +278,6 @@ TEST(Phong, HardCase_WhereThousandsOfFacesMeetASheetKeepsItsTwoSides) {
 }
 
 TEST(Phong, Eq6_9_HardCase_SmoothingGroupsDecideAndMeshesDoNot) {
-    look_up("Eq. 6.9");
     // A ball's triangles in any smoothing groups, and dealt out to any meshes of one file.
     const Mesh whole = ball(6);
     std::mt19937 random(16);

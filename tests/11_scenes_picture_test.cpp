@@ -404,6 +404,7 @@ TEST(SceneFiles, Eq11_10_HardCase_EqualVertexColorsAreExactEverywhere) {
 }
 
 TEST(SceneFiles, HardCase_EmissionMapsGlowInAllShadingModels) {
+    look_up("Eq. 11.3");
     // White on the left and black on the right, over colours that reflect nothing.
     Image<u8vec3> halves({2, 1}, {255, 255, 255});
     halves[{1, 0}] = {0, 0, 0};
