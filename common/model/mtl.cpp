@@ -44,7 +44,7 @@ dvec3 read_option_vector(const StatementReader& in, std::string_view& words, dve
         std::string_view after = words;
         float number = 0;
         if (parse(next_word(after), number) == std::errc::invalid_argument) break;
-        vector[i] = static_cast<float>(read_number(in, next_word(words)));
+        vector[i] = read_number(in, next_word(words));
     }
     return vector;
 }
