@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -71,9 +72,9 @@ std::size_t tile_of(ivec2 pixel, Split split, ivec2 size, int workers, int side)
     if (split == Split::tiles)
         return static_cast<std::size_t>((pixel.y / side) * ((size.x + side - 1) / side) +
                                         pixel.x / side);
-    int tile = 0;
-    for (int y = 0, in_tile = 0; y < pixel.y; ++y)
-        if (++in_tile == size.y / n && tile < n - 1) ++tile, in_tile = 0;
+    int tile = 0;  // whose rows end in front of row (tile + 1) H / n, rounded down
+    for (int y = 0; y <= pixel.y; ++y)
+        while ((tile + 1) * size.y / n <= y) ++tile;
     return static_cast<std::size_t>(tile);
 }
 
@@ -95,24 +96,33 @@ ScreenTriangle any_triangle(std::mt19937& random, ivec2 size) {
 
 }  // namespace
 
-TEST(Threading, Eq10_3_EvenRowsLeaveTheRestToTheLast) {
+TEST(Threading, Eq10_3_NoWorkerHasTwoRowsMoreThanAnother) {
     // The worked example: 1080 rows, 7 workers.
     const Tiling tiling(Split::rows, {1920, 1080}, 7, 64);
     ASSERT_EQ(tiling.count(), 7u);
+    constexpr std::array first_rows = {0, 154, 308, 462, 617, 771, 925, 1080};
     for (std::size_t i = 0; i < 7; ++i) {
         const std::string where = numbered(i, tiling) + ", of 1080 rows";
-        ASSERT_EQ(tiling[i].box.first, ivec2(0, 154 * i)) << "first pixel of " << where;
-        ASSERT_EQ(tiling[i].box.last, ivec2(1919, i < 6 ? 154 * i + 153 : 1079))
-            << "last pixel of " << where << (i == 6 ? ": the rest is the last one's" : "");
+        ASSERT_EQ(tiling[i].box.first, ivec2(0, first_rows.at(i))) << "first pixel of " << where;
+        ASSERT_EQ(tiling[i].box.last, ivec2(1919, first_rows.at(i + 1) - 1))
+            << "last pixel of " << where;
         ASSERT_EQ(tiling[i].row_step, 1) << where;
     }
-    // The largest rest: 61 workers, 121 rows; one row for each, and 61 for the last.
-    const Tiling uneven(Split::rows, {10, 121}, 61, 64);
-    const char* const what =
-        "121 rows, 61 workers: one row for each, and the last one has the rest";
-    EXPECT_EQ(uneven[59].box.last.y, 59) << what;
-    EXPECT_EQ(uneven[60].box.first.y, 60) << what;
-    EXPECT_EQ(uneven[60].box.last.y, 120) << what;
+    for (const auto& [rows, workers] :
+         {std::pair{1023, 256}, {121, 61}, {16384, 1024}, {1'000'000, 1023}}) {
+        const Tiling even(Split::rows, {10, rows}, static_cast<std::size_t>(workers), 64);
+        for (std::size_t i = 0; i < even.count(); ++i) {
+            const auto [first, last] = even[i].box;
+            const int height = last.y - first.y + 1;
+            ASSERT_TRUE(height == rows / workers || height == rows / workers + 1)
+                << "rows of " << numbered(i, even) << ", of " << rows << ": " << height;
+            for (const int y : {first.y, last.y})
+                even.for_each_in({{0, y}, {0, y}}, [&](std::size_t of) {
+                    ASSERT_EQ(of, i) << "whose row " << y << " is, of " << rows << " rows and "
+                                     << workers << " workers";
+                });
+        }
+    }
 }
 
 TEST(Threading, Eq10_4_InterleavedRowsGoRound) {

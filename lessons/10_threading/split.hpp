@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "02_triangle_fill/triangle.hpp"
@@ -102,8 +103,7 @@ class Tiling {
             const ivec2 first = tile_size_ * ivec2(column, row);
             return {{first, glm::min(first + (tile_size_ - 1), end)}};
         }
-        const int height = size_.y / rows_;  // Eq. 10.3
-        return {{{0, row * height}, {end.x, row + 1 < rows_ ? (row + 1) * height - 1 : end.y}}};
+        return {{{0, first_row(row)}, {end.x, first_row(row + 1) - 1}}};
     }
 
     /// Calls take(tile) once for each tile that a triangle may reach into: of a large one in each
@@ -127,8 +127,10 @@ class Tiling {
                 take(static_cast<std::size_t>(y % rows_));
             return;
         }
-        const int height = split_ == Split::tiles ? tile_size_ : size_.y / rows_;
-        const auto row_of = [&](int y) { return std::min(y / height, rows_ - 1); };
+        const auto row_of = [&](int y) {
+            if (split_ == Split::tiles) return y / tile_size_;
+            return static_cast<int>(((std::int64_t{y} + 1) * rows_ - 1) / size_.y);  // Eq. 10.3
+        };
         const auto column_of = [&](int x) { return split_ == Split::tiles ? x / tile_size_ : 0; };
         for (int row = row_of(first.y); row <= row_of(last.y); ++row)
             for (int column = column_of(first.x); column <= column_of(last.x); ++column)
@@ -137,6 +139,11 @@ class Tiling {
     }
 
   private:
+    /// Of one worker's rows (Eq. 10.3).
+    int first_row(int worker) const {
+        return static_cast<int>(std::int64_t{worker} * size_.y / rows_);
+    }
+
     Split split_;
     ivec2 size_;
     int tile_size_;

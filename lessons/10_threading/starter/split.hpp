@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "02_triangle_fill/triangle.hpp"
@@ -111,6 +112,12 @@ class Tiling {
     }
 
   private:
+    /// Of one worker's rows (Eq. 10.3).
+    int first_row(int worker) const {
+        // TODO: step 1: Eq. 10.3; the product may need 64 bits.
+        return worker - worker;
+    }
+
     Split split_;
     ivec2 size_;
     int tile_size_;
