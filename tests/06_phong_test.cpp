@@ -272,6 +272,41 @@ TEST(Phong, Eq6_5_LightsInAnyOrder) {
     }
 }
 
+TEST(Phong, Eq6_5_VisibilityIsAskedOnlyWhereTheLightCounts) {
+    Directions directions(8);
+    int asked_at = 0, turned_away = 0, beside_cone = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Light light = directions.light();
+        const SurfacePoint<float> point{directions.vector(), directions.direction(), up};
+        const dvec3 to_light = dvec3(light.position_world) - dvec3(point.position_world);
+        const bool is_sun = light.kind == LightKind::directional;
+        const dvec3 toward = is_sun ? dvec3(light.direction_world) : glm::normalize(to_light);
+        const double cosine = glm::dot(toward, dvec3(point.normal_world));
+        const double from_axis = -glm::dot(toward, dvec3(light.direction_world));
+        const bool is_spot = light.kind == LightKind::spot;
+        if (std::abs(cosine) < 1e-5 || std::abs(from_axis - light.cos_none) < 1e-4) continue;
+        int times = 0;
+        reflected_light(std::span(&light, 1), point, PhongHighlight{true, 8}, [&](std::size_t) {
+            ++times;
+            return 1.0f;
+        });
+        const bool is_in_cone = !is_spot || from_axis > light.cos_none;
+        ASSERT_EQ(times, cosine > 0 && is_in_cone ? 1 : 0)
+            << "times that the light's visibility is asked for; N.L = " << cosine
+            << (is_in_cone ? "" : ", outside of the cone") << "; seed 8, case " << i;
+        asked_at += times, turned_away += cosine < 0, beside_cone += cosine > 0 && !is_in_cone;
+    }
+    EXPECT_GT(asked_at, 500);
+    EXPECT_GT(turned_away, 500);
+    EXPECT_GT(beside_cone, 50);
+    const Light black{LightKind::directional, vec3(0), up};
+    reflected_light(std::span(&black, 1), SurfacePoint<float>{vec3(0), up, up},
+                    PhongHighlight{true, 8}, [](std::size_t) {
+                        ADD_FAILURE() << "a black light's visibility";
+                        return 1.0f;
+                    });
+}
+
 TEST(Phong, Eq6_5_TwoLightsAddUp) {
     Directions any(5);
     for (int i = 0; i < 10'000; ++i) {

@@ -452,7 +452,7 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                 // Few of the lanes may be pixels; the others repeat the last one.
                 const int pixels = dice.one_in(2) ? N : 1 + static_cast<int>(dice.below(N));
                 const bool is_small = dice.one_in(2), are_special = dice.one_in(3),
-                           have_one_side = dice.one_in(2);
+                           have_one_side = dice.one_in(2), ask_all = dice.one_in(2);
                 const vec3 one_normal = dice.in_cube(1);
                 std::array<vec3, std::size_t(N)> points, normals;
                 for (int i = 0; i < N; ++i) {
@@ -479,11 +479,18 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                 }
                 for (std::size_t l = 0; l < lights.size(); ++l) {
                     LaneCounters<Counters> lanes{counts, pixels};
-                    const Floats<N> actual = light_visibility(now, l, in_slots, in_lanes<N>(points),
-                                                              in_lanes<N>(normals), lanes);
+                    Mask<N> points_asked = first_lanes<Floats<N>>(N);
+                    for (int i = 0; i < pixels; ++i)
+                        points_asked.lanes[i] = ask_all || dice.one_in(2) ? -1 : 0;
+                    for (int i = pixels; i < N; ++i)
+                        points_asked.lanes[i] = points_asked.lanes[pixels - 1];
+                    const Floats<N> actual =
+                        light_visibility(now, l, in_slots, in_lanes<N>(points),
+                                         in_lanes<N>(normals), points_asked, lanes);
                     std::array<bool, 2> sides{};
                     std::array<bool, 6> faces{};
                     for (int i = 0; i < pixels; ++i) {
+                        if (!points_asked[i]) continue;
                         const vec3 point = points.at(std::size_t(i)),
                                    normal = normals.at(std::size_t(i));
                         const float expected =

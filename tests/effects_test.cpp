@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: MIT
 // An effect that a scene does not call for costs no work, and would change nothing.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "common/image/bmp.hpp"
 #include "support/lesson_06.hpp"
 #include "support/lesson_07.hpp"
 #include "support/lesson_08.hpp"
 #include "support/lesson_09.hpp"
+#include "support/lesson_11.hpp"
+#include "support/lessons_12_and_13.hpp"
 #include "support/pictures.hpp"
+#include "support/squares.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -57,6 +66,72 @@ Drawn drawn_scene(const Scene& scene, const lesson_08::Options& options) {
 Drawn drawn_scene(const Scene& scene, const lesson_09::Options& options) {
     return drawn(options, lesson_09::make_assets(scene, options),
                  [](auto&... arguments) { return lesson_09::render(arguments...); });
+}
+
+/// Lesson 13, of which lessons 11 and 12 take what they know.
+lesson_13::Options small_scene() {
+    lesson_13::Options options = small(lesson_13::Options());
+    options.size = {240, 240}, options.shadow.size = 256, options.threads.tile = 32;
+    return options;
+}
+
+Drawn drawn_by_11(const SceneAssets& assets, const lesson_11::Options& options) {
+    ThreadPool pool(2);
+    StepClock clock;
+    return drawn(options, assets, [&](const auto& of, const auto& with, Counters& counters) {
+        return lesson_11::render(of, with, pool, counters, clock);
+    });
+}
+
+Drawn drawn_scene(const Scene& scene, const lesson_11::Options& options) {
+    return drawn_by_11(make_scene_assets(scene, options), options);
+}
+
+/// Calls check(drawn) for a scene as lessons 11 and 12 draw it, and lesson 13 in each width.
+template <typename Check>
+void for_each_lesson(const Scene& scene, const Check& check) {
+    lesson_13::Options options = small_scene();
+    const SceneAssets assets = make_scene_assets(scene, options);
+    ThreadPool pool(2);
+    const Drawn by_11 = drawn_by_11(assets, options);
+    const auto checked = [&](const std::string& lesson, const Drawn& one) {
+        SCOPED_TRACE("lesson " + lesson);
+        check(one);
+        EXPECT_TRUE(are_the_same_bits(one.picture, by_11.picture)) << "as lesson 11 draws it";
+    };
+    checked("11", by_11);
+    checked("12", drawn_by_12(options, assets, pool));
+    for (const int width : {1, 4, 8, 16}) {
+        options.wide.width = width;
+        checked("13 of width " + std::to_string(width), drawn_by_13(options, assets, pool));
+    }
+}
+
+/// A texture of two texels.
+TextureMap texture_of(u8vec3 left, u8vec3 right) {
+    Image<u8vec3> image({2, 1});
+    image[{0, 0}] = left, image[{1, 0}] = right;
+    TextureMap map;
+    map.file = "two texels";
+    map.embedded = std::make_shared<const Bytes>(encode_bmp(image, map.file));
+    return map;
+}
+
+/// A white square that is black without light.
+Squares lit_square(const SceneLight& light) {
+    Squares squares;
+    Material& white = squares.add(0, vec3(1));
+    white.illumination = 1, white.ambient = vec3(0);
+    squares.scene.lights = {light};
+    squares.scene.is_gltf = true;
+    return squares;
+}
+
+SceneLight spotlight(vec3 position, vec3 direction, float angle_degrees) {
+    const float outer = std::cos(glm::radians(angle_degrees));
+    SceneLight light{"spot", SceneLight::Kind::spot, vec3(3), position, direction, 100};
+    light.cos_none = outer, light.cos_full = 0.5f * (1 + outer);
+    return light;
 }
 
 /// Forced as the lessons do it themselves.
@@ -139,4 +214,26 @@ TEST(Effects, ThatAreNotCalledForTakeNoWorkAndWouldChangeNothing) {
         }
         EXPECT_TRUE(are_the_same_bits(as_called_for.picture, forced.picture));
     }
+}
+
+TEST(Effects, AShadowTestIsMadeOnlyWhereALightCounts) {
+    // The square is black in each pixel where no light counts: outside of a spotlight's cone, and
+    // where a normal map turns it away from the sun.
+    const SceneLight spot = spotlight({0.2f, 0.1f, 2}, {0, 0, -1}, 18);
+    const SceneLight sun{"sun", SceneLight::Kind::directional, vec3(3), {}, {-0.8f, 0, -0.6f}, 100};
+    for (const bool is_toon : {false, true})
+        for (const SceneLight& light : {spot, sun}) {
+            SCOPED_TRACE(light.name + (is_toon ? ", toon" : ", Phong"));
+            Squares squares = lit_square(light);
+            Material& white = squares.scene.materials.back();
+            if (light.name == "sun") white.normal_map = texture_of({250, 128, 160}, {5, 128, 160});
+            if (is_toon) white.toon = ToonMaterial{.shade = vec3(0), .toony = 0.9f};
+            for_each_lesson(squares.scene, [&](const Drawn& drawn) {
+                const auto lit = static_cast<std::uint64_t>(std::ranges::count_if(
+                    drawn.picture.pixels(), [](vec3 c) { return c != vec3(0); }));
+                EXPECT_EQ(drawn.count(Counter::shadow_tests), lit) << "pixels that are not black";
+                EXPECT_GT(lit, 5000u);
+                EXPECT_LT(lit, 50'000u) << "of 57,600: else this could not fail";
+            });
+        }
 }

@@ -115,7 +115,7 @@ Results<F> shade(const Common& common, const Fragment<F>& f) {
     }
     const LightSum<F> sum =
         reflected_light(std::span<const Light>(common.lights), point, common.highlight,
-                        [&](std::size_t l) { return f.visibility[l]; });
+                        [&](std::size_t l, auto...) { return f.visibility[l]; });
     const LightSum<F> unshadowed =
         reflected_light(std::span<const Light>(common.lights), point, common.highlight);
     results.add("diffuse", sum.diffuse), results.add("specular", sum.specular);

@@ -53,6 +53,17 @@ constexpr F clamp(F x, F low, F high) {
     return min(max(x, low), high);
 }
 
+/// What a function gives for one point. Of several points, it is told by a mask for which of them:
+/// what it gives for the others is of no meaning.
+template <typename Function, typename... Arguments>
+constexpr auto call_where(bool, const Function& function, const Arguments&... arguments) {
+    return function(arguments...);
+}
+template <typename Mask, typename Function, typename... Arguments>
+constexpr auto call_where(Mask mask, const Function& function, const Arguments&... arguments) {
+    return function(arguments..., mask);
+}
+
 inline float sqrt(float x) { return std::sqrt(x); }
 inline float floor(float x) { return std::floor(x); }
 

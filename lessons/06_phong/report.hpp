@@ -82,7 +82,7 @@ void report_lights(PixelReport& report, std::span<const Light> lights,
                             words(highlight.shininess),
                         "Eq. 6.3");
         LightSum<float> added;
-        add_light(added, light, point, visibility(l), highlight);
+        add_light(added, light, point, [&] { return visibility(l); }, highlight);
         report.line("  adds diffuse", added.diffuse);
         if (added.specular != vec3(0)) report.line("  adds specular", added.specular);
     }

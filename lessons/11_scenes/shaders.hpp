@@ -141,10 +141,10 @@ Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBaryce
                                    frame.filter, counters);
         const SurfacePoint<F> point =
             surface_point(surface, at.here, normal, frame.eye_world, counters);
-        const auto visibility = [&](std::size_t l) {
+        const auto visibility = [&](std::size_t l, auto... mask) {
             if constexpr (with.shadow)
                 return light_visibility(frame.shadow_maps, l, inputs.receiver, point.position_world,
-                                        own_normal, counters);
+                                        own_normal, mask..., counters);
             else
                 return F(1.0f);
         };

@@ -35,8 +35,9 @@ F toon_step(F cosine, const ToonMaterial& look) {
 /// there: so a picture in one light has two colours for each paint, and the ramp between them.
 ///
 /// @param normal_world  Of any length. Without a direction, all lights graze it: the cosine is 0.
-/// @param share         Called as share(l): the visibility of light l, 0 to 1. From a half on it is
-///                      taken for 1, else for 0: a drawing's shadows have edges.
+/// @param share         Called as share(l), only where the light counts: its visibility, 0 to 1.
+///                      From a half on it is taken for 1, else for 0: a drawing's shadows have
+///                      edges. For several points at once, called as share(l, mask).
 /// @return  0 to 1; 0 where no light arrives.
 template <typename F, typename Share>
 F toon_level(std::span<const Light> lights, Vec3<F> position_world, Vec3<F> normal_world,
@@ -47,8 +48,9 @@ F toon_level(std::span<const Light> lights, Vec3<F> position_world, Vec3<F> norm
         const Incoming incoming = incoming_light(lights[l], position_world);
         const F arriving = brightness(incoming.color);
         brightest = max(arriving, brightest);
-        const F step = toon_step(glm::dot(normal, incoming.toward), look);
-        sum += select(F(share(l)) >= F(0.5f), arriving * step, F(0.0f));
+        const F lit = arriving * toon_step(glm::dot(normal, incoming.toward), look);
+        const auto counts = lit > F(0.0f);
+        if (any_of(counts)) sum += select(F(call_where(counts, share, l)) >= F(0.5f), lit, F(0.0f));
     }
     return select(brightest > F(0.0f), min(sum / brightest, F(1.0f)), F(0.0f));
 }

@@ -183,10 +183,13 @@ Mask<N> is_behind(dvec3 front, const Vec3<Floats<N>>& normal) {
 
 /// As light_visibility() of lesson 12. All points that are in one map are asked for together;
 /// mostly that is all of them.
+///
+/// @param asked  For which points; of the others, no map is asked.
 template <int N, typename CounterPolicy>
 Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
                            const LaneReceivers<N>& triangles, const Vec3<Floats<N>>& position,
-                           const Vec3<Floats<N>>& normal, LaneCounters<CounterPolicy>& counters) {
+                           const Vec3<Floats<N>>& normal, Mask<N> asked,
+                           LaneCounters<CounterPolicy>& counters) {
     using F = Floats<N>;
     const ShadowMaps& shadow_maps = on_demand.maps();
     const LightShadowMaps& of_light = shadow_maps.of_light[l];
@@ -206,7 +209,7 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
         map_of_lane.set(i, static_cast<int>(of_light.map_of_view[cube_face(
                                vec3(from_light.x[i], from_light.y[i], from_light.z[i]))]));
     Mask<N> left =
-        faces_light & !(map_of_lane == Ints<N>(static_cast<int>(LightShadowMaps::no_map)));
+        asked & faces_light & !(map_of_lane == Ints<N>(static_cast<int>(LightShadowMaps::no_map)));
     counters.total.add(Counter::shadow_tests,
                        static_cast<std::uint64_t>(count_of(left & first_lanes<F>(counters.lanes))));
     while (any_of(left)) {

@@ -65,24 +65,30 @@ using ReflectedLight = LightSum<float>;
 /// Adds one light: diffuse (Eq. 6.1), and as a highlight (Eq. 6.3). A surface that is turned away,
 /// N.L <= 0, gets nothing.
 ///
-/// @param visibility  0 to 1: how much of the light reaches the point; 1 without shadows.
+/// @param visibility  Called as visibility(), and only where the light counts: where N.L > 0 and
+///                    some of it arrives. 0 to 1: how much of it reaches the point. For several
+///                    points at once, as visibility(mask).
 /// @param highlight   PhongHighlight, or another that is called as it is.
-template <typename F, typename Highlight>
-void add_light(LightSum<F>& sum, const Light& light, const SurfacePoint<F>& point, F visibility,
-               const Highlight& highlight) {
-    // TODO: what incoming_light() gives, times `visibility`, by Eq. 6.1; and, where N.L > 0 and
-    // highlight.is_on, times highlight(point, the direction to the light).
+template <typename F, typename Visibility, typename Highlight>
+void add_light(LightSum<F>& sum, const Light& light, const SurfacePoint<F>& point,
+               const Visibility& visibility, const Highlight& highlight) {
+    // TODO: what incoming_light() gives, times call_where(is_lit, visibility), by Eq. 6.1; and
+    // where highlight.is_on, times highlight(point, the direction to the light). It is lit where
+    // N.L > 0 and light arrives.
 }
 
 /// The light of all lights.
 ///
-/// @param visibility  Called as visibility(l), the number of a light.
+/// @param visibility  Called as visibility(l), the number of a light, where add_light() asks for
+/// it.
 template <typename F, typename Highlight, typename Visibility>
 LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
                             const Highlight& highlight, const Visibility& visibility) {
     LightSum<F> sum;
     for (std::size_t l = 0; l < lights.size(); ++l)
-        add_light(sum, lights[l], point, F(visibility(l)), highlight);
+        add_light(
+            sum, lights[l], point, [&](auto... mask) { return F(visibility(l, mask...)); },
+            highlight);
     return sum;
 }
 
@@ -90,7 +96,7 @@ LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>
 template <typename F, typename Highlight>
 LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
                             const Highlight& highlight) {
-    return reflected_light(lights, point, highlight, [](std::size_t) { return 1.0f; });
+    return reflected_light(lights, point, highlight, [](auto...) { return 1.0f; });
 }
 
 /// The colours of a surface in one fragment; linear.

@@ -33,13 +33,14 @@ F toon_step(F cosine, const ToonMaterial& look) {
 /// there: so a picture in one light has two colours for each paint, and the ramp between them.
 ///
 /// @param normal_world  Of any length. Without a direction, all lights graze it: the cosine is 0.
-/// @param share         Called as share(l): the visibility of light l, 0 to 1. From a half on it is
-///                      taken for 1, else for 0: a drawing's shadows have edges.
+/// @param share         Called as share(l), only where the light counts: its visibility, 0 to 1.
+///                      From a half on it is taken for 1, else for 0: a drawing's shadows have
+///                      edges. For several points at once, called as share(l, mask).
 /// @return  0 to 1; 0 where no light arrives.
 template <typename F, typename Share>
 F toon_level(std::span<const Light> lights, Vec3<F> position_world, Vec3<F> normal_world,
              const ToonMaterial& look, Share&& share) {
-    // TODO: Eq. 11.5. incoming_light() and brightness() help.
+    // TODO: Eq. 11.5. incoming_light() and brightness() help, and call_where(counts, share, l).
     return F(1.0f);
 }
 
