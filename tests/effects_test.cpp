@@ -237,3 +237,19 @@ TEST(Effects, AShadowTestIsMadeOnlyWhereALightCounts) {
             });
         }
 }
+
+TEST(Effects, AlphaAndColorAreOneSampleOfTheTexture) {
+    for (const AlphaMode alpha : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
+        SCOPED_TRACE(static_cast<int>(alpha));
+        Squares squares;
+        Material& square = squares.add(0, vec3(0.8f));
+        square.alpha = alpha, square.opacity = alpha == AlphaMode::blend ? 0.7f : 1;
+        square.diffuse_map = texture_of({200, 100, 50}, {20, 220, 90});
+        squares.scene.meshes.back().colors = {vec4(1, 1, 1, 0), vec4(1), vec4(1), vec4(1, 1, 1, 0)};
+        for_each_lesson(squares.scene, [&](const Drawn& drawn) {
+            EXPECT_EQ(drawn.count(Counter::texture_samples), 57'600u) << "one for each pixel";
+            EXPECT_EQ(drawn.count(Counter::fragments_shaded),
+                      alpha == AlphaMode::mask ? 28'800u : 57'600u);
+        });
+    }
+}

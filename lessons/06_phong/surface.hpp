@@ -63,18 +63,26 @@ inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTexture
     return surface;
 }
 
-/// The colours of a fragment: the material's own, times its textures.
+/// The sample of a fragment's colour texture: linear colour and alpha, 0 to 1; without one, white.
 ///
 /// @tparam G  F, or float where all of them are of one triangle.
 template <typename F, typename G, typename CounterPolicy>
+glm::vec<4, F> texture_sample(const SurfaceInputs<G>& surface, const PerspectiveBarycentrics<F>& at,
+                              Filter filter, CounterPolicy& counters) {
+    if (!surface.effects[Effect::texture]) return glm::vec<4, F>(F(1.0f));
+    counters.add(Counter::texture_samples);
+    return sample(*surface.texture, filter, fragment_uv(surface.uvs, at));
+}
+
+/// The colours of a fragment: the material's own, times its textures.
+///
+/// @param in_texture  Of texture_sample().
+template <typename F, typename G, typename CounterPolicy>
 FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
-                               const PerspectiveBarycentrics<F>& at, Filter filter,
-                               CounterPolicy& counters) {
+                               const PerspectiveBarycentrics<F>& at, const Vec3<F>& in_texture,
+                               Filter filter, CounterPolicy& counters) {
     FragmentColor<F> color(surface.own_color);
-    if (surface.effects[Effect::texture]) {
-        counters.add(Counter::texture_samples);
-        color.tint(Vec3<F>(sample(*surface.texture, filter, fragment_uv(surface.uvs, at))));
-    }
+    if (surface.effects[Effect::texture]) color.tint(in_texture);
     if (surface.effects[Effect::specular_map]) {
         counters.add(Counter::texture_samples);
         color.specular *= Vec3<F>(
@@ -86,6 +94,15 @@ FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
             sample(*surface.emission_texture, filter, fragment_uv(surface.emission_uvs, at)));
     }
     return color;
+}
+
+/// The same, and samples the colour texture.
+template <typename F, typename G, typename CounterPolicy>
+FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
+                               const PerspectiveBarycentrics<F>& at, Filter filter,
+                               CounterPolicy& counters) {
+    const Vec3<F> in_texture(texture_sample(surface, at, filter, counters));
+    return surface_color(surface, at, in_texture, filter, counters);
 }
 
 /// A point of a surface as light falls on it.

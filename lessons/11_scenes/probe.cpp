@@ -116,9 +116,10 @@ std::optional<TransparentFragment> draw_alone(const Frame<>& frame,
 /// The alpha of a fragment, which decides whether there is a hole.
 float alpha_of(const Frame<>& frame, const SeenFragment& of) {
     NoCounters uncounted;
-    const TriangleInputs inputs = triangle_inputs(Permutation{}, frame, *of.projected);
-    return opacity_at(inputs.surface, inputs.colors,
-                      perspective_correct(inputs.setup, of.on_screen), frame.filter, uncounted);
+    const AlphaInputs inputs = alpha_inputs(frame.assets, *of.projected);
+    const FragmentBarycentrics at = perspective_correct(inputs.setup, of.on_screen);
+    return opacity_at(inputs.surface, inputs.colors, at.here,
+                      texture_sample(inputs.surface, at, frame.filter, uncounted));
 }
 
 class SceneProbe {

@@ -79,16 +79,27 @@ inline VertexColors vertex_colors(EffectMask effects, const ProjectedTriangle& p
 }
 
 /// How opaque a fragment is, 0 to 1: by the material, its texture and the vertices (Eq. 11.7).
-template <typename F, typename CounterPolicy>
-F opacity_at(const TriangleSurface& surface, const VertexColors& colors,
-             const PerspectiveBarycentrics<F>& at, Filter filter, CounterPolicy& counters) {
-    F opacity(surface.material.opacity);
-    if (surface.effects[Effect::texture]) {
-        counters.add(Counter::texture_samples);
-        opacity *= sample(*surface.texture, filter, fragment_uv(surface.uvs, at)).a;
-    }
-    if (colors.are_there) opacity *= colors.at(at.here).a;
+///
+/// @param in_texture  Of texture_sample().
+template <typename F>
+F opacity_at(const TriangleSurface& surface, const VertexColors& colors, Vec3<F> at,
+             const glm::vec<4, F>& in_texture) {
+    F opacity = F(surface.material.opacity) * in_texture.a;
+    if (colors.are_there) opacity *= colors.at(at).a;
     return clamp(opacity, F(0.0f), F(1.0f));
+}
+
+/// What the opacity of a triangle's points depends on.
+struct AlphaInputs {
+    TriangleSurface surface;
+    PerspectiveSetup setup;
+    VertexColors colors;
+};
+
+inline AlphaInputs alpha_inputs(const SceneAssets& assets, const ProjectedTriangle& projected) {
+    const EffectMask effects = assets.plan.materials[projected.triangle.material].effects;
+    return {triangle_surface(assets.scene, assets.textures, effects, projected),
+            perspective_setup(projected), vertex_colors(effects, projected)};
 }
 
 /// What a shader has to know of a triangle: the same for all of its pixels.
@@ -120,13 +131,14 @@ TriangleInputs triangle_inputs(const Permutation& with, const Frame<Maps>& frame
 /// The colour of a fragment: the stages of lessons 05 to 11, without those that the permutation
 /// lacks.
 ///
-/// @param inputs  TriangleInputs; or those of several triangles, one in each number of F.
+/// @param inputs      TriangleInputs; or those of several triangles, one in each number of F.
+/// @param in_texture  The colour of texture_sample().
 template <Permutation with, typename F, typename Maps, typename Inputs, typename CounterPolicy>
 Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBarycentrics<F>& at,
-               CounterPolicy& counters) {
+               const Vec3<F>& in_texture, CounterPolicy& counters) {
     const auto& surface = inputs.surface;
     const std::span<const Light> lights = frame.assets.lit_by.lights;
-    FragmentColor<F> own = surface_color(surface, at, frame.filter, counters);
+    FragmentColor<F> own = surface_color(surface, at, in_texture, frame.filter, counters);
     if (inputs.colors.are_there) {  // Eq. 11.10
         counters.add(Counter::colored_fragments);
         own.tint(Vec3<F>(inputs.colors.at(at.here)));
@@ -174,16 +186,17 @@ void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, con
         const float depth = projected.depth.at(on_screen);
         if (!(depth > frame.depth.depths()[pixel])) return;
         const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
+        const vec4 in_texture = texture_sample(triangle.surface, at, frame.filter, counters);
         float opacity = 1;  // of all that is neither glass nor has holes
         if (is_masked || plan.is_glass)
-            opacity = opacity_at(triangle.surface, triangle.colors, at, frame.filter, counters);
+            opacity = opacity_at(triangle.surface, triangle.colors, at.here, in_texture);
         if (is_masked) {
             counters.add(Counter::alpha_tested_fragments);
             if (!passes_alpha_test(opacity, triangle.surface.material.alpha_cutoff)) return;
             opacity = 1;
         }
         counters.add(Counter::fragments_shaded);
-        const vec3 color = shaded<with>(frame, triangle, at, counters);
+        const vec3 color = shaded<with>(frame, triangle, at, vec3(in_texture), counters);
         if (is_blended) {  // what lies behind stays visible: no depth is written
             counters.add(Counter::blended_fragments);
             transparent.add({pixel, depth, opacity, color});

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,75 +22,80 @@
 
 namespace rasterbook {
 
+/// A fragment whose colour texture has been sampled, and that is not shaded yet.
+struct FragmentToShade {
+    TransparentFragment fragment;  ///< Its colour: the sample. Its opacity: 1 unless it is glass.
+    Barycentrics on_screen;
+};
+
 /// Visits those fragments of a triangle that are nearer than what is in the depth buffer, and not
 /// in a hole.
 ///
-/// @param visit  Called as visit(pixel, on_screen, depth, opacity): the barycentric coordinates on
-///               the screen, and 1 for all that is not transparent.
+/// @param projected  Of a material that has holes or is blended.
+/// @param visit      Called as visit(FragmentToShade).
 template <typename Maps, typename CounterPolicy, typename Visit>
 void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                               const Tile& tile, CounterPolicy& counters, Visit&& visit) {
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
     const bool is_masked = plan[Effect::mask];
-    std::optional<TriangleInputs> inputs;  // of the opacity, where it is not 1
-    if (is_masked || plan.is_glass)
-        inputs.emplace(triangle_inputs(Permutation{}, frame, projected));
+    const AlphaInputs inputs = alpha_inputs(frame.assets, projected);
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         counters.add(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
         if (!(depth > frame.depth.depths()[pixel])) return;
+        const FragmentBarycentrics at = perspective_correct(inputs.setup, on_screen);
+        const vec4 in_texture = texture_sample(inputs.surface, at, frame.filter, counters);
         float opacity = 1;
-        if (inputs)
-            opacity =
-                opacity_at(inputs->surface, inputs->colors,
-                           perspective_correct(inputs->setup, on_screen), frame.filter, counters);
+        if (is_masked || plan.is_glass)
+            opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
         if (is_masked) {
             counters.add(Counter::alpha_tested_fragments);
-            if (!passes_alpha_test(opacity, inputs->surface.material.alpha_cutoff)) return;
+            if (!passes_alpha_test(opacity, inputs.surface.material.alpha_cutoff)) return;
             opacity = 1;
         }
-        visit(pixel, on_screen, depth, opacity);
+        visit(FragmentToShade{{pixel, depth, opacity, vec3(in_texture)}, on_screen});
     });
 }
 
-/// Draws depth and id of an opaque triangle, and no colour (Eq. 12.1).
+/// Draws depth and id of an opaque triangle (Eq. 12.1). Its colour is not known yet; where it has
+/// holes, the colour buffer keeps the sample of its texture until then.
 template <typename Maps, typename CounterPolicy>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
              TileVisibility& visible, CounterPolicy& counters) {
     const TriangleId id = visible.add(projected);
-    const auto write = [&](ivec2 pixel, float depth) {
-        if (frame.depth.test_and_write(pixel, depth)) visible.write(pixel, id);
-    };
     if (frame.assets.plan.materials[projected.triangle.material][Effect::mask])
-        for_each_nearer_fragment(
-            frame, projected, tile, counters,
-            [&](ivec2 pixel, Barycentrics, float depth, float) { write(pixel, depth); });
+        for_each_nearer_fragment(frame, projected, tile, counters, [&](const FragmentToShade& of) {
+            const auto& [pixel, depth, opacity, in_texture] = of.fragment;
+            frame.depth.test_and_write(pixel, depth);
+            visible.write(pixel, id);
+            frame.color[pixel] = in_texture;
+        });
     else
         fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
             counters.add(Counter::fragments_tested);
-            write(pixel, projected.depth.at(on_screen));
+            if (frame.depth.test_and_write(pixel, projected.depth.at(on_screen)))
+                visible.write(pixel, id);
         });
 }
 
-/// Draws the colours of the pixels in which a triangle is visible.
+/// Draws the colours of the pixels in which a triangle is visible. Of a material with holes,
+/// frame.color has the samples of its texture.
 template <Permutation with, typename Maps, typename CounterPolicy>
 void shade_pixels(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                   std::span<const PixelRun> runs, CounterPolicy& counters) {
     TriangleInputs triangle = triangle_inputs(with, frame, projected);
     const BarycentricPlanes planes(projected.on_screen);
+    const bool is_sampled = triangle.surface.effects[Effect::mask];
     for (const PixelRun& run : runs)
         planes.for_each_in(run, [&](ivec2 pixel, Barycentrics on_screen) {
             counters.add(Counter::fragments_shaded);
-            frame.color[pixel] = shaded<with>(
-                frame, triangle, perspective_correct(triangle.setup, on_screen), counters);
+            const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
+            vec3& color = frame.color[pixel];
+            if (!is_sampled)
+                color = vec3(texture_sample(triangle.surface, at, frame.filter, counters));
+            color = shaded<with>(frame, triangle, at, color, counters);
         });
 }
-
-/// A transparent fragment to be shaded.
-struct FragmentToShade {
-    TransparentFragment fragment;
-    Barycentrics on_screen;
-};
 
 /// Finds the colours of a triangle's transparent fragments.
 template <Permutation with, typename Maps, typename CounterPolicy>
@@ -102,7 +106,8 @@ void shade_fragments(const Frame<Maps>& frame, const ProjectedTriangle& projecte
         counters.add(Counter::fragments_shaded);
         counters.add(Counter::blended_fragments);
         fragment.color =
-            shaded<with>(frame, triangle, perspective_correct(triangle.setup, on_screen), counters);
+            shaded<with>(frame, triangle, perspective_correct(triangle.setup, on_screen),
+                         fragment.color, counters);
     }
 }
 
@@ -159,11 +164,10 @@ void draw_transparent(const Frame<Maps>& frame, const ProjectedTriangle& project
                       const Tile& tile, const VisibleShaders<Maps, CounterPolicy>& shaders,
                       TransparentFragments& transparent, HeatMap& heat, CounterPolicy& counters) {
     std::vector<FragmentToShade> fragments;
-    for_each_nearer_fragment(frame, projected, tile, counters,
-                             [&](ivec2 pixel, Barycentrics on_screen, float depth, float opacity) {
-                                 fragments.push_back({{pixel, depth, opacity, vec3(0)}, on_screen});
-                                 heat.add(pixel);
-                             });
+    for_each_nearer_fragment(frame, projected, tile, counters, [&](const FragmentToShade& nearer) {
+        fragments.push_back(nearer);
+        heat.add(nearer.fragment.pixel);
+    });
     shaders[projected.triangle.material].shade_fragments(frame, projected, fragments, counters);
     for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
 }

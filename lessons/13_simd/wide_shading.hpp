@@ -33,8 +33,9 @@ namespace rasterbook {
 
 /// As for_each_nearer_fragment() of lesson 12.
 ///
-/// @param visit  Called as visit(first_pixel, nearer, on_screen, depth, opacity): for as many
-///               pixels of a row as F has numbers. Those count for which the mask `nearer` holds.
+/// @param visit  Called as visit(first_pixel, nearer, on_screen, depth, opacity, in_texture): for
+///               as many pixels of a row as F has numbers. Those count for which the mask `nearer`
+///               holds.
 template <typename F, typename Maps, typename CounterPolicy, typename Visit>
 void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                               const Tile& tile, TileDepths& depths, CounterPolicy& counters,
@@ -44,28 +45,26 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
     };
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
     const bool is_masked = plan[Effect::mask];
-    std::optional<TriangleInputs> inputs;  // of the opacity, where it is not 1
-    if (is_masked || plan.is_glass)
-        inputs.emplace(triangle_inputs(Permutation{}, frame, projected));
+    const AlphaInputs inputs = alpha_inputs(frame.assets, projected);
     fill_tile<F>(
         projected.on_screen, tile, [&](ivec2 pixel, MaskOf<F> covered, const Vec3<F>& on_screen) {
             count(Counter::fragments_tested, covered);
             const F depth = depth_at<F>(projected.depth, on_screen);
             MaskOf<F> nearer = covered & (depth > load<F>(depths.from(pixel)));
+            if (!any_of(nearer)) return;
+            LaneCounters<CounterPolicy> lanes{counters, count_of(nearer)};
+            const PerspectiveBarycentrics<F> at = perspective_correct(inputs.setup, on_screen);
+            const glm::vec<4, F> in_texture =
+                texture_sample(inputs.surface, at, frame.filter, lanes);
             F opacity(1.0f);
-            if (inputs) {
-                if (!any_of(nearer)) return;
-                LaneCounters<CounterPolicy> lanes{counters, count_of(nearer)};
-                opacity =
-                    opacity_at(inputs->surface, inputs->colors,
-                               perspective_correct(inputs->setup, on_screen), frame.filter, lanes);
-            }
+            if (is_masked || plan.is_glass)
+                opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
             if (is_masked) {
                 count(Counter::alpha_tested_fragments, nearer);
-                nearer = nearer & passes_alpha_test(opacity, inputs->surface.material.alpha_cutoff);
+                nearer = nearer & passes_alpha_test(opacity, inputs.surface.material.alpha_cutoff);
                 opacity = F(1.0f);
             }
-            visit(pixel, nearer, on_screen, depth, opacity);
+            visit(pixel, nearer, on_screen, depth, opacity, Vec3<F>(in_texture));
         });
 }
 
@@ -75,13 +74,19 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
              TileDepths& depths, TileVisibility& visible, CounterPolicy& counters) {
     const TriangleId id = visible.add(projected);
     const auto write = [&](ivec2 pixel, MaskOf<F> covered, F depth) {
-        write_where(depths.test_and_write<F>(pixel, covered, depth), visible.ids_from(pixel), id);
+        const MaskOf<F> nearer = depths.test_and_write<F>(pixel, covered, depth);
+        write_where(nearer, visible.ids_from(pixel), id);
+        return nearer;
     };
     if (frame.assets.plan.materials[projected.triangle.material][Effect::mask])
-        for_each_nearer_fragment<F>(frame, projected, tile, depths, counters,
-                                    [&](ivec2 pixel, MaskOf<F> nearer, const Vec3<F>&, F depth, F) {
-                                        write(pixel, nearer, depth);
-                                    });
+        for_each_nearer_fragment<F>(
+            frame, projected, tile, depths, counters,
+            [&](ivec2 pixel, MaskOf<F> nearer, auto&, F depth, F, const Vec3<F>& in_texture) {
+                const MaskOf<F> written = write(pixel, nearer, depth);
+                for (int i = 0; i < width_of<F>; ++i)
+                    if (lane_of(written, i))
+                        frame.color[pixel + ivec2(i, 0)] = lane_of(in_texture, i);
+            });
     else {
         LaneSum<F> tested;
         fill_tile<F>(projected.on_screen, tile,
@@ -130,18 +135,19 @@ void shade_fragments(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTria
         for (std::size_t first = 0; first < fragments.size(); first += N) {
             const std::span<FragmentToShade> some =
                 fragments.subspan(first, std::min(N, fragments.size() - first));
-            Vec3<F> on_screen;
-            for (std::size_t i = 0; i < N; ++i)
-                for (int v = 0; v < 3; ++v)
-                    on_screen[v].set(static_cast<int>(i),
-                                     some[std::min(i, some.size() - 1)].on_screen[v]);
+            Vec3<F> on_screen, in_texture;
+            for (std::size_t i = 0; i < N; ++i) {
+                const FragmentToShade& of = some[std::min(i, some.size() - 1)];
+                set_lane(on_screen, static_cast<int>(i), of.on_screen);
+                set_lane(in_texture, static_cast<int>(i), of.fragment.color);
+            }
             LaneCounters<CounterPolicy> lanes{counters, static_cast<int>(some.size())};
             lanes.add(Counter::fragments_shaded);
             lanes.add(Counter::blended_fragments);
             std::array<vec3, N> colors;
-            store(
-                colors.data(),
-                shaded<with>(frame, inputs, perspective_correct(triangle.setup, on_screen), lanes));
+            store(colors.data(),
+                  shaded<with>(frame, inputs, perspective_correct(triangle.setup, on_screen),
+                               in_texture, lanes));
             for (std::size_t i = 0; i < some.size(); ++i) some[i].fragment.color = colors[i];
         }
     }
@@ -175,13 +181,14 @@ void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTri
     std::vector<FragmentToShade> fragments;
     for_each_nearer_fragment<F>(
         frame, projected, tile, depths, counters,
-        [&](ivec2 first, MaskOf<F> nearer, const Vec3<F>& on_screen, F depth, F opacity) {
+        [&](ivec2 first, MaskOf<F> nearer, const Vec3<F>& on_screen, F depth, F opacity,
+            const Vec3<F>& in_texture) {
             for (int i = 0; i < width_of<F>; ++i) {
                 if (!lane_of(nearer, i)) continue;
                 const ivec2 pixel = first + ivec2(i, 0);
                 fragments.push_back(
-                    {{pixel, lane_of(depth, i), lane_of(opacity, i), vec3(0)},
-                     {lane_of(on_screen.x, i), lane_of(on_screen.y, i), lane_of(on_screen.z, i)}});
+                    {{pixel, lane_of(depth, i), lane_of(opacity, i), lane_of(in_texture, i)},
+                     lane_of(on_screen, i)});
                 heat.add(pixel);
             }
         });

@@ -38,8 +38,9 @@ void shade_pixels_by(const Frame<Maps>& frame, const ProjectedTriangle& projecte
     const Planes planes(projected.on_screen);
     for (const PixelRun& run : runs)
         planes.for_each_in(run, [&](ivec2 pixel, Barycentrics on_screen) {
-            frame.color[pixel] = shaded<with>(
-                frame, triangle, perspective_correct(triangle.setup, on_screen), counters);
+            const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
+            const vec3 in_texture(texture_sample(triangle.surface, at, frame.filter, counters));
+            frame.color[pixel] = shaded<with>(frame, triangle, at, in_texture, counters);
         });
 }
 

@@ -42,6 +42,22 @@ SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycen
     return surface_color(surface, at, filter, uncounted);
 }
 
+template <Without effect>
+requires(effect == Without::texture || effect == Without::specular_map)
+SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycentrics& at,
+                           const vec3& in_texture, Filter filter, NoWork<effect>&) {
+    if (surface.effects[effect == Without::texture ? Effect::texture : Effect::specular_map])
+        __builtin_unreachable();
+    NoCounters uncounted;
+    return surface_color(surface, at, in_texture, filter, uncounted);
+}
+
+inline vec4 texture_sample(const TriangleSurface& surface, const FragmentBarycentrics&, Filter,
+                           NoWork<Without::texture>&) {
+    if (surface.effects[Effect::texture]) __builtin_unreachable();
+    return vec4(1);
+}
+
 inline float light_visibility(const ShadowMaps&, std::size_t, TriangleReceiver&, vec3, vec3,
                               NoWork<Without::shadow>&) {
     return 1;
@@ -53,14 +69,6 @@ inline void add_to_outline(const ToonVariant&, const TriangleSurface&, Barycentr
 inline void draw_outlines(const ToonVariant&, const Scene&, const HullNormals&, const Camera&, int,
                           const Image<vec3>&, DepthBuffer&, Image<vec3>&,
                           NoWork<Without::outline>&) {}
-
-/// Of what has holes and of glass alone: no scene here has either.
-template <Without effect>
-requires(effect == Without::mask || effect == Without::blend)
-float opacity_at(const TriangleSurface&, const VertexColors&, const FragmentBarycentrics&, Filter,
-                 NoWork<effect>&) {
-    __builtin_unreachable();
-}
 
 }  // namespace rasterbook
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,61 +22,63 @@
 
 namespace rasterbook {
 
+/// A fragment whose colour texture has been sampled, and that is not shaded yet.
+struct FragmentToShade {
+    TransparentFragment fragment;  ///< Its colour: the sample. Its opacity: 1 unless it is glass.
+    Barycentrics on_screen;
+};
+
 /// Visits those fragments of a triangle that are nearer than what is in the depth buffer, and not
 /// in a hole.
 ///
-/// @param visit  Called as visit(pixel, on_screen, depth, opacity): the barycentric coordinates on
-///               the screen, and 1 for all that is not transparent.
+/// @param projected  Of a material that has holes or is blended.
+/// @param visit      Called as visit(FragmentToShade).
 template <typename Maps, typename CounterPolicy, typename Visit>
 void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                               const Tile& tile, CounterPolicy& counters, Visit&& visit) {
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
     const bool is_masked = plan[Effect::mask];
-    std::optional<TriangleInputs> inputs;  // of the opacity, where it is not 1
-    if (is_masked || plan.is_glass)
-        inputs.emplace(triangle_inputs(Permutation{}, frame, projected));
+    const AlphaInputs inputs = alpha_inputs(frame.assets, projected);
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         counters.add(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
         if (!(depth > frame.depth.depths()[pixel])) return;
+        const FragmentBarycentrics at = perspective_correct(inputs.setup, on_screen);
+        const vec4 in_texture = texture_sample(inputs.surface, at, frame.filter, counters);
         float opacity = 1;
-        if (inputs)
-            opacity =
-                opacity_at(inputs->surface, inputs->colors,
-                           perspective_correct(inputs->setup, on_screen), frame.filter, counters);
+        if (is_masked || plan.is_glass)
+            opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
         if (is_masked) {
             counters.add(Counter::alpha_tested_fragments);
-            if (!passes_alpha_test(opacity, inputs->surface.material.alpha_cutoff)) return;
+            if (!passes_alpha_test(opacity, inputs.surface.material.alpha_cutoff)) return;
             opacity = 1;
         }
-        visit(pixel, on_screen, depth, opacity);
+        visit(FragmentToShade{{pixel, depth, opacity, vec3(in_texture)}, on_screen});
     });
 }
 
-/// Draws depth and id of an opaque triangle, and no colour (Eq. 12.1).
+/// Draws depth and id of an opaque triangle (Eq. 12.1). Its colour is not known yet; where it has
+/// holes, the colour buffer keeps the sample of its texture until then.
 template <typename Maps, typename CounterPolicy>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
              TileVisibility& visible, CounterPolicy& counters) {
     // TODO: step 1: an id by visible.add(), and the triangle's pixels by fill_tile(). Count each as
     // a Counter::fragments_tested. Where frame.depth.test_and_write() passes, the pixel's id is
     // the triangle's (Eq. 12.1). A material with Effect::mask has holes: there,
-    // for_each_nearer_fragment() visits what is left of the triangle, and it counts.
+    // for_each_nearer_fragment() visits what is left of the triangle, and it counts; keep the
+    // sample of each fragment's texture in frame.color.
 }
 
-/// Draws the colours of the pixels in which a triangle is visible.
+/// Draws the colours of the pixels in which a triangle is visible. Of a material with holes,
+/// frame.color has the samples of its texture.
 template <Permutation with, typename Maps, typename CounterPolicy>
 void shade_pixels(const Frame<Maps>& frame, const ProjectedTriangle& projected,
                   std::span<const PixelRun> runs, CounterPolicy& counters) {
     // TODO: step 2: triangle_inputs(), once. Then for each pixel of the runs the barycentric
     // coordinates by BarycentricPlanes, made perspective-correct, and shaded(), which gives its
-    // frame.color. Count each pixel as one of Counter::fragments_shaded.
+    // frame.color. It takes texture_sample(), or what draw_id() has kept of a material with
+    // Effect::mask. Count each pixel as one of Counter::fragments_shaded.
 }
-
-/// A transparent fragment to be shaded.
-struct FragmentToShade {
-    TransparentFragment fragment;
-    Barycentrics on_screen;
-};
 
 /// Finds the colours of a triangle's transparent fragments.
 template <Permutation with, typename Maps, typename CounterPolicy>
@@ -88,7 +89,8 @@ void shade_fragments(const Frame<Maps>& frame, const ProjectedTriangle& projecte
         counters.add(Counter::fragments_shaded);
         counters.add(Counter::blended_fragments);
         fragment.color =
-            shaded<with>(frame, triangle, perspective_correct(triangle.setup, on_screen), counters);
+            shaded<with>(frame, triangle, perspective_correct(triangle.setup, on_screen),
+                         fragment.color, counters);
     }
 }
 
@@ -145,11 +147,10 @@ void draw_transparent(const Frame<Maps>& frame, const ProjectedTriangle& project
                       const Tile& tile, const VisibleShaders<Maps, CounterPolicy>& shaders,
                       TransparentFragments& transparent, HeatMap& heat, CounterPolicy& counters) {
     std::vector<FragmentToShade> fragments;
-    for_each_nearer_fragment(frame, projected, tile, counters,
-                             [&](ivec2 pixel, Barycentrics on_screen, float depth, float opacity) {
-                                 fragments.push_back({{pixel, depth, opacity, vec3(0)}, on_screen});
-                                 heat.add(pixel);
-                             });
+    for_each_nearer_fragment(frame, projected, tile, counters, [&](const FragmentToShade& nearer) {
+        fragments.push_back(nearer);
+        heat.add(nearer.fragment.pixel);
+    });
     shaders[projected.triangle.material].shade_fragments(frame, projected, fragments, counters);
     for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
 }

@@ -178,14 +178,31 @@ class PixelBatch {
         end_triangle();
         LaneCounters<CounterPolicy> lanes{counters_, count_};
         lanes.add(Counter::fragments_shaded);
+        const Vec3<F> colors = shaded_lanes(lanes);
         count_ = first_ = 0;
-        if constexpr (with.model == ShadingModel::unlit) return unlit_colors(lanes);
-        return shaded<with>(frame_, inputs_, at_, lanes);
+        return colors;
+    }
+
+    Vec3<F> shaded_lanes(LaneCounters<CounterPolicy>& lanes) {
+        if constexpr (with.model == ShadingModel::unlit)
+            return unlit_colors(lanes);
+        else
+            return shaded<with>(frame_, inputs_, at_, samples(lanes), lanes);
+    }
+
+    /// The samples of the colour texture: of a material with holes, draw_id() has kept them in the
+    /// picture.
+    Vec3<F> samples(LaneCounters<CounterPolicy>& lanes) const {
+        if (!inputs_.surface.effects[Effect::mask])
+            return Vec3<F>(texture_sample(inputs_.surface, at_, frame_.filter, lanes));
+        Vec3<F> kept(F(0.0f));
+        for (int i = 0; i < count_; ++i) set_lane(kept, i, frame_.color[{x_[i], y_[i]}]);
+        return kept;
     }
 
     /// All in one function, as sample(). With lights, that would take the compiler too long.
     [[gnu::flatten]] Vec3<F> unlit_colors(LaneCounters<CounterPolicy>& lanes) {
-        return shaded<Permutation{}>(frame_, inputs_, at_, lanes);
+        return shaded<Permutation{}>(frame_, inputs_, at_, samples(lanes), lanes);
     }
 
     void shade_and_scatter() {

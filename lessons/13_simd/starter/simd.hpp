@@ -349,10 +349,19 @@ template <int N>
 inline float lane_of(Floats<N> x, int lane) {
     return x[lane];
 }
+template <typename F>
+inline vec3 lane_of(const Vec3<F>& v, int lane) {
+    return {lane_of(v.x, lane), lane_of(v.y, lane), lane_of(v.z, lane)};
+}
 inline bool lane_of(bool mask, int) { return mask; }
 template <int N>
 inline bool lane_of(Mask<N> mask, int lane) {
     return mask[lane];
+}
+
+template <int N>
+inline void set_lane(Vec3<Floats<N>>& v, int lane, vec3 x) {
+    v.x.set(lane, x.x), v.y.set(lane, x.y), v.z.set(lane, x.z);
 }
 
 /// The first lane in which a mask holds. It has to hold in one.
