@@ -388,6 +388,38 @@ TEST(ShadowMaps, Eq9_5_EachDirectionLiesWellInsideOfItsFace) {
     EXPECT_GT(greatest, most - 0.01);  // and no wider than that
 }
 
+TEST(ShadowMaps, Eq9_5_WhichFacesASpotlightsConeReaches) {
+    Anywhere anywhere(11);
+    std::array<int, 2> faces{};  // not reached, reached
+    for (int i = 0; i < 60; ++i) {
+        Light light = spotlight({0, 0, 0}, anywhere.direction(), anywhere.one(50, 90));
+        const auto in_cone = [&](vec3 direction) {
+            return glm::dot(glm::normalize(direction), light.direction_world) > light.cos_none;
+        };
+        std::array<bool, 6> is_reached{};  // by any of many directions through the faces
+        constexpr int n = 200;
+        for (int x = 0; x <= n; ++x)
+            for (int y = 0; y <= n; ++y) {
+                const float u = 2.0f * static_cast<float>(x) / n - 1,
+                            v = 2.0f * static_cast<float>(y) / n - 1;
+                const std::array through = {vec3(1, u, v),  vec3(-1, u, v), vec3(u, 1, v),
+                                            vec3(u, -1, v), vec3(u, v, 1),  vec3(u, v, -1)};
+                for (std::size_t f = 0; f < 6; ++f) is_reached[f] |= in_cone(through[f]);
+            }
+        for (std::size_t f = 0; f < 6; ++f) {
+            const double nearest = cosine_to_face(light.direction_world, f);
+            if (std::abs(nearest - light.cos_none) < 1e-4) continue;  // between two directions
+            ASSERT_EQ(reaches_face(light, f), is_reached[f])
+                << "the face " << f << " of a spotlight that shines to "
+                << testing::PrintToString(light.direction_world) << ", cosine " << light.cos_none
+                << " at its cone's border (seed 11, case " << i << ")";
+            ++faces.at(is_reached[f]);
+        }
+    }
+    EXPECT_GT(std::min(faces[0], faces[1]), 60);
+    EXPECT_TRUE(reaches_face(point_light({0, 0, 0}), 1)) << "a point light shines everywhere";
+}
+
 TEST(ShadowMaps, Eq9_5_APointLightsMapsReachToTheFarthestCorner) {
     const Bounds around = box(vec3(-1, -2, -3), vec3(3, 2, 1));
     for (const vec3 position : {vec3(-10, 0, 0), vec3(10, 0, 0), vec3(0, -10, 0), vec3(0, 10, 0),

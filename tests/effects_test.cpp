@@ -253,3 +253,25 @@ TEST(Effects, AlphaAndColorAreOneSampleOfTheTexture) {
         });
     }
 }
+
+TEST(Effects, ASpotlightHasMapsOnlyInFacesThatItsConeReaches) {
+    // In a room around the light, each face of the cube sees casters and receivers.
+    const auto passes = [](vec3 direction, float angle_degrees) {
+        Squares room;
+        for (int side = 0; side < 6; ++side) {
+            std::vector<vec3> corners = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+            for (vec3& p : corners) {
+                for (int turn = 0; turn < side / 2; ++turn) p = {p.z, p.x, p.y};
+                if (side % 2) p = -p;
+            }
+            room.add(mesh_of(corners, {{0, 1, 2}, {0, 2, 3}}), vec3(1)).illumination = 1;
+        }
+        room.scene.lights = {spotlight(vec3(0), glm::normalize(direction), angle_degrees)};
+        return drawn_scene(room.scene, lesson_11::Options(small_scene()))
+            .count(Counter::shadow_passes);
+    };
+    EXPECT_EQ(passes({1, 0, 0}, 80), 5u) << "all but the face behind";
+    EXPECT_EQ(passes({0, -1, 0}, 89), 5u);
+    EXPECT_EQ(passes({1, 1, 0}, 80), 4u) << "(-1, 1, 1), of the face -x, is 90 degrees away";
+    EXPECT_EQ(passes({1, 1, 1}, 80), 6u) << "(-1, 1, 1), of the face -x, is 70.5 degrees away";
+}

@@ -102,7 +102,8 @@ struct ShadowMaps {
     std::vector<LightShadowMaps> of_light;
 };
 
-/// A light's maps, not yet drawn: one for each view in which there are a caster and a receiver.
+/// A light's maps, not yet drawn: one for each view in which there are light, a caster and a
+/// receiver.
 inline LightShadowMaps make_shadow_maps(const Light& light, int size, const ShadowBounds& bounds,
                                         const Bounds& reach) {
     LightShadowMaps made{.light = light, .maps = {}, .map_of_view = {}};
@@ -111,7 +112,8 @@ inline LightShadowMaps make_shadow_maps(const Light& light, int size, const Shad
     made.has_faces = views.count == 6;
     made.maps.reserve(views.count);
     for (std::size_t i = 0; i < views.count; ++i) {
-        if (is_outside_frustum(bounds.casters, views.clip_from_world[i]) ||
+        if ((made.has_faces && !reaches_face(light, i)) ||
+            is_outside_frustum(bounds.casters, views.clip_from_world[i]) ||
             is_outside_frustum(bounds.receivers, views.clip_from_world[i]))
             continue;
         made.map_of_view[i] = made.maps.size();

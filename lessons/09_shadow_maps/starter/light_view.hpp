@@ -158,6 +158,27 @@ inline std::size_t cube_face(vec3 direction) {
     return 0;
 }
 
+/// The cosine of the smallest angle between a direction and one that passes through a face of the
+/// cube (Eq. 9.5): 1 where the direction itself does; 0 from 90 degrees on.
+///
+/// @param direction  Length 1.
+inline double cosine_to_face(dvec3 direction, std::size_t face) {
+    const auto axis = static_cast<int>(face / 2);
+    const double along = face % 2 == 0 ? direction[axis] : -direction[axis];
+    const double b = std::abs(direction[(axis + 1) % 3]), c = std::abs(direction[(axis + 2) % 3]);
+    // The face's vectors have |b| and |c| up to their length along its axis. The nearest of them to
+    // the direction is its projection on all of them, on one of the four sides, or on an edge.
+    const double x = std::max({along, (along + std::max(b, c)) / 2, (along + b + c) / 3, 0.0});
+    return glm::length(dvec3(x, std::min(b, x), std::min(c, x)));
+}
+
+/// Whether a light shines through a face of the cube: a spotlight may not (Eq. 6.7).
+inline bool reaches_face(const Light& light, std::size_t face) {
+    constexpr double rounding_of_cosines = 1e-6;
+    return light.kind != LightKind::spot ||
+           cosine_to_face(light.direction_world, face) > light.cos_none - rounding_of_cosines;
+}
+
 /// A point light's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
 inline LightViews point_light_views(const Light& light, const Bounds& casters,
                                     const Bounds& receivers, int size) {
