@@ -193,6 +193,17 @@ std::vector<Row> rows() {
                         {outline_tests},
                         {outline_pixels}});
     }
+
+    // A material without holes takes no alpha test, neither in the picture nor in a shadow map.
+    // Forced: a cutoff that all of it passes.
+    const Scene solid = loaded("textured.gltf");
+    const Scene masked =
+        with_materials(solid, [](Material& m) { m.alpha = AlphaMode::mask, m.alpha_cutoff = 0; });
+    rows.push_back({"holes",
+                    drawn_scene(solid, lesson_11::Options(small_scene())),
+                    drawn_scene(masked, lesson_11::Options(small_scene())),
+                    {alpha_tested_fragments, alpha_tested_texels},
+                    {}});
     return rows;
 }
 

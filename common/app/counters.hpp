@@ -34,6 +34,7 @@ enum class Counter {
     shadow_passes,           ///< Depth maps drawn.
     shadow_parts,            ///< Of depth maps, drawn because a pixel asked for them.
     shadow_fragments,        ///< Compared with a depth map's texel.
+    alpha_tested_texels,     ///< Of depth maps: asked whether a caster is there or a hole.
     shadow_tests,            ///< Points for which a depth map was asked, with all its texels.
     colored_fragments,       ///< Coloured by the colours of vertices.
     alpha_tested_fragments,  ///< Asked whether they are there or a hole.
@@ -66,6 +67,7 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "shadow_passes",
     "shadow_parts",
     "shadow_fragments",
+    "alpha_tested_texels",
     "shadow_tests",
     "colored_fragments",
     "alpha_tested_fragments",

@@ -26,9 +26,10 @@
 namespace rasterbook {
 
 /// Whether a material stops light: where it is lit itself (a sky or a bulb, illum 0, is not), and
-/// where none passes through (d is 1).
+/// where none passes through (d is 1). One with holes stops it beside them, whatever its opacity.
 inline bool casts_shadows(const Material& material) {
-    return is_lit(material) && material.opacity >= 1 && material.alpha != AlphaMode::blend;
+    const bool is_opaque = material.opacity >= 1 && material.alpha != AlphaMode::blend;
+    return is_lit(material) && (is_opaque || material.alpha == AlphaMode::mask);
 }
 
 /// What of a scene casts shadows, and what receives them.

@@ -59,6 +59,16 @@ BinnedTriangles casters_of(Pool& pool, const ShadowMap& map, const Scene& scene,
             casts, uncounted, set_up};
 }
 
+/// Draws a caster's depths into a tile of a map.
+template <typename CounterPolicy>
+void draw_caster(ShadowMap& map, const ProjectedTriangle& caster, const Tile& tile,
+                 CounterPolicy& counters) {
+    fill_tile(caster.on_screen, tile, [&](ivec2 texel, Barycentrics at) {
+        counters.add(Counter::shadow_fragments);
+        map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(at));
+    });
+}
+
 /// Clears a tile of a map's texels and draws the depths of the casters into it.
 ///
 /// @param i  The tile's number in the tiling.
@@ -67,11 +77,19 @@ void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& til
                CounterPolicy& counters) {
     const Tile tile = tiling[i];
     clear_tile(map, tile);
-    casters.for_each_in(i, [&](const ProjectedTriangle& caster) {
-        fill_tile(caster.on_screen, tile, [&](ivec2 texel, Barycentrics at) {
-            counters.add(Counter::shadow_fragments);
-            map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(at));
-        });
+    casters.for_each_in(
+        i, [&](const ProjectedTriangle& caster) { draw_caster(map, caster, tile, counters); });
+}
+
+/// Draws all tiles of a map.
+///
+/// @param casters   What there is a draw_tile() for.
+/// @param counters  One for each worker of the pool.
+template <typename Pool, typename Casters, typename CounterPolicy>
+void draw_tiles(Pool& pool, ShadowMap& map, const Casters& casters, const Tiling& tiling,
+                WorkerCounters<CounterPolicy>& counters) {
+    pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
+        draw_tile(map, casters, tiling, i, counters[worker]);
     });
 }
 
@@ -87,9 +105,7 @@ void draw_map(Pool& pool, ShadowMap& map, const Scene& scene, const Tiling& tili
               WorkerCounters<CounterPolicy>& counters) {
     BinnedTriangles casters;
     if (is_drawn) casters = casters_of(pool, map, scene, tiling);
-    pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
-        draw_tile(map, casters, tiling, i, counters[worker]);
-    });
+    draw_tiles(pool, map, casters, tiling, counters);
 }
 
 /// The shadow maps of all lights, as lesson 09 draws them.

@@ -3,6 +3,7 @@
 /// Lesson 11: scenes of any file.
 #include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
+#include "11_scenes/casters.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_options.hpp"
 #include "11_scenes/scene_program.hpp"
@@ -20,9 +21,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     WorkerCounters<CounterPolicy> counters_of(pool.size());
     clock.begin("shadow maps");
-    const ShadowMaps shadow_maps =
-        draw_shadow_maps(pool, options.threads, options.shadow, options.shading.all_effects, scene,
-                         bounds, lit_by.lights, counters_of, lit_by.casts);
+    const ShadowMaps shadow_maps = draw_shadow_maps(pool, options, assets, counters_of);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset, camera.farthest_depth());
 

@@ -16,8 +16,8 @@
 #include "08_normal_maps/report.hpp"
 #include "09_shadow_maps/report.hpp"
 #include "10_threading/thread_pool.hpp"
-#include "10_threading/threaded_shadows.hpp"
 #include "11_scenes/blending.hpp"
+#include "11_scenes/casters.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/shaders.hpp"
 
@@ -133,9 +133,7 @@ class SceneProbe {
         const Scene& scene = assets.scene;
         ThreadPool pool(1);
         WorkerCounters<Counters> counters(pool.size());
-        shadow_maps_ = draw_shadow_maps(pool, options.threads, options.shadow,
-                                        options.shading.all_effects, scene, assets.shadow_bounds,
-                                        assets.lit_by.lights, counters, assets.lit_by.casts);
+        shadow_maps_ = draw_shadow_maps(pool, options, assets, counters);
         NoCounters uncounted;
         const mat4 clip_from_world = camera_.clip_from_world(options.size);
         const std::vector<const Mesh*> meshes =

@@ -30,9 +30,8 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     WorkerCounters<CounterPolicy> counters_of(pool.size());
     clock.begin("casters");
-    const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options.shadow,
-                                         options.shading.all_effects, scene, bounds, lit_by.lights,
-                                         counters_of, lit_by.casts);
+    const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets,
+                                         counters_of);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset, camera.farthest_depth());
     std::vector<TileVisibility> visible_of(pool.size(),

@@ -35,9 +35,8 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
     WorkerCounters<CounterPolicy> counters_of(pool.size());
     const WideDrawing<CounterPolicy> wide = drawing_of_width(options.wide.width);
     clock.begin("casters");
-    const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options.shadow,
-                                         options.shading.all_effects, scene, bounds, lit_by.lights,
-                                         counters_of, lit_by.casts, wide.project_triangles);
+    const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets,
+                                         counters_of, wide.project_triangles);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset, camera.farthest_depth());
     std::vector<TileVisibility> visible_of(

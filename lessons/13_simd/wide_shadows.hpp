@@ -13,7 +13,7 @@
 #include "09_shadow_maps/shadows.hpp"
 #include "12_visibility_buffer/shadow_parts.hpp"
 #include "13_simd/simd.hpp"
-#include "13_simd/wide_triangles.hpp"
+#include "13_simd/wide_casters.hpp"
 #include "common/math/functions.hpp"
 
 namespace rasterbook {

@@ -150,9 +150,8 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
     WorkerCounters<Counters> counters_of(pool.size());
     const WideDrawing<Counters> wide = drawing_of_width(options.wide.width);
     const double start = cpu_ms();
-    const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options.shadow,
-                                         options.shading.all_effects, scene, bounds, lit_by.lights,
-                                         counters_of, lit_by.casts, wide.project_triangles);
+    const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets,
+                                         counters_of, wide.project_triangles);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
     TileVisibility visible(options.visibility.most_ids(), TileDepths::padding);

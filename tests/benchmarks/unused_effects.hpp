@@ -49,7 +49,8 @@ constexpr bool is_work_of(Without effect, Counter counter) {
         case Without::outline:
             return counter == Counter::outline_tests || counter == Counter::outline_pixels;
         case Without::mask:
-            return counter == Counter::alpha_tested_fragments;
+            return counter == Counter::alpha_tested_fragments ||
+                   counter == Counter::alpha_tested_texels;
         case Without::blend:
             return counter == Counter::blended_fragments;
         default:

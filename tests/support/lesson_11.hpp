@@ -7,6 +7,7 @@
 // All that main.cpp includes, so that what is left of it are its own lines.
 #include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
+#include "11_scenes/casters.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "11_scenes/scene_options.hpp"
 #include "11_scenes/scene_program.hpp"

@@ -70,6 +70,7 @@ inline testing::AssertionResult counts_agree(const Drawn& forward, const Drawn& 
         const std::uint64_t now = visible.count(counter), before = forward.count(counter);
         if (counter == Counter::shadow_parts) continue;
         const bool is_saved = counter == Counter::shadow_fragments ||
+                              counter == Counter::alpha_tested_texels ||
                               (max_ids > 1 && std::ranges::find(counters_of_shading, counter) !=
                                                   counters_of_shading.end());
         if (is_saved ? now > before : now != before)

@@ -16,6 +16,7 @@
 #include "10_threading/split.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
+#include "11_scenes/casters.hpp"
 #include "common/app/counters.hpp"
 
 namespace rasterbook {
@@ -27,7 +28,7 @@ class ShadowMapParts {
     /// @param map      Of any depths; has to outlive this object.
     /// @param tiling   The parts: Split::tiles of map.size * map.size.
     /// @param casters  Binned by these parts.
-    ShadowMapParts(ShadowMap& map, const Tiling& tiling, BinnedTriangles casters)
+    ShadowMapParts(ShadowMap& map, const Tiling& tiling, Casters casters)
         : map_(&map),
           tiling_(tiling),
           casters_(std::move(casters)),
@@ -46,7 +47,7 @@ class ShadowMapParts {
 
     /// The same of a box of texels.
     ///
-    /// @param fill  Draws a part, as draw_tile() of lesson 10.
+    /// @param fill  Draws a part, as draw_tile() of lesson 11.
     template <typename CounterPolicy, typename Fill>
     void draw_in(const PixelBox& texels, CounterPolicy& counters, const Fill& fill) const {
         // TODO: step 3: tiling_.for_each_in() visits the parts that a box of texels lies in
@@ -71,7 +72,7 @@ class ShadowMapParts {
 
     ShadowMap* map_;
     Tiling tiling_;
-    BinnedTriangles casters_;
+    Casters casters_;
     std::unique_ptr<std::atomic<State>[]> states_;  ///< Of each part.
 };
 
@@ -82,20 +83,32 @@ class ShadowMapsOnDemand {
     ///
     /// @param part_size  Texels along a part's side, at least 1.
     /// @param set_up     Does what project_triangles() of lesson 10 does.
+    /// @param with_holes,filter  Of Casters.
     template <typename Pool, typename CounterPolicy>
     ShadowMapsOnDemand(Pool& pool, int part_size, const ShadowVariant& variant, bool all_effects,
                        const Scene& scene, const ShadowBounds& bounds,
                        std::span<const Light> lights, WorkerCounters<CounterPolicy>& counters,
-                       std::span<const bool> casts, ProjectTriangles* set_up = project_triangles) {
+                       std::span<const bool> casts, ProjectTriangles* set_up = project_triangles,
+                       const SceneAssets* with_holes = nullptr, Filter filter = {}) {
         const Tiling tiling(Split::tiles, ivec2(variant.size), 1, part_size);
-        maps_ = draw_shadow_maps(
-            variant, all_effects, scene, bounds, lights, casts, counters[0],
-            [&](ShadowMap& map, bool is_drawn) {
-                parts_.emplace_back(
-                    map, tiling,
-                    is_drawn ? casters_of(pool, map, scene, tiling, set_up) : BinnedTriangles());
-            });
+        maps_ = draw_shadow_maps(variant, all_effects, scene, bounds, lights, casts, counters[0],
+                                 [&](ShadowMap& map, bool is_drawn) {
+                                     Casters casters({}, with_holes, filter);
+                                     if (is_drawn)
+                                         casters.triangles =
+                                             casters_of(pool, map, scene, tiling, set_up);
+                                     parts_.emplace_back(map, tiling, std::move(casters));
+                                 });
     }
+
+    /// The same of a scene with its lights.
+    template <typename Pool, typename CounterPolicy>
+    ShadowMapsOnDemand(Pool& pool, int part_size, const SceneRendererOptions& options,
+                       const SceneAssets& assets, WorkerCounters<CounterPolicy>& counters,
+                       ProjectTriangles* set_up = project_triangles)
+        : ShadowMapsOnDemand(pool, part_size, options.shadow, options.shading.all_effects,
+                             assets.scene, assets.shadow_bounds, assets.lit_by.lights, counters,
+                             assets.lit_by.casts, set_up, &assets, options.texture.filter) {}
 
     const ShadowMaps& maps() const { return maps_; }
 

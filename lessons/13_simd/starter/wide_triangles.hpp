@@ -209,26 +209,4 @@ inline void draw_background(Image<vec3>& color, const Tile& tile, TileDepths& de
     });
 }
 
-/// As draw_tile() of lesson 10: draws a part of a shadow map.
-template <typename F, typename CounterPolicy>
-void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& tiling, std::size_t i,
-               CounterPolicy& counters) {
-    const Tile tile = tiling[i];
-    const auto [first, last] = tile.box;
-    const bool touches_border =
-        std::min(first.x, first.y) == 0 || std::max(last.x, last.y) == map.size - 1;
-    if (touches_border) clear_tile(map, tile);  // the rest is written by copy_to()
-    TileDepths depths(tile);
-    LaneSum<F> count;
-    casters.for_each_in(i, [&](const ProjectedTriangle& caster) {
-        fill_tile<F>(caster.on_screen, tile,
-                     [&](ivec2 texel, MaskOf<F> covered, const Vec3<F>& at) {
-                         count.add(covered);
-                         depths.test_and_write<F>(texel, covered, depth_at<F>(caster.depth, at));
-                     });
-    });
-    counters.add(Counter::shadow_fragments, count.total());
-    depths.copy_to(map.depths.depths(), tile, ivec2(max_pcf_radius));
-}
-
 }  // namespace rasterbook
