@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -583,6 +584,36 @@ TEST(VisibilityBuffer, HardCase_WhoAsksForAPartThatIsBeingDrawnWaits) {
             << "times that a part was drawn for " << threads << " threads";
         ASSERT_TRUE(are_equal(map.depths.depths(), whole))
             << "the map as drawn by the first of " << threads << " threads that asked for it";
+    }
+}
+
+TEST(VisibilityBuffer, HardCase_APartWhoseDrawingThrowsIsDrawnByTheNextWhoAsks) {
+    look_up("Eq. 12.6");
+    const Scene scene = random_casters(40, 3);
+    const Image<float> whole = depths_of_whole(32, scene);
+    for (const int threads : {1, 2, 16}) {
+        ThreadPool pool(threads);
+        ShadowMap map = map_of_minus_one(32);
+        const Tiling tiling(Split::tiles, ivec2(32), 1, 32);
+        const ShadowMapParts parts(map, tiling, binned(map, scene, tiling));
+        HoldingCounters counters{pool.size()};  // all others wait when the first one throws
+        std::atomic<int> left = 3, caught = 0;
+        const auto fill = [&](auto&... what) {
+            draw_tile(what...);
+            if (left-- > 0) throw std::runtime_error("no memory");
+        };
+        pool.run(pool.size(), [&](std::size_t, std::size_t) {
+            ++counters.begun;
+            try {
+                parts.draw_in({{8, 8}, {10, 10}}, counters, fill);
+            } catch (const std::runtime_error&) { ++caught; }
+        });
+        ASSERT_EQ(caught, std::min(threads, 3))
+            << "of three failures, with " << threads << " threads that ask once each";
+        ASSERT_EQ(parts.is_drawn(0), threads > 3);
+        left = 0;
+        parts.draw_in({{8, 8}, {10, 10}}, counters, fill);
+        ASSERT_TRUE(are_equal(map.depths.depths(), whole)) << "the map after the failures";
     }
 }
 

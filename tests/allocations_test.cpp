@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Drawing allocates memory for pictures and meshes, never for a triangle or a pixel.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,6 +23,9 @@
 #include "support/lesson_08.hpp"
 #include "support/lesson_09.hpp"
 #include "support/lesson_10.hpp"
+#include "support/lesson_12.hpp"
+#include "support/lesson_13.hpp"
+#include "support/lesson_process.hpp"
 #include "support/projected.hpp"
 
 using namespace rasterbook;
@@ -27,12 +33,18 @@ using namespace rasterbook;
 namespace {
 
 std::atomic<std::size_t> allocations, bytes_allocated;  // operator new has nowhere else to count
+std::atomic<std::ptrdiff_t> until_one_fails = 0;        // 0: none does
+std::atomic<int> failures = 0;
 
 }  // namespace
 
 // Not inlined: g++ would complain of free() after what it takes for another operator new.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
     ++allocations, bytes_allocated += bytes;
+    if (until_one_fails > 0 && --until_one_fails == 0) {
+        ++failures;
+        throw std::bad_alloc();
+    }
     if (void* const memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
     throw std::bad_alloc();
 }
@@ -106,6 +118,46 @@ testing::AssertionResult does_not_depend_on_triangles(Options options, const Dra
         options.size = options.size / 2;
     }
     return testing::AssertionSuccess();
+}
+
+/// Runs a lesson's program on three threads, once as it is, and then so that one of the allocations
+/// of its picture fails: the program has to end in one line and leave no file.
+///
+/// @param run_with  Called as run_with(argc, argv, begin, end): runs the program, whose render()
+///                  calls begin() and end().
+template <typename RunWith>
+void expect_one_line_for_each_failure(const char* lesson, const RunWith& run_with) {
+    const std::filesystem::path folder = test::fresh_folder("allocations");
+    std::vector<std::string> words = {
+        lesson,      "--model", "crate.obj", "--size", "96x54", "--shadow-size",       "128",
+        "--threads", "3",       "--tile",    "16",     "--out", folder / "picture.png"};
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    std::size_t before = 0, count = 0;
+    const auto status_when = [&](std::ptrdiff_t fails) {
+        return run_with(
+            static_cast<int>(argv.size()), argv.data(),
+            [&] { before = allocations, until_one_fails = fails; },
+            [&] { until_one_fails = 0, count = allocations - before; });
+    };
+    ASSERT_EQ(status_when(0), 0);
+    const auto all = static_cast<std::ptrdiff_t>(count);
+    ASSERT_GT(all, 20);
+    failures = 0;
+    for (std::ptrdiff_t fails = 1; fails < all; fails += all / 16) {
+        std::filesystem::remove(folder / "picture.png");
+        const int failures_before = failures;
+        testing::internal::CaptureStderr();
+        const int status = status_when(fails);
+        const std::string said = testing::internal::GetCapturedStderr();
+        until_one_fails = 0;
+        const bool has_failed = failures > failures_before;  // a worker may sleep through it all
+        ASSERT_EQ(status, has_failed ? 1 : 0)
+            << "allocation " << fails << " of about " << all << " of " << lesson;
+        ASSERT_EQ(said, has_failed ? "error: not enough memory for this model at this size\n" : "");
+        ASSERT_EQ(std::filesystem::is_empty(folder), has_failed);
+    }
+    EXPECT_GT(failures, 8);
 }
 
 }  // namespace
@@ -271,4 +323,37 @@ TEST(Allocations, OfLesson12sIdsAreMadeForTheLargestTileAlone) {
             << "bytes for a tile of 65,536 pixels, of which each has an id of 4";
         EXPECT_EQ(allocations_of(draw_tile), 0u) << "allocations for another tile of this size";
     }
+}
+
+TEST(Allocations, ThatFailInAnyThreadEndTheProgramInOneLine) {
+    expect_one_line_for_each_failure(
+        "10_threading", [](int argc, char** argv, const auto& begin, const auto& end) {
+            using Options = lesson_10::Options;
+            return rasterbook::run_lesson<Options>(
+                argc, argv, "10_threading", "", make_shadow_assets<Options>,
+                [&](const auto& options, const auto& assets, auto& counters) {
+                    ThreadPool pool(options.threads.threads);
+                    begin();
+                    Image<vec3> picture = lesson_10::render(options, assets, pool, counters);
+                    end();
+                    return picture;
+                },
+                [](auto&... of) { return shadow_probe(of...); });
+        });
+    const auto scene_lesson = [](const char* name, auto options, const auto& render) {
+        expect_one_line_for_each_failure(
+            name, [&](int argc, char** argv, const auto& begin, const auto& end) {
+                return rasterbook::run_scene_lesson<decltype(options)>(
+                    argc, argv, name, "", [&](auto&... of) {
+                        begin();
+                        Image<vec3> picture = render(of...);
+                        end();
+                        return picture;
+                    });
+            });
+    };
+    scene_lesson("12_visibility_buffer", lesson_12::Options(),
+                 [](auto&... of) { return lesson_12::render(of...); });
+    scene_lesson("13_simd", lesson_13::Options(),
+                 [](auto&... of) { return lesson_13::render(of...); });
 }

@@ -22,7 +22,7 @@
 namespace rasterbook {
 
 /// A shadow map in square parts. Each is drawn by the thread that first asks for it; others that
-/// ask meanwhile wait.
+/// ask meanwhile wait. If drawing throws, the next that asks tries again.
 class ShadowMapParts {
   public:
     /// @param map      Of any depths; has to outlive this object.
@@ -51,7 +51,7 @@ class ShadowMapParts {
     template <typename CounterPolicy, typename Fill>
     void draw_in(const PixelBox& texels, CounterPolicy& counters, const Fill& fill) const {
         tiling_.for_each_in(texels, [&](std::size_t part) {
-            if (!is_drawn(part)) draw(part, counters, fill);
+            while (!is_drawn(part)) draw(part, counters, fill);
         });
     }
 
@@ -68,13 +68,22 @@ class ShadowMapParts {
     void draw(std::size_t part, CounterPolicy& counters, const Fill& fill) const {
         State before = not_asked;
         if (states_[part].compare_exchange_strong(before, being_drawn)) {
-            counters.add(Counter::shadow_parts);
-            fill(*map_, casters_, tiling_, part, counters);
-            states_[part].store(drawn, std::memory_order_release);
-            states_[part].notify_all();
+            try {
+                counters.add(Counter::shadow_parts);
+                fill(*map_, casters_, tiling_, part, counters);
+            } catch (...) {
+                change(part, not_asked);  // else the others would wait for ever
+                throw;
+            }
+            change(part, drawn);
         } else {
             states_[part].wait(being_drawn, std::memory_order_acquire);
         }
+    }
+
+    void change(std::size_t part, State state) const {
+        states_[part].store(state, std::memory_order_release);
+        states_[part].notify_all();
     }
 
     ShadowMap* map_;

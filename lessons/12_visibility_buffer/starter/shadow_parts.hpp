@@ -22,7 +22,7 @@
 namespace rasterbook {
 
 /// A shadow map in square parts. Each is drawn by the thread that first asks for it; others that
-/// ask meanwhile wait.
+/// ask meanwhile wait. If drawing throws, the next that asks tries again.
 class ShadowMapParts {
   public:
     /// @param map      Of any depths; has to outlive this object.
@@ -51,7 +51,7 @@ class ShadowMapParts {
     template <typename CounterPolicy, typename Fill>
     void draw_in(const PixelBox& texels, CounterPolicy& counters, const Fill& fill) const {
         // TODO: step 3: tiling_.for_each_in() visits the parts that a box of texels lies in
-        // (Eq. 12.6). Call draw() for those that are not drawn.
+        // (Eq. 12.6). Call draw() for those that are not drawn, until they are.
     }
 
     const ShadowMap& map() const { return *map_; }
@@ -67,7 +67,13 @@ class ShadowMapParts {
     void draw(std::size_t part, CounterPolicy& counters, const Fill& fill) const {
         // TODO: step 3: whoever changes the state from not_asked to being_drawn draws the part, by
         // fill(), which takes what draw_tile() takes; counts it as one of Counter::shadow_parts;
-        // and then says so: release, and wake the others. Who comes later waits.
+        // and then says so, by change(). Who comes later waits. If fill() throws, the state is
+        // not_asked again, or the others would wait for ever; and the exception goes on.
+    }
+
+    void change(std::size_t part, State state) const {
+        states_[part].store(state, std::memory_order_release);
+        states_[part].notify_all();
     }
 
     ShadowMap* map_;
