@@ -487,6 +487,45 @@ TEST_F(ImageIo, HardCase_EveryTruncatedPictureIsAnError) {
     }
 }
 
+TEST_F(ImageIo, SixteenBitsOfAPngAreRounded) {
+    // Grey values of a row, as PNG stores them: a filter byte, and the highest byte first; deflate
+    // may leave bytes as they are, behind their number.
+    constexpr std::uint32_t width = 4096;
+    for (std::uint32_t first = 0; first < 65536; first += width) {
+        const auto big = [](std::uint32_t x) {
+            return Bytes{std::uint8_t(x >> 24), std::uint8_t(x >> 16), std::uint8_t(x >> 8),
+                         std::uint8_t(x)};
+        };
+        Bytes row{0};
+        for (std::uint32_t value = first; value < first + width; ++value)
+            row.insert(row.end(), {std::uint8_t(value >> 8), std::uint8_t(value)});
+        std::uint32_t a = 1, b = 0;  // Adler's check sum
+        for (const std::uint8_t byte : row) a = (a + byte) % 65521, b = (b + a) % 65521;
+        const auto length = std::uint32_t(row.size());
+        const Bytes deflated = Bytes{0x78,
+                                     1,
+                                     1,
+                                     std::uint8_t(length),
+                                     std::uint8_t(length >> 8),
+                                     std::uint8_t(~length),
+                                     std::uint8_t(~length >> 8)} +
+                               row + big(b << 16 | a);
+        const auto chunk = [&](const char* name, const Bytes& content) {
+            const Bytes named = Bytes(name, name + 4) + content;
+            return big(std::uint32_t(content.size())) + named + crc_of(named);
+        };
+        const Image<u8vec4> image =
+            read(Bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'} +
+                 chunk("IHDR", big(width) + big(1) + Bytes{16, 0, 0, 0, 0}) +
+                 chunk("IDAT", deflated) + chunk("IEND", {}));
+        for (std::uint32_t i = 0; i < width; ++i) {
+            const auto nearest =
+                std::uint8_t(((first + i) * 510u + 65535) / 131070);  // x 255/65535
+            ASSERT_EQ((image[{int(i), 0}]), u8vec4(nearest, nearest, nearest, 255)) << first + i;
+        }
+    }
+}
+
 TEST_F(ImageIo, BytesAfterThePictureDoNotMatter) {
     for (const auto& [name, bytes] : samples())
         EXPECT_EQ(read(bytes), read(bytes + Bytes(26, 'X'))) << name;

@@ -20,7 +20,7 @@ namespace rasterbook {
 /// @param max_pixels  As many are accepted.
 /// @return  Red, green, blue, opacity as stored (colours in files are sRGB), the top row first.
 ///          A missing opacity is 255; grey becomes three equal values; 16 bits a channel are
-///          reduced to 8.
+///          rounded to 8.
 /// @throws InputError  When the file is missing, not a regular file, longer than 2^31 - 1 bytes,
 ///          truncated, of an unsupported kind, of zero size, has a side over 2^24, or claims more
 ///          pixels than its bytes can hold or than are accepted.

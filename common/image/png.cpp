@@ -102,8 +102,8 @@ bool read_rows(Reader& reader, png_bytepp rows) {
     png_set_read_fn(reader.png, &reader, read_bytes);
     png_set_user_limits(reader.png, max_side, max_side);
     png_read_info(reader.png, reader.info);
-    png_set_strip_16(reader.png);
-    png_set_expand(reader.png);  // palettes, fewer than 8 bits, and one color that is transparent
+    png_set_scale_16(reader.png);  // to the nearest of 256 values
+    png_set_expand(reader.png);    // palettes, fewer than 8 bits, and one color that is transparent
     png_set_gray_to_rgb(reader.png);
     png_set_add_alpha(reader.png, 255, PNG_FILLER_AFTER);
     png_read_image(reader.png, rows);
