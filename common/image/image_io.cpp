@@ -23,20 +23,21 @@ bool begins_with(ByteView bytes, const std::array<std::uint8_t, N>& signature) {
 
 }  // namespace
 
-Image<u8vec4> read_image(const std::filesystem::path& file, std::uint64_t max_pixels) {
+Image<u8vec4> read_image(const std::filesystem::path& file, std::uint64_t max_pixels,
+                         std::string* remark) {
     constexpr auto max_bytes = std::numeric_limits<int>::max();  // as stb counts
-    return decode_image(read_whole_file(file, max_bytes), file, max_pixels);
+    return decode_image(read_whole_file(file, max_bytes), file, max_pixels, remark);
 }
 
 Image<u8vec4> decode_image(ByteView bytes, const std::filesystem::path& name,
-                           std::uint64_t max_pixels) {
+                           std::uint64_t max_pixels, std::string* remark) {
     constexpr auto png = std::to_array<std::uint8_t>({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
     constexpr auto jpeg = std::to_array<std::uint8_t>({0xff, 0xd8, 0xff});
     constexpr auto bmp = std::to_array<std::uint8_t>({'B', 'M'});
 
     if (bytes.empty()) throw InputError(name, "the file is empty");
     if (begins_with(bytes, png)) return decode_png(bytes, name, max_pixels);
-    if (begins_with(bytes, jpeg)) return decode_jpeg(bytes, name, max_pixels);
+    if (begins_with(bytes, jpeg)) return decode_jpeg(bytes, name, max_pixels, remark);
     if (begins_with(bytes, bmp)) return decode_bmp(bytes, name, max_pixels);
     return decode_tga(bytes, name, max_pixels);
 }

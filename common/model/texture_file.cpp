@@ -16,24 +16,29 @@ Image<u8vec4> chessboard() {
 
 }  // namespace
 
-Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget& budget) {
+Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget& budget, std::string* remark) {
     if (!map.embedded) budget.charge_file(map.file);
     const std::uint64_t most = budget.left(Resource::pixels);
-    Image<u8vec4> image =
-        map.embedded ? decode_image(*map.embedded, map.file, most) : read_image(map.file, most);
+    Image<u8vec4> image = map.embedded ? decode_image(*map.embedded, map.file, most, remark)
+                                       : read_image(map.file, most, remark);
     budget.charge(Resource::pixels, image.pixels().size(), map.file);
     return image;
 }
 
 Image<u8vec4> read_texture_file(const TextureMap& map, const char* statement, bool keep_going,
                                 Scene& scene) {
-    try {
-        return read_texture_file(map, scene.budget);
-    } catch (const InputError& error) {
+    const auto named = [&](const InputError& error) {
         const std::string asked_by = map.asked_by.empty() ? statement : map.asked_by;
-        const InputError named(map.library, map.line, asked_by + ": " + error.what());
-        if (!keep_going) throw named;
-        scene.warnings.push_back(named.what());
+        return InputError(map.library, map.line, asked_by + ": " + error.what());
+    };
+    try {
+        std::string remark;
+        Image<u8vec4> image = read_texture_file(map, scene.budget, &remark);
+        if (!remark.empty()) scene.warnings.push_back(named(InputError(map.file, remark)).what());
+        return image;
+    } catch (const InputError& error) {
+        if (!keep_going) throw named(error);
+        scene.warnings.push_back(named(error).what());
         return chessboard();
     }
 }

@@ -3,6 +3,8 @@
 /// Reads the images that materials name.
 #pragma once
 
+#include <string>
+
 #include "common/image/image.hpp"
 #include "common/model/mesh.hpp"
 
@@ -21,7 +23,9 @@ Image<u8vec4> read_texture_file(const TextureMap& map, const char* statement, bo
 
 /// The same without another message.
 ///
+/// @param remark       As of read_image().
 /// @throws InputError  Names the image alone.
-Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget& budget);
+Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget& budget,
+                                std::string* remark = nullptr);
 
 }  // namespace rasterbook

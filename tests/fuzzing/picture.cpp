@@ -24,10 +24,12 @@ struct Format {
     std::string_view name, signature;
     decltype(&decode_tga) decode;
 };
-constexpr Format formats[] = {{"bmp", "BM", decode_bmp},
-                              {"jpeg", "\xff\xd8\xff", decode_jpeg},
-                              {"png", "\x89PNG\r\n\x1a\n", decode_png},
-                              {"tga", "", decode_tga}};
+constexpr Format formats[] = {
+    {"bmp", "BM", decode_bmp},
+    {"jpeg", "\xff\xd8\xff",
+     [](auto bytes, const auto& file, auto most) { return decode_jpeg(bytes, file, most); }},
+    {"png", "\x89PNG\r\n\x1a\n", decode_png},
+    {"tga", "", decode_tga}};
 constexpr Format format = *std::ranges::find(formats, TARGET, &Format::name);
 
 /// Makes the check sum of each chunk of a PNG file right: else libpng would look at none of them.
