@@ -251,6 +251,159 @@ TEST(GltfFiles, RandomlyDamagedFilesGiveASoundSceneOrAnError) {
     EXPECT_GT(refused, 200);
 }
 
+TEST(GltfFiles, BuffersMayBeLongerThanTheySay) {
+    const GltfBuilder plain = one_triangle();
+    const fs::path folder = fresh_folder("gltf_longer");
+    const auto read = [&](const GltfBuilder& made, GltfForm form) {
+        return load_model(made.write(folder / "scene.gltf", form)).meshes.at(0);
+    };
+    const Mesh expected = read(plain, GltfForm::embedded);
+    for (const GltfForm form : {GltfForm::embedded, GltfForm::separate, GltfForm::binary})
+        for (const std::size_t more : {1, 2, 3, 4, 8, 1000}) {
+            SCOPED_TRACE(more);
+            GltfBuilder made = plain;
+            made.document["buffers"][0]["byteLength"] = made.bytes.size();
+            made.bytes += std::string(more, '\x7f');
+            const Mesh mesh = read(made, form);
+            EXPECT_EQ(mesh.positions, expected.positions);
+            EXPECT_EQ(mesh.vertices, expected.vertices);
+            // What lies beyond byteLength is not there, in whatever file.
+            made.document["bufferViews"][0]["byteOffset"] = plain.bytes.size() - 36 + more;
+            EXPECT_THROW(read(made, form), InputError);
+        }
+}
+
+TEST(GltfFiles, NamesOfFilesAreTakenFromTheirUris) {
+    // The name, and URIs that stand for it: RFC 3986, 2.1, encodes bytes and nothing else.
+    const std::vector<std::pair<std::string, std::vector<std::string>>> names = {
+        {"a+b.bin", {"a+b.bin", "a%2Bb.bin", "a%2bb.bin", "%61+%62.bin"}},
+        {"a b.bin", {"a b.bin", "a%20b.bin"}},
+        {"100%.bin", {"100%.bin", "100%25.bin"}},
+        {"c%20d.bin", {"c%20d.bin", "c%2520d.bin"}},
+        {"50%a.bin", {"50%a.bin", "50%25a.bin"}},
+        {"a#1?.bin", {"a#1?.bin", "a%231%3F.bin"}},
+        {"gr\u00fcn.bin", {"gr\u00fcn.bin", "gr%C3%BCn.bin"}},
+        {"sub/a&b=c.bin", {"sub/a&b=c.bin", "sub/a%26b%3Dc.bin", "./sub/a&b=c.bin"}}};
+    const fs::path folder = fresh_folder("gltf_uris");
+    fs::create_directory(folder / "sub");
+    GltfBuilder made = one_triangle();
+    for (const auto& [name, uris] : names) {
+        // Another file lies where a wrong reading would look, and has another triangle.
+        std::ofstream(folder / "a b.bin", std::ios::binary) << std::string(made.bytes.size(), '\0');
+        std::ofstream(folder / name, std::ios::binary) << made.bytes;
+        write_image(folder / (name + ".png"), Image<u8vec3>({1, 1}, {1, 2, 3}));
+        for (const std::string& uri : uris) {
+            SCOPED_TRACE(uri);
+            made.document["buffers"][0] = {{"uri", uri}, {"byteLength", made.bytes.size()}};
+            made.document["images"] = json::array({{{"uri", uri + ".png"}}});
+            made.document["textures"] = json::array({{{"source", 0}}});
+            made.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+            const Scene scene = load_model(made.write(folder / "scene.gltf"));
+            EXPECT_EQ(scene.bounds().max, vec3(1, 1, 0));
+            EXPECT_TRUE(fs::is_regular_file(scene.materials.at(1).diffuse_map.file));
+        }
+    }
+}
+
+TEST(GltfFiles, DataUrisAreReadWhateverTheirMediaType) {
+    GltfBuilder made = one_triangle();
+    const fs::path folder = fresh_folder("gltf_data_uris");
+    const std::string in_base64 = base64(made.bytes);
+    std::string encoded = in_base64, as_bytes;
+    for (std::size_t at = 0; (at = encoded.find_first_of("+/=", at)) != encoded.npos; at += 3)
+        encoded.replace(at, 1, encoded[at] == '+' ? "%2B" : encoded[at] == '/' ? "%2f" : "%3D");
+    for (const char c : made.bytes) {
+        const std::string digits = "0123456789ABCDEF";
+        as_bytes += std::string("%") + digits[std::uint8_t(c) / 16] + digits[std::uint8_t(c) % 16];
+    }
+    for (const std::string& uri :
+         {"data:application/octet-stream;base64," + in_base64,
+          "data:application/gltf-buffer;base64," + in_base64, "data:;base64," + in_base64,
+          "data:model/vnd.mesh;name=a;base64," + in_base64,
+          "data:text/plain;charset=utf-8;base64," + encoded,
+          "data:text/plain;base64," + in_base64.substr(0, in_base64.find('=')),
+          "data:application/octet-stream," + as_bytes}) {
+        made.document["buffers"][0]["uri"] = uri;
+        EXPECT_EQ(load_model(made.write(folder / "scene.gltf")).bounds().max, vec3(1, 1, 0))
+            << uri.substr(0, 60);
+    }
+}
+
+TEST(GltfFiles, BytesBehindABinaryFileAreAWarning) {
+    const fs::path folder = fresh_folder("gltf_behind"), file = folder / "scene.glb";
+    // With a buffer of its own, and with JSON alone.
+    std::string text = read_text(one_triangle().write(folder / "scene.gltf"));
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::string json_alone = "glTF" + little_endian(2, 4) +
+                                   little_endian(20 + text.size(), 4) +
+                                   little_endian(text.size(), 4) + "JSON" + text;
+    const std::string with_buffer = read_text(one_triangle().write(file, GltfForm::binary));
+    for (const std::string& whole : {with_buffer, json_alone})
+        for (const std::size_t more : {0, 1, 3, 4, 8, 20, 5000}) {
+            std::ofstream(file, std::ios::binary) << whole << std::string(more, 'x');
+            const Scene scene = load_model(file);
+            EXPECT_EQ(scene.bounds().max, vec3(1, 1, 0));
+            ASSERT_EQ(scene.warnings.size(), more == 0 ? 0u : 1u);
+            if (more > 0)
+                EXPECT_EQ(scene.warnings[0], file.string() + ": " + std::to_string(more) +
+                                                 " bytes behind its end are ignored");
+        }
+}
+
+TEST(GltfFiles, ImagesThatAreNotReadAreNamedAndReplaced) {
+    const std::string webp = base64(std::string("RIFF\x1a\0\0\0WEBPVP8L", 16) + "0123456789");
+    struct Row {
+        json texture, image;
+        std::string message;
+    };
+    const auto in = [](const char* extension) {
+        return json{{"extensions", {{extension, {{"source", 0}}}}}};
+    };
+    const json plain = {{"source", 0}}, webp_uri = {{"uri", "data:image/webp;base64," + webp}};
+    const std::string other_kind = ": not a PNG, JPEG, BMP or TGA picture";
+    const fs::path folder = fresh_folder("gltf_kinds");
+    for (const Row& row :
+         std::vector<Row>{{in("EXT_texture_webp"), webp_uri,
+                           "texture 0: has no image but that of "
+                           "EXT_texture_webp, which is not read"},
+                          {in("KHR_texture_basisu"), webp_uri, "but that of KHR_texture_basisu"},
+                          {in("MSFT_texture_dds"), webp_uri, "but that of MSFT_texture_dds"},
+                          {in("EXT_texture_avif"), webp_uri, "but that of EXT_texture_avif"},
+                          {json::object(), webp_uri, "texture 0: has no image"},
+                          {plain, {{"name", "empty"}}, "image 0 has neither uri nor bufferView"},
+                          {plain, webp_uri, "image 0 (image/webp)" + other_kind},
+                          {plain,
+                           {{"uri", "data:image/ktx2;base64," + webp}},
+                           "image 0 (image/ktx2)" + other_kind},
+                          {plain, {{"uri", "data:;base64," + webp}}, "image 0" + other_kind},
+                          {plain,
+                           {{"bufferView", 0}, {"mimeType", "image/webp"}},
+                           "image 0 (image/webp)" + other_kind}}) {
+        SCOPED_TRACE(row.message);
+        GltfBuilder made = one_triangle();
+        made.document["textures"] = json::array({row.texture});
+        made.document["images"] = json::array({row.image});
+        made.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+        const fs::path file = made.write(folder / "scene.gltf");
+        Scene scene = load_model(file);
+        try {
+            load_diffuse_textures(scene, TextureOptions());
+            ADD_FAILURE() << "it is read";
+        } catch (const InputError& error) {
+            const std::string text = error.what();
+            EXPECT_TRUE(
+                text.starts_with(file.string() + ": material 0 \"paint\": baseColorTexture: "))
+                << text;
+            EXPECT_NE(text.find(row.message), text.npos) << text;
+            EXPECT_LT(text.size(), 500u) << "of which the data are no part";
+        }
+        TextureOptions options;
+        options.keep_going = true;
+        EXPECT_EQ(load_diffuse_textures(scene, options).at(1)->levels[0].size, ivec2(8));
+        EXPECT_NE(scene.warnings.at(0).find(row.message), std::string::npos);
+    }
+}
+
 TEST(GltfFiles, EachWrapModeIsATextureOfItsOwn) {
     const fs::path folder = fresh_folder("gltf_wrapped");
     write_image(folder / "wood.png", Image<u8vec3>({1, 1}, {255, 160, 40}));

@@ -64,7 +64,7 @@ dmat4 without_scale(const dmat4& world_from_node) {
 class GltfReader {
   public:
     GltfReader(const fs::path& file, const LoadBudget& budget)
-        : file_(file), budget_(budget), model_(read_gltf_document(file, budget_, complaint_)) {}
+        : file_(file), budget_(budget), model_(read_gltf_document(file, budget_, warnings_)) {}
     Scene read();
 
   private:
@@ -121,10 +121,9 @@ class GltfReader {
 
     const fs::path& file_;
     LoadBudget budget_;
-    std::string complaint_;
+    Warnings warnings_;
     const tinygltf::Model model_;
     Scene scene_;
-    Warnings warnings_;
     std::string node_name_, where_;  ///< For messages: the node's, and the primitive's.
 
     // World space; of meshes, those of their vertices' elements, until the origin is known.
@@ -139,7 +138,6 @@ class GltfReader {
 };
 
 void GltfReader::warn_of_document() {
-    if (!complaint_.empty()) warn(complaint_);
     for (const std::string& name : model_.extensionsUsed)
         if (!is_known_gltf_extension(name)) warn("the extension " + name + " is passed over");
     if (!model_.animations.empty()) warn("animations are passed over");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tinygltf is one header, and includes less than it needs. Files and pictures are read by our own
-// functions, which are more careful.
+// tinygltf is one header, and includes less than it needs. It is given JSON alone: files and images
+// are read by our own functions, which are more careful.
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -20,8 +20,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "common/image/file.hpp"
 #include "common/image/input_error.hpp"
@@ -50,30 +52,45 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// The JSON of a file, which for .glb is the first of its chunks.
-///
-/// Chunks: a length, a kind and as many bytes. The whole begins with 12 bytes: "glTF", the version
-/// and the length of the file.
-ByteView json_of(ByteView bytes, const fs::path& file) {
+/// What a file holds: JSON, and behind it the bytes of a .glb file's own buffer.
+struct Content {
+    ByteView text;  ///< The JSON.
+    std::optional<ByteView> own_buffer;
+};
+
+/// A .glb file begins with 12 bytes: "glTF", the version and the length of the file. Then come
+/// chunks: a length, a kind and as many bytes. The first is JSON; the second may be the buffer.
+Content content_of(ByteView bytes, const fs::path& file, Warnings& warnings) {
     constexpr std::size_t header = 12, chunk_header = 8;
-    if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return bytes;
+    constexpr std::uint32_t json_kind = 0x4e4f534a, buffer_kind = 0x004e4942;  // "JSON", "BIN\0"
+    if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) return {bytes, {}};
     if (bytes.size() < header + chunk_header)
         throw InputError(file, "truncated: the header of a .glb file has 20 bytes");
     if (u32_at(bytes, 4) != 2)
         throw InputError(file, "is glTF " + std::to_string(u32_at(bytes, 4)) + ", not 2");
-    if (u32_at(bytes, 8) != bytes.size())
-        throw InputError(file, (u32_at(bytes, 8) > bytes.size() ? "truncated: " : "damaged: ") +
-                                   std::to_string(bytes.size()) + " of " +
-                                   std::to_string(u32_at(bytes, 8)) + " bytes are there");
-    for (std::size_t at = header; at < bytes.size();) {
-        if (bytes.size() - at < chunk_header ||
-            u32_at(bytes, at) > bytes.size() - at - chunk_header)
+    const std::size_t length = u32_at(bytes, 8);
+    if (length > bytes.size())
+        throw InputError(file, "truncated: " + std::to_string(bytes.size()) + " of " +
+                                   std::to_string(length) + " bytes are there");
+    if (length < bytes.size())
+        warnings.add(file, 0,
+                     std::to_string(bytes.size() - length) + " bytes behind its end are ignored");
+    ByteView rest = bytes.first(length);
+    const auto take = [&](std::size_t count) {
+        if (count > rest.size())
             throw InputError(file, "damaged: a chunk reaches beyond the end of the file");
-        at += chunk_header + u32_at(bytes, at);
-    }
-    if (u32_at(bytes, 16) != 0x4e4f534a)  // "JSON"
-        throw InputError(file, "damaged: its first chunk is not JSON");
-    return bytes.subspan(header + chunk_header, u32_at(bytes, header));
+        const ByteView taken = rest.first(count);
+        rest = rest.subspan(count);
+        return taken;
+    };
+    take(header);
+    const auto take_chunk = [&](std::uint32_t kind) {
+        const ByteView head = take(chunk_header), chunk = take(u32_at(head, 0));
+        return u32_at(head, 4) == kind ? std::optional(chunk) : std::nullopt;
+    };
+    const std::optional<ByteView> text = take_chunk(json_kind);
+    if (!text) throw InputError(file, "damaged: its first chunk is not JSON");
+    return {*text, rest.empty() ? std::nullopt : take_chunk(buffer_kind)};
 }
 
 /// A whole number in an object; `missing` when there is none that is >= 0.
@@ -81,29 +98,6 @@ std::uint64_t whole_number(const json& object, const char* key, std::uint64_t mi
     const auto found = object.is_object() ? object.find(key) : object.end();
     return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>()
                                                                 : missing;
-}
-
-const json& at_or_null(const json& array, std::uint64_t index) {
-    static const json null;
-    return array.is_array() && index < array.size() ? array[index] : null;
-}
-
-/// What tinygltf takes for granted: pictures in buffer views begin inside their buffers.
-void check_image_views(const json& document, const fs::path& file) {
-    const json none = json::array();
-    const json& images = document.contains("images") ? document["images"] : none;
-    const json& views = document.contains("bufferViews") ? document["bufferViews"] : none;
-    const json& buffers = document.contains("buffers") ? document["buffers"] : none;
-    for (std::size_t i = 0; images.is_array() && i < images.size(); ++i) {
-        if (!images[i].is_object() || !images[i].contains("bufferView")) continue;
-        constexpr auto missing = std::numeric_limits<std::uint64_t>::max();
-        const json& view = at_or_null(views, whole_number(images[i], "bufferView", missing));
-        const json& buffer = at_or_null(buffers, whole_number(view, "buffer", missing));
-        const std::uint64_t end = whole_number(buffer, "byteLength", 0);
-        const std::uint64_t begin = whole_number(view, "byteOffset", 0);
-        if (begin >= end || whole_number(view, "byteLength", missing) > end - begin)
-            throw InputError(file, "image " + std::to_string(i) + " lies beyond its buffer");
-    }
 }
 
 /// Before tinygltf makes objects of a few hundred bytes, or buffers, of a few letters.
@@ -147,7 +141,7 @@ void check_depth(ByteView text, const fs::path& file) {
 }
 
 /// Broken JSON has a message with line and column; what tinygltf would stumble over has one, too.
-void check_json(ByteView text, const fs::path& file, LoadBudget& budget) {
+json checked_json(ByteView text, const fs::path& file, LoadBudget& budget) {
     check_depth(text, file);
     json document;
     try {
@@ -167,51 +161,96 @@ void check_json(ByteView text, const fs::path& file, LoadBudget& budget) {
         throw InputError(file, "is glTF " + one_line(version) + ", not 2");
     charge_document(document, file, budget);
     check_required_extensions(document, file);
-    check_image_views(document, file);
+    return document;
 }
 
-/// For the files that a document names.
-struct FileAccess {
-    LoadBudget& budget;
-    std::string error;  ///< The first.
-};
+/// A text in an object; empty when there is none.
+const std::string& text_in(const json& object, const char* key) {
+    static const std::string none;
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    return found != object.end() && found->is_string() ? found->get_ref<const std::string&>()
+                                                       : none;
+}
 
-/// Our own file access, which tinygltf is given in place of its own. From 2.9 on it takes all of
-/// the functions or none; before 2.8.17 it has no member for the last of them.
-template <typename Callbacks = tinygltf::FsCallbacks>
-Callbacks file_callbacks(FileAccess& access) {
-    Callbacks callbacks{};
-    // The first place that is looked in, beside the scene's file, is the only one.
-    callbacks.FileExists = [](const std::string&, void*) { return true; };
-    callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-    callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string*,
-                                 const std::string& path, void* user_data) {
-        auto& [budget, error] = *static_cast<FileAccess*>(user_data);
-        try {
-            *bytes = read_charged(path, budget);
-            return true;
-        } catch (const InputError& failure) {
-            error = failure.what();
-            return false;
-        }
+/// A URI's bytes, of which some are encoded as "%20" and the like.
+std::string decoded_uri(std::string_view uri) {
+    const auto digit = [](char c) {
+        if (c >= '0' && c <= '9') return c - '0';
+        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+        return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
     };
-    callbacks.WriteWholeFile = [](std::string*, const std::string&,
-                                  const std::vector<unsigned char>&, void*) { return false; };
-    if constexpr (requires { callbacks.GetFileSizeInBytes; })  // read_whole_file() limits the size
-        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&,
-                                          void*) {
-            *size = 0;
-            return true;
-        };
-    callbacks.user_data = &access;
-    return callbacks;
+    std::string text;
+    text.reserve(uri.size());
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool is_code =
+            uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
+        text += is_code ? static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2])) : uri[i];
+        if (is_code) i += 2;
+    }
+    return text;
 }
 
-/// Keeps the bytes of a picture that stands in the JSON itself; those of a view are there already.
-bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-                const unsigned char* bytes, int size, void*) {
-    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
-    return true;
+/// The elements of one of the document's lists, which then is no longer in it.
+json take_list(json& document, const char* key) {
+    const auto found = document.find(key);
+    if (found == document.end()) return json::array();
+    json list = found->is_array() ? std::move(*found) : json::array();
+    document.erase(found);
+    return list;
+}
+
+/// The bytes of a buffer, as many as it says it has: a file or data URI may be longer.
+Bytes bytes_of_buffer(const json& buffer, const std::optional<ByteView>& own, const fs::path& file,
+                      const std::string& label, LoadBudget& budget) {
+    constexpr auto missing = std::numeric_limits<std::uint64_t>::max();
+    const std::uint64_t length = whole_number(buffer, "byteLength", missing);
+    if (length == missing) throw InputError(file, label + " has no byteLength");
+    const std::string& uri = text_in(buffer, "uri");
+    std::string from = label;
+    Bytes bytes;
+    if (is_data_uri(uri)) {
+        bytes = bytes_of_data_uri(uri, file, label);
+    } else if (!uri.empty()) {
+        const fs::path beside = file_of_uri(file, uri);
+        from = beside.string();
+        try {
+            bytes = read_charged(beside, budget);
+        } catch (const InputError& failure) { throw InputError(file, one_line(failure.what())); }
+    } else if (own) {
+        bytes.assign(own->begin(),
+                     own->begin() +
+                         static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(length, own->size())));
+    } else {
+        throw InputError(file, label + " has no uri");
+    }
+    if (bytes.size() < length)
+        throw InputError(file, from + ": truncated: " + std::to_string(bytes.size()) + " of " +
+                                   std::to_string(length) + " bytes are there");
+    bytes.resize(static_cast<std::size_t>(length));
+    return bytes;
+}
+
+void add_buffers(tinygltf::Model& model, const json& buffers, const Content& content,
+                 const fs::path& file, LoadBudget& budget) {
+    for (const json& buffer : buffers) {
+        const std::size_t i = model.buffers.size();
+        model.buffers.emplace_back().data =
+            bytes_of_buffer(buffer, i == 0 ? content.own_buffer : std::nullopt, file,
+                            "buffer " + std::to_string(i), budget);
+    }
+}
+
+void add_images(tinygltf::Model& model, const json& images, const fs::path& file) {
+    for (const json& from : images) {
+        tinygltf::Image& image = model.images.emplace_back();
+        image.uri = text_in(from, "uri");
+        image.mimeType = text_in(from, "mimeType");
+        if (!from.is_object() || !from.contains("bufferView")) continue;
+        constexpr std::uint64_t most = std::numeric_limits<int>::max();
+        image.bufferView = static_cast<int>(std::min(whole_number(from, "bufferView", most), most));
+        bytes_of_view(model, image.bufferView, file,
+                      "image " + std::to_string(model.images.size() - 1));
+    }
 }
 
 }  // namespace
@@ -226,36 +265,62 @@ bool is_known_gltf_extension(const std::string& name) {
     return known.contains(name);
 }
 
-tinygltf::Model read_gltf_document(const fs::path& file, LoadBudget& budget,
-                                   std::string& complaint) {
+fs::path file_of_uri(const fs::path& file, std::string_view uri) {
+    const fs::path decoded = file.parent_path() / decoded_uri(uri);
+    const fs::path as_it_is = file.parent_path() / fs::path(uri);
+    std::error_code ignored;
+    return !fs::exists(decoded, ignored) && fs::exists(as_it_is, ignored) ? as_it_is : decoded;
+}
+
+Bytes bytes_of_data_uri(std::string_view uri, const fs::path& file, const std::string& what) {
+    const std::size_t comma = uri.find(',');
+    if (comma == uri.npos) throw InputError(file, what + ": its data URI has no data");
+    const std::string data = decoded_uri(uri.substr(comma + 1));
+    if (!uri.substr(0, comma).ends_with(";base64")) return {data.begin(), data.end()};
+    const auto digit = [](char c) {
+        if (c >= 'A' && c <= 'Z') return c - 'A';
+        if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+        if (c >= '0' && c <= '9') return c - '0' + 52;
+        return c == '+' ? 62 : c == '/' ? 63 : -1;
+    };
+    Bytes bytes;
+    bytes.reserve(data.size() / 4 * 3 + 3);
+    std::uint32_t bits = 0;
+    int place = 0;  // of a digit in its four
+    for (const char c : std::string_view(data).substr(0, data.find_last_not_of('=') + 1)) {
+        if (digit(c) < 0) throw InputError(file, what + ": its data URI is not base64");
+        bits = bits << 6 | static_cast<std::uint32_t>(digit(c));
+        if (place > 0) bytes.push_back(static_cast<std::uint8_t>(bits >> (2 * (3 - place))));
+        place = (place + 1) % 4;
+    }
+    return bytes;
+}
+
+tinygltf::Model read_gltf_document(const fs::path& file, LoadBudget& budget, Warnings& warnings) {
     const Bytes bytes = read_charged(file, budget);
-    const ByteView text = json_of(bytes, file);
-    check_json(text, file, budget);
+    const Content content = content_of(bytes, file, warnings);
+    json document = checked_json(content.text, file, budget);
+    // Buffers and images are read here: tinygltf takes "+" in a URI for a blank, and refuses much.
+    const json buffers = take_list(document, "buffers"), images = take_list(document, "images");
+    const std::string text = document.dump();
+    document = nullptr;
 
     tinygltf::Model model;
     tinygltf::TinyGLTF reader;
-    FileAccess access{budget, {}};
     std::string error, warning;
-    reader.SetFsCallbacks(file_callbacks(access));
-    reader.SetImageLoader(keep_image, nullptr);
     bool is_read = false;
     try {
-        const auto size = static_cast<unsigned int>(bytes.size());
-        const std::string folder = file.parent_path().string();
-        is_read =
-            text.data() == bytes.data()
-                ? reader.LoadASCIIFromString(&model, &error, &warning,
-                                             reinterpret_cast<const char*>(bytes.data()), size,
-                                             folder)
-                : reader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, folder);
+        is_read = reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                             static_cast<unsigned int>(text.size()), "");
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& failure) {  // of its own .at() or JSON
         throw InputError(file, "damaged: " + one_line(failure.what()));
     }
-    if (!access.error.empty()) throw InputError(file, one_line(access.error));
     if (!is_read) throw InputError(file, one_line(error.empty() ? "damaged" : error));
-    complaint = one_line(error);
+    if (!error.empty()) warnings.add(file, 0, one_line(error));
+    add_buffers(model, buffers, content, file, budget);
+    add_images(model, images, file);
     return model;
 }
 

@@ -6,25 +6,43 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <tiny_gltf.h>
 
 #include "common/image/image_bytes.hpp"
 #include "common/math/types.hpp"
 #include "common/model/load_budget.hpp"
+#include "common/model/mtl.hpp"
 
 namespace rasterbook {
 
-/// Reads a .gltf or .glb file, told apart by the content, and the buffers that it names. Pictures
-/// beside it are not opened.
+/// Reads a .gltf or .glb file, told apart by the content, and the buffers that it names. Images are
+/// not opened: of them there are `uri`, `bufferView` and `mimeType`.
 ///
-/// @param budget     Is charged with the bytes of files and buffers.
-/// @param complaint  Takes what tinygltf found fault with and passed over; one line, or empty.
+/// @param budget    Is charged with the bytes of files and buffers.
+/// @param warnings  Takes what is wrong and does not matter: bytes behind a .glb file's end, and
+///                  what tinygltf found fault with.
 /// @throws InputError  When a file is missing or not regular, the JSON is broken or nested deeper
-///          than 64, a .glb is truncated, a buffer is shorter or longer than said, an extension is
-///          needed that is_known_gltf_extension() does not know, or tinygltf finds fault. One line.
+///          than 64, a .glb is truncated, a buffer has fewer bytes than it says, an image's view
+///          reaches beyond its buffer, an extension is needed that is_known_gltf_extension() does
+///          not know, or tinygltf finds fault. One line.
 tinygltf::Model read_gltf_document(const std::filesystem::path& file, LoadBudget& budget,
-                                   std::string& complaint);
+                                   Warnings& warnings);
+
+/// Whether a URI is the data itself: "data:image/png;base64,...".
+inline bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
+
+/// The file that a URI names beside a file: "%20" and the like stand for bytes, "+" is itself (RFC
+/// 3986). Where there is none of that name, the URI may be the name: some exporters encode nothing.
+std::filesystem::path file_of_uri(const std::filesystem::path& file, std::string_view uri);
+
+/// The bytes of a data URI (RFC 2397), in base64 or as text, whatever its media type is.
+///
+/// @param what  Who asks, for the error: "image 3".
+/// @throws InputError  When it has no data, or is not base64 though it says so.
+Bytes bytes_of_data_uri(std::string_view uri, const std::filesystem::path& file,
+                        const std::string& what);
 
 /// Whether all that can be drawn of an extension is read, or a picture is the same without it.
 bool is_known_gltf_extension(const std::string& name);

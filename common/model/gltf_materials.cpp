@@ -37,23 +37,6 @@ vec3 color_in(const Value& object, const std::string& key, vec3 missing) {
     return missing;
 }
 
-/// "%20" and the like stand for bytes.
-std::string decoded_uri(const std::string& uri) {
-    const auto digit = [](char c) {
-        if (c >= '0' && c <= '9') return c - '0';
-        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-        return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-    };
-    std::string text;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool is_code =
-            uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
-        text += is_code ? static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2])) : uri[i];
-        if (is_code) i += 2;
-    }
-    return text;
-}
-
 /// Makes our materials of those of a file.
 class MaterialMaker {
   public:
@@ -64,8 +47,15 @@ class MaterialMaker {
     Material make(std::size_t index);
 
   private:
+    /// An image in the file.
+    struct Embedded {
+        std::shared_ptr<const Bytes> bytes;
+        fs::path name;  ///< With the media type.
+    };
+
     TextureMap map_of(int texture, const tinygltf::ExtensionMap& extensions, const char* which);
-    void add_picture(TextureMap& map, int image);
+    void add_picture(TextureMap& map, int texture);
+    Embedded embedded(const tinygltf::Image& from, const std::string& label);
     void add_wrap(TextureMap& map, int sampler);
     void add_look(Material& material, const tinygltf::Material& from);
     void add_toon(Material& material, const tinygltf::Material& from, std::size_t index);
@@ -86,42 +76,54 @@ class MaterialMaker {
     LoadBudget& budget_;
     Warnings& warnings_;
 
-    /// An image in the file.
-    struct Embedded {
-        std::shared_ptr<const Bytes> bytes;
-        fs::path name;
-    };
     std::map<std::pair<int, int>, Embedded> embedded_;  ///< By buffer view, or -1 and the image.
     std::map<std::pair<fs::path, bool>, vec3> means_;   ///< Of pictures, as sRGB or plain.
     std::string name_;                                  ///< Of the material, for messages.
 };
 
 /// A picture beside the file, or in it.
-void MaterialMaker::add_picture(TextureMap& map, int image) {
-    if (image < 0 || static_cast<std::size_t>(image) >= model_.images.size())
-        throw InputError(
-            file_, map.asked_by + " names image " + std::to_string(image) + ", which is not there");
-    const auto index = static_cast<std::size_t>(image);
-    const tinygltf::Image& from = model_.images[index];
-    if (from.bufferView < 0 && from.image.empty()) {
-        if (from.uri.starts_with("data:"))
-            throw InputError(file_, map.asked_by + " is of a kind that is not read");
-        map.file = file_.parent_path() / decoded_uri(from.uri);
+void MaterialMaker::add_picture(TextureMap& map, int texture) {
+    const tinygltf::Texture& named = model_.textures[static_cast<std::size_t>(texture)];
+    if (named.source == -1) {
+        map.file = file_.string() + ", texture " + std::to_string(texture);
+        map.unreadable = "has no image";
+        for (const auto& [name, extension] : named.extensions)
+            if (extension.Has("source"))
+                map.unreadable += " but that of " + name + ", which is not read";
+        return;
+    }
+    const std::string label = "image " + std::to_string(named.source);
+    if (named.source < 0 || static_cast<std::size_t>(named.source) >= model_.images.size())
+        throw InputError(file_, map.asked_by + " names " + label + ", which is not there");
+    const tinygltf::Image& from = model_.images[static_cast<std::size_t>(named.source)];
+    if (from.bufferView < 0 && !is_data_uri(from.uri)) {
+        map.file = file_of_uri(file_, from.uri);
+        if (from.uri.empty()) map.unreadable = label + " has neither uri nor bufferView";
         return;
     }
     // Images of one view are one: its name is that of the first.
-    Embedded& own = embedded_[{from.bufferView, from.bufferView < 0 ? image : 0}];
-    if (!own.bytes) {
-        const std::string label = "image " + std::to_string(image);
-        const ByteView bytes = from.bufferView < 0
-                                   ? ByteView(from.image)
-                                   : bytes_of_view(model_, from.bufferView, file_, label);
-        budget_.charge(Resource::bytes, bytes.size(), file_);
-        own = {std::make_shared<const Bytes>(bytes.begin(), bytes.end()),
-               file_.string() + ", " + label};
-    }
+    Embedded& own = embedded_[{from.bufferView, from.bufferView < 0 ? named.source : 0}];
+    if (!own.bytes) own = embedded(from, label);
     map.embedded = own.bytes;
     map.file = own.name;
+}
+
+/// @param label  Of the image, for messages.
+MaterialMaker::Embedded MaterialMaker::embedded(const tinygltf::Image& from,
+                                                const std::string& label) {
+    Bytes bytes;
+    std::string media_type = from.mimeType;
+    if (from.bufferView < 0) {
+        bytes = bytes_of_data_uri(from.uri, file_, label);
+        media_type = from.uri.substr(5, from.uri.find_first_of(",;") - 5);
+    } else {
+        const ByteView view = bytes_of_view(model_, from.bufferView, file_, label);
+        bytes.assign(view.begin(), view.end());
+    }
+    budget_.charge(Resource::bytes, bytes.size(), file_);
+    return {std::make_shared<const Bytes>(std::move(bytes)),
+            file_.string() + ", " + label +
+                (media_type.empty() ? "" : " (" + media_type.substr(0, 40) + ")")};
 }
 
 /// Both directions of a picture are wrapped as the first is.
@@ -147,7 +149,7 @@ TextureMap MaterialMaker::map_of(int texture, const tinygltf::ExtensionMap& exte
         fail(std::string(which) + " names texture " + std::to_string(texture) +
              ", which is not there");
     const tinygltf::Texture& from = model_.textures[static_cast<std::size_t>(texture)];
-    add_picture(map, from.source);
+    add_picture(map, texture);
     add_wrap(map, from.sampler);
     if (const Value* transform = find_extension(extensions, "KHR_texture_transform")) {
         const auto numbers = [&](const char* key, float missing) {

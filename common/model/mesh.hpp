@@ -100,6 +100,7 @@ struct TextureMap {
     bool clamp = false;             ///< -clamp on.
     bool mirror = false;            ///< Every other copy is mirrored; only where `clamp` is off.
     std::string asked_by{};         ///< For messages; empty: the statement of MTL.
+    std::string unreadable{};       ///< Why there is no image to be read; empty: there is one.
 
     /// The bytes of the picture's file where that stands inside the model's file; `file` is then
     /// only a name, one for each picture.

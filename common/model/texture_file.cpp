@@ -17,6 +17,7 @@ Image<u8vec4> chessboard() {
 }  // namespace
 
 Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget& budget, std::string* remark) {
+    if (!map.unreadable.empty()) throw InputError(map.file, map.unreadable);
     if (!map.embedded) budget.charge_file(map.file);
     const std::uint64_t most = budget.left(Resource::pixels);
     Image<u8vec4> image = map.embedded ? decode_image(*map.embedded, map.file, most, remark)
