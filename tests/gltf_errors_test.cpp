@@ -271,6 +271,71 @@ TEST(GltfErrors, NodesScenesAndMeshesOutOfRange) {
     });
 }
 
+TEST(GltfErrors, SkinsThatCannotBePosed) {
+    const auto skinned = [](json skin, std::vector<double> joints, std::vector<double> weights) {
+        return [=](GltfBuilder& made) {
+            made.document["nodes"] =
+                json::array({{{"mesh", 0}, {"skin", 0}}, json::object(), json::object()});
+            made.document["scenes"][0]["nodes"] = {0, 1};
+            made.document["skins"] = json::array({skin});
+            json& attributes = made.primitive()["attributes"];
+            if (!joints.empty())
+                attributes["JOINTS_0"] = made.add(joints, "VEC4", gl_unsigned_byte);
+            if (!weights.empty()) attributes["WEIGHTS_0"] = made.add(weights, "VEC4", gl_float);
+        };
+    };
+    const json good = {{"joints", {1}}};
+    const std::vector<double> joints(12, 0), weights(12, 0.25);
+    std::vector<double> second_joint = joints, below_0 = weights;
+    second_joint[5] = 1, below_0[6] = -1;
+    expect_errors({
+        {"no such skin", [](GltfBuilder& made) { made.document["nodes"][0]["skin"] = 3; },
+         "node 0: skin 3 is not there"},
+        {"no such joint", skinned({{"joints", {9}}}, joints, weights),
+         "skin 0: its joint, node 9 is not there"},
+        {"a joint elsewhere", skinned({{"joints", {1, 2}}}, joints, weights),
+         "skin 0: its joint, node 2, is not in the scene"},
+        {"no joints", skinned({{"joints", json::array()}}, joints, weights),
+         "skin 0 has no joints"},
+        {"not all matrices",
+         skinned({{"joints", {1}}, {"inverseBindMatrices", 0}}, joints, weights),
+         "has no matrix for each of 1 joints"},
+        {"no JOINTS_0", skinned(good, {}, weights), "has a skin, but no JOINTS_0"},
+        {"no WEIGHTS_0", skinned(good, joints, {}), "has a skin, but no WEIGHTS_0"},
+        {"few weights", skinned(good, joints, std::vector<double>(8, 0.25)),
+         "WEIGHTS_0: accessor 5 has no four numbers for each of 3 positions"},
+        {"a joint beyond all", skinned(good, second_joint, weights),
+         "JOINTS_0: accessor 4 element 1 names joint 1 of 1"},
+        {"a weight below 0", skinned(good, joints, below_0),
+         "WEIGHTS_0: accessor 5 element 1 has a weight below 0"},
+        {"joints as floats",
+         [&](GltfBuilder& made) {
+             skinned(good, joints, weights)(made);
+             made.primitive()["attributes"]["JOINTS_0"] = made.add(joints, "VEC4", gl_float);
+         },
+         "has no whole numbers"},
+    });
+}
+
+TEST(GltfErrors, EachFurtherSetOfJointsCountsAsVertices) {
+    GltfBuilder made = one_triangle();
+    made.document["nodes"] = json::array({{{"mesh", 0}, {"skin", 0}}});
+    made.document["skins"] = json::array({{{"joints", {0}}}});
+    json& attributes = made.primitive()["attributes"];
+    const int joints = made.add(std::vector<double>(12, 0), "VEC4", gl_unsigned_byte);
+    const int weights = made.add(std::vector<double>(12, 0.25), "VEC4", gl_float);
+    for (int set = 0; set < 5; ++set) {
+        attributes["JOINTS_" + std::to_string(set)] = joints;
+        attributes["WEIGHTS_" + std::to_string(set)] = weights;
+    }
+    const fs::path file = made.write(fresh_folder("gltf_sets") / "scene.gltf");
+    LoadBudget budget;
+    budget.set(Resource::vertices, 3 * 5);
+    EXPECT_EQ(error_of(file, budget), "");
+    budget.set(Resource::vertices, 3 * 5 - 1);
+    EXPECT_NE(error_of(file, budget).find("more than 14 vertices"), std::string::npos);
+}
+
 TEST(GltfErrors, NumbersThatAreNotFinite) {
     const auto spoiled = [](std::size_t which, std::uint32_t bits) {
         return [=](GltfBuilder& made) {
@@ -375,12 +440,6 @@ TEST(GltfErrors, WhatIsIgnoredIsAWarning) {
         return texture;
     };
     for (const Row& row : std::vector<Row>{
-             {"skin",
-              [](GltfBuilder& made) {
-                  made.document["nodes"][0]["skin"] = 0;
-                  made.document["nodes"][0]["translation"] = {100, 0, 0};
-              },
-              "skins are passed over"},
              {"morph target",
               [](GltfBuilder& made) {
                   made.primitive()["targets"] = json::array({{{"POSITION", 0}}});

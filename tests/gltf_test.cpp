@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -361,6 +363,128 @@ TEST(Gltf, AttributesMayBeWholeNumbersAndInterleaved) {
     const Scene scene = read(mixed);
     EXPECT_EQ(position(scene.meshes.at(0), 0, 1), vec3(4, 0, 7));
     EXPECT_EQ(normal(scene.meshes[0], 0, 2), vec3(0, 1, 0));
+}
+
+namespace {
+
+/// Any matrix that turns, scales, shears and moves, and mirrors now and then.
+Wide4 any_affine(std::mt19937& random) {
+    std::uniform_real_distribution<float> number(-0.5f, 0.5f);  // floats, as the file has them
+    Wide4 matrix(1);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 3; ++row) matrix[column][row] += number(random);
+    if (random() % 4 == 0) matrix[0] = -matrix[0];
+    return matrix;
+}
+
+std::vector<double> numbers_of(const Wide4& matrix) {
+    std::vector<double> numbers;
+    for (int i = 0; i < 16; ++i) numbers.push_back(double(matrix[i / 4][i % 4]));
+    return numbers;
+}
+
+struct SkinForm {
+    int joints, weights;  ///< Component types.
+    std::size_t sets;     ///< Of four joints and weights.
+    bool has_inverse_binds;
+};
+
+}  // namespace
+
+TEST(Gltf, FiguresStandInTheirBindPose) {
+    // Products in double of numbers up to about 10, rounded to float.
+    constexpr Wide position_tolerance = 4e-6L, normal_tolerance = 1e-6L;
+    std::mt19937 random(2);
+    int compared = 0;
+    for (int i = 0; i < 400; ++i) {
+        const SkinForm form{i % 2 ? gl_unsigned_byte : gl_unsigned_short,
+                            std::array{gl_float, gl_unsigned_byte, gl_unsigned_short}[i % 3],
+                            1 + std::size_t(i / 2 % 2), i % 5 != 0};
+        SCOPED_TRACE(i);
+        constexpr std::size_t count = 5;
+        // Node 0 has the mesh, and a place that must not matter; then a chain of joints.
+        GltfBuilder made = one_triangle();
+        json& nodes = made.document["nodes"] =
+            json::array({{{"mesh", 0}, {"skin", 0}, {"matrix", numbers_of(any_affine(random))}}});
+        made.document["scenes"][0]["nodes"] = {0, 1};
+        std::vector<Wide4> world_from_bind;
+        std::vector<double> inverse_binds, joints, weights;
+        Wide4 world(1);
+        for (std::size_t joint = 0; joint < count; ++joint) {
+            const Wide4 own = any_affine(random), inverse_bind = any_affine(random);
+            world = world * own;
+            nodes.push_back({{"matrix", numbers_of(own)}});
+            if (joint + 1 < count) nodes.back()["children"] = {joint + 2};
+            made.document["skins"][0]["joints"].push_back(joint + 1);
+            world_from_bind.push_back(form.has_inverse_binds ? world * inverse_bind : world);
+            for (const double x : numbers_of(inverse_bind)) inverse_binds.push_back(x);
+        }
+        if (form.has_inverse_binds)
+            made.document["skins"][0]["inverseBindMatrices"] =
+                made.add(inverse_binds, "MAT4", gl_float);
+        const double whole = form.weights == gl_float           ? 1
+                             : form.weights == gl_unsigned_byte ? 255
+                                                                : 65535;
+        std::array<Wide4, 3> posed{Wide4(0), Wide4(0), Wide4(0)};
+        json& attributes = made.primitive()["attributes"];
+        for (std::size_t set = 0; set < form.sets; ++set) {
+            joints.clear(), weights.clear();
+            for (std::size_t vertex = 0; vertex < 3; ++vertex)
+                for (std::size_t k = 0; k < 4; ++k) {
+                    const std::size_t joint = random() % count;
+                    const double weight = double(random() % 4) * (whole == 1 ? 0.25 : 15);
+                    joints.push_back(double(joint)), weights.push_back(weight);
+                    posed[vertex] += Wide(weight) / Wide(whole) * world_from_bind[joint];
+                }
+            const std::string number = std::to_string(set);
+            attributes["JOINTS_" + number] = made.add(joints, "VEC4", form.joints);
+            attributes["WEIGHTS_" + number] =
+                made.add(weights, "VEC4", form.weights, form.weights != gl_float);
+        }
+        const bool are_of_use = std::ranges::all_of(posed, [](Wide4& matrix) {
+            const Wide total = matrix[3][3];  // the weights of a file may have any sum
+            if (total > 0) matrix /= total;
+            return total > 0 && std::abs(glm::determinant(glm::mat<3, 3, Wide>(matrix))) > 0.1L;
+        });
+        if (!are_of_use) continue;
+        ++compared;
+        const bool is_mirrored = glm::determinant(glm::mat<3, 3, Wide>(posed[0])) < 0;
+        const Scene scene = read(made);
+        EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.at(0);
+        for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+            const std::size_t from = is_mirrored && vertex > 0 ? 3 - vertex : vertex;
+            const glm::vec<4, Wide> source(from == 1 ? 1 : 0, from == 2 ? 1 : 0, 0, 1);
+            EXPECT_LT(glm::distance(Wide3(position(scene.meshes.at(0), 0, vertex)),
+                                    Wide3(posed[from] * source)),
+                      position_tolerance);
+            const Wide3 expected_normal = glm::normalize(
+                glm::transpose(glm::inverse(glm::mat<3, 3, Wide>(posed[from]))) * Wide3(0, 0, 1));
+            EXPECT_LT(glm::distance(Wide3(normal(scene.meshes[0], 0, vertex)), expected_normal),
+                      normal_tolerance);
+        }
+    }
+    EXPECT_GT(compared, 50);
+}
+
+TEST(Gltf, AVertexWithoutWeightsFollowsItsFirstJoint) {
+    GltfBuilder made = one_triangle();
+    made.document["nodes"] = json::array({{{"mesh", 0}, {"skin", 0}},
+                                          {{"translation", {0, 0, 5}}, {"scale", {2, 2, 2}}},
+                                          {{"translation", {0, 0, 7}}}});
+    made.document["scenes"][0]["nodes"] = {0, 1, 2};
+    made.document["skins"] = json::array({{{"joints", {1, 2}}}});
+    json& attributes = made.primitive()["attributes"];
+    // A joint that does not count may be any.
+    attributes["JOINTS_0"] =
+        made.add({1, 0, 0, 0, 0, 99, 0, 0, 0, 1, 0, 0}, "VEC4", gl_unsigned_byte);
+    attributes["WEIGHTS_0"] = made.add({0, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0}, "VEC4", gl_float);
+    const Scene scene = read(made);
+    EXPECT_EQ(position(scene.meshes.at(0), 0, 0), vec3(0, 0, 7));
+    EXPECT_EQ(position(scene.meshes[0], 0, 1), vec3(2, 0, 5));
+    EXPECT_EQ(position(scene.meshes[0], 0, 2), vec3(0, 1.5f, 6));
+    ASSERT_EQ(scene.warnings.size(), 1u) << scene.warnings.at(1);
+    EXPECT_NE(scene.warnings[0].find("vertices without weights follow their first joint"),
+              std::string::npos);
 }
 
 TEST(Gltf, CamerasAndLightsMoveWithTheirNodes) {

@@ -71,12 +71,18 @@ class GltfReader {
     /// A node that is to be read.
     struct Visit {
         int node;
-        dmat4 world_from_parent;
+        dmat4 world_from_node;  ///< Of its parent, until it is the node's turn.
+    };
+
+    /// Four joints of each element, and how much each of them moves it.
+    struct Influences {
+        GltfArray joints, weights;
     };
 
     /// What a primitive's elements have; positions are always there.
     struct Arrays {
         std::optional<GltfArray> positions, normals, colors, uvs;
+        std::vector<Influences> influences;  ///< Empty: the primitive stands where its node does.
     };
 
     /// Where a primitive stands.
@@ -86,12 +92,17 @@ class GltfReader {
     };
 
     void warn_of_document();
-    void read_nodes(std::vector<int> roots);
+    std::vector<Visit> visits_of_nodes(const std::vector<int>& roots);
+    void name_node(int index);
+    void read_node(const Visit& visit);
     std::vector<int> roots() const;
     dmat4 parent_from_node(const tinygltf::Node& node) const;
     void read_mesh(const tinygltf::Node& node, const dmat4& world_from_node);
+    const std::vector<dmat4>& world_from_bind_of(int skin_index);
     void read_primitive(const tinygltf::Primitive& primitive, const dmat4& world_from_node);
-    Arrays arrays_of(const tinygltf::Primitive& primitive) const;
+    Arrays arrays_of(const tinygltf::Primitive& primitive);
+    std::vector<Influences> influences_of(const tinygltf::Primitive& primitive, std::size_t points);
+    dmat4 posed(const std::vector<Influences>& influences, std::size_t element);
     Vertex add_vertex(const Arrays& arrays, std::uint32_t element, const Place& place);
     void place_scene();
     void finish(Mesh& mesh, const std::vector<dvec3>& positions_world) const;
@@ -125,6 +136,8 @@ class GltfReader {
     const tinygltf::Model model_;
     Scene scene_;
     std::string node_name_, where_;  ///< For messages: the node's, and the primitive's.
+    std::vector<std::optional<dmat4>> world_from_node_;  ///< Of the scene's nodes.
+    std::map<int, std::vector<dmat4>> skins_;            ///< By index: as of world_from_bind_of().
 
     // World space; of meshes, those of their vertices' elements, until the origin is known.
     std::vector<std::vector<dvec3>> positions_of_mesh_;
@@ -132,6 +145,7 @@ class GltfReader {
     WorldBox box_;
 
     // Of the mesh that is being read; its colors are the elements'.
+    const std::vector<dmat4>* world_from_bind_ = nullptr;  ///< Of its skin's joints, if it has one.
     Mesh mesh_;
     std::vector<dvec3> positions_world_;
     bool has_colors_ = false;
@@ -140,13 +154,16 @@ class GltfReader {
 void GltfReader::warn_of_document() {
     for (const std::string& name : model_.extensionsUsed)
         if (!is_known_gltf_extension(name)) warn("the extension " + name + " is passed over");
-    if (!model_.animations.empty()) warn("animations are passed over");
+    if (!model_.animations.empty())
+        warn(model_.skins.empty() ? "animations are passed over"
+                                  : "animations are passed over: figures stand in their bind pose");
 }
 
 Scene GltfReader::read() {
     warn_of_document();
     scene_.materials = gltf_materials(model_, file_, budget_, warnings_);
-    read_nodes(roots());
+    // Where joints are has to be known before the first mesh.
+    for (const Visit& visit : visits_of_nodes(roots())) read_node(visit);
     if (scene_.meshes.empty()) fail("holds no faces");
     place_scene();
     scene_.warnings = warnings_.take();
@@ -172,29 +189,39 @@ std::vector<int> GltfReader::roots() const {
 }
 
 /// Depth first, in the order of the file; by a list of its own, for the depth may be any.
-void GltfReader::read_nodes(std::vector<int> roots) {
-    std::vector<bool> is_seen(model_.nodes.size());
-    std::vector<Visit> visits;
+std::vector<GltfReader::Visit> GltfReader::visits_of_nodes(const std::vector<int>& roots) {
+    world_from_node_.resize(model_.nodes.size());
+    std::vector<Visit> visits, left;
     const auto add = [&](const std::vector<int>& nodes, const dmat4& world_from_parent) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-            visits.push_back({*node, world_from_parent});
+            left.push_back({*node, world_from_parent});
     };
     add(roots, dmat4(1));
-    while (!visits.empty()) {
-        const Visit visit = visits.back();
-        visits.pop_back();
+    while (!left.empty()) {
+        Visit visit = left.back();
+        left.pop_back();
         const tinygltf::Node& node = at(model_.nodes, visit.node, "node");
-        const auto index = static_cast<std::size_t>(visit.node);
-        node_name_ = "node " + std::to_string(visit.node) +
-                     (node.name.empty() ? "" : " \"" + node.name + "\"");
-        if (is_seen[index]) fail(node_name_ + " has two parents, or is below itself");
-        is_seen[index] = true;
-        const dmat4 world_from_node = visit.world_from_parent * parent_from_node(node);
-        if (node.mesh >= 0) read_mesh(node, world_from_node);
-        if (node.camera >= 0) add_camera(node, world_from_node);
-        if (node.extensions.contains("KHR_lights_punctual")) add_light(node, world_from_node);
-        add(node.children, world_from_node);
+        name_node(visit.node);
+        std::optional<dmat4>& world = world_from_node_[static_cast<std::size_t>(visit.node)];
+        if (world) fail(node_name_ + " has two parents, or is below itself");
+        world = visit.world_from_node *= parent_from_node(node);
+        visits.push_back(visit);
+        add(node.children, *world);
     }
+    return visits;
+}
+
+void GltfReader::name_node(int index) {
+    const std::string& name = model_.nodes[static_cast<std::size_t>(index)].name;
+    node_name_ = "node " + std::to_string(index) + (name.empty() ? "" : " \"" + name + "\"");
+}
+
+void GltfReader::read_node(const Visit& visit) {
+    const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(visit.node)];
+    name_node(visit.node);
+    if (node.mesh >= 0) read_mesh(node, visit.world_from_node);
+    if (node.camera >= 0) add_camera(node, visit.world_from_node);
+    if (node.extensions.contains("KHR_lights_punctual")) add_light(node, visit.world_from_node);
 }
 
 /// The matrix, or what is first scaled, then turned, then moved.
@@ -232,7 +259,7 @@ dmat4 GltfReader::parent_from_node(const tinygltf::Node& node) const {
 
 void GltfReader::read_mesh(const tinygltf::Node& node, const dmat4& world_from_node) {
     const tinygltf::Mesh& from = at(model_.meshes, node.mesh, node_name_ + ": mesh");
-    if (node.skin >= 0) warn("skins are passed over: figures stand as they were modelled");
+    world_from_bind_ = node.skin >= 0 ? &world_from_bind_of(node.skin) : nullptr;
     mesh_ = {};
     positions_world_ = {};
     mesh_.name = node.name.empty() ? from.name : node.name;
@@ -243,12 +270,38 @@ void GltfReader::read_mesh(const tinygltf::Node& node, const dmat4& world_from_n
         where_ = "mesh " + std::to_string(node.mesh) +
                  (from.name.empty() ? "" : " \"" + from.name + "\"") + ", primitive " +
                  std::to_string(i);
-        // The place of a skinned mesh is that of its joints, not of its node.
-        read_primitive(from.primitives[i], node.skin >= 0 ? dmat4(1) : world_from_node);
+        read_primitive(from.primitives[i], world_from_node);
     }
     if (mesh_.triangles.empty()) return;
     scene_.meshes.push_back(std::move(mesh_));
     positions_of_mesh_.push_back(std::move(positions_world_));
+}
+
+/// What each of a skin's joints does to the figure as it was modelled.
+const std::vector<dmat4>& GltfReader::world_from_bind_of(int skin_index) {
+    const auto [found, is_new] = skins_.try_emplace(skin_index);
+    std::vector<dmat4>& world_from_bind = found->second;
+    if (!is_new) return world_from_bind;
+    const tinygltf::Skin& skin = at(model_.skins, skin_index, node_name_ + ": skin");
+    const std::string name = "skin " + std::to_string(skin_index);
+    std::optional<GltfArray> inverse_binds;
+    if (skin.inverseBindMatrices >= 0) {
+        inverse_binds.emplace(model_, skin.inverseBindMatrices, file_,
+                              name + ": inverseBindMatrices");
+        if (inverse_binds->components() != 16 || inverse_binds->size() < skin.joints.size())
+            inverse_binds->fail("has no matrix for each of " + std::to_string(skin.joints.size()) +
+                                " joints");
+    }
+    if (skin.joints.empty()) fail(name + " has no joints");
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+        const std::optional<dmat4>& joint =
+            at(world_from_node_, skin.joints[i], name + ": its joint, node");
+        if (!joint)
+            fail(name + ": its joint, node " + std::to_string(skin.joints[i]) +
+                 ", is not in the scene");
+        world_from_bind.push_back(inverse_binds ? *joint * inverse_binds->matrix(i) : *joint);
+    }
+    return world_from_bind;
 }
 
 /// The points of a primitive's triangles: strips and fans are taken apart.
@@ -300,14 +353,24 @@ void GltfReader::read_primitive(const tinygltf::Primitive& primitive,
         warn("morph targets are passed over: meshes have their first shape");
     if (!primitive.attributes.contains("POSITION")) return warn(where_ + ": has no positions");
     const Arrays arrays = arrays_of(primitive);
-    const Place place{world_from_node, world_from_normal(world_from_node)};
-    const bool turns_winding = is_mirrored(world_from_node);
+    const Place of_node{world_from_node, world_from_normal(world_from_node)};
+    const bool is_posed = !arrays.influences.empty(),
+               node_is_mirrored = is_mirrored(world_from_node);
+    const auto turns_winding = [&](std::uint32_t element) {
+        return is_posed ? is_mirrored(posed(arrays.influences, element)) : node_is_mirrored;
+    };
     const auto material = static_cast<std::uint32_t>(primitive.material + 1);
 
     std::unordered_map<std::uint32_t, Vertex> vertex_of_element;
     const auto vertex = [&](std::uint32_t element) {
         const auto [found, is_new] = vertex_of_element.try_emplace(element, Vertex{0});
-        if (is_new) found->second = add_vertex(arrays, element, place);
+        if (is_new && is_posed) {
+            const dmat4 world_from_bind = posed(arrays.influences, element);
+            found->second =
+                add_vertex(arrays, element, {world_from_bind, world_from_normal(world_from_bind)});
+        } else if (is_new) {
+            found->second = add_vertex(arrays, element, of_node);
+        }
         return found->second;
     };
     const std::vector<std::uint32_t> elements =
@@ -315,13 +378,13 @@ void GltfReader::read_primitive(const tinygltf::Primitive& primitive,
     for (std::size_t i = 0; i < elements.size(); i += 3) {
         Triangle triangle{{vertex(elements[i]), vertex(elements[i + 1]), vertex(elements[i + 2])},
                           material};
-        if (turns_winding) std::swap(triangle.vertices[1], triangle.vertices[2]);
+        if (turns_winding(elements[i])) std::swap(triangle.vertices[1], triangle.vertices[2]);
         mesh_.triangles.push_back(triangle);
     }
 }
 
 /// The arrays of a primitive that are of use, all as long as its positions.
-GltfReader::Arrays GltfReader::arrays_of(const tinygltf::Primitive& primitive) const {
+GltfReader::Arrays GltfReader::arrays_of(const tinygltf::Primitive& primitive) {
     int uv_set = 0;
     if (primitive.material != -1)
         uv_set = uv_set_of(at(model_.materials, primitive.material, where_ + ": material"));
@@ -341,7 +404,59 @@ GltfReader::Arrays GltfReader::arrays_of(const tinygltf::Primitive& primitive) c
     open(arrays.normals, "NORMAL", 3, 3);
     open(arrays.colors, "COLOR_0", 3, 4);
     open(arrays.uvs, "TEXCOORD_" + std::to_string(uv_set), 2, 2);
+    if (world_from_bind_) arrays.influences = influences_of(primitive, arrays.positions->size());
     return arrays;
+}
+
+/// JOINTS_0 and WEIGHTS_0, JOINTS_1 and so on.
+std::vector<GltfReader::Influences> GltfReader::influences_of(const tinygltf::Primitive& primitive,
+                                                              std::size_t points) {
+    const auto open = [&](const std::string& name) {
+        const auto found = primitive.attributes.find(name);
+        if (found == primitive.attributes.end()) fail(where_ + ": has a skin, but no " + name);
+        GltfArray array(model_, found->second, file_, where_ + ": " + name);
+        if (array.components() != 4 || array.size() != points)
+            array.fail("has no four numbers for each of " + std::to_string(points) + " positions");
+        return array;
+    };
+    std::vector<Influences> influences;
+    for (int set = 0; set == 0 || primitive.attributes.contains("JOINTS_" + std::to_string(set));
+         ++set) {
+        const std::string number = std::to_string(set);
+        if (set > 0) budget_.charge(Resource::vertices, points, file_);  // a file may name many
+        influences.push_back({open("JOINTS_" + number), open("WEIGHTS_" + number)});
+        if (!influences.back().joints.is_unsigned() || influences.back().joints.is_normalized())
+            influences.back().joints.fail("has no whole numbers");
+    }
+    return influences;
+}
+
+/// The mean of what a vertex's joints do to it, by its weights; without any, what its first one
+/// does.
+dmat4 GltfReader::posed(const std::vector<Influences>& influences, std::size_t element) {
+    dmat4 sum(0);
+    double total = 0;
+    const auto add = [&](const GltfArray& joints, int i, double weight) {
+        const double joint = joints.number(element, i);
+        if (!(joint < static_cast<double>(world_from_bind_->size())))
+            joints.fail("element " + std::to_string(element) + " names joint " +
+                        std::to_string(static_cast<std::uint32_t>(joint)) + " of " +
+                        std::to_string(world_from_bind_->size()));
+        sum += weight * (*world_from_bind_)[static_cast<std::size_t>(joint)];
+        total += weight;
+    };
+    for (const auto& [joints, weights] : influences)
+        for (int i = 0; i < 4; ++i) {
+            const double weight = weights.number(element, i);
+            if (weight < 0)
+                weights.fail("element " + std::to_string(element) + " has a weight below 0");
+            if (weight > 0) add(joints, i, weight);
+        }
+    if (total == 0) {
+        warn(where_ + ": vertices without weights follow their first joint");
+        add(influences[0].joints, 0, 1);
+    }
+    return sum / total;
 }
 
 /// What a vertex has. Its position is the element's, until points of one place become one.

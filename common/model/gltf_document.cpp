@@ -302,6 +302,10 @@ tinygltf::Model read_gltf_document(const fs::path& file, LoadBudget& budget, War
     json document = checked_json(content.text, file, budget);
     // Buffers and images are read here: tinygltf takes "+" in a URI for a blank, and refuses much.
     const json buffers = take_list(document, "buffers"), images = take_list(document, "images");
+    // It also finds fault with skins without matrices, which they need not have.
+    if (document.contains("skins") && document["skins"].is_array())
+        for (json& skin : document["skins"])
+            if (skin.is_object()) skin.emplace("inverseBindMatrices", -1);
     const std::string text = document.dump();
     document = nullptr;
 
@@ -406,6 +410,12 @@ dvec4 GltfArray::vector(std::size_t element) const {
     dvec4 vector(0, 0, 0, 1);
     for (int i = 0; i < std::min(components_, 4); ++i) vector[i] = number(element, i);
     return vector;
+}
+
+dmat4 GltfArray::matrix(std::size_t element) const {
+    dmat4 matrix;
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = number(element, i);
+    return matrix;
 }
 
 void GltfArray::fail(const std::string& what) const { throw InputError(file_, what_ + ' ' + what); }

@@ -80,6 +80,9 @@ class GltfArray {
     /// One vector; components that the array does not have are 0, the fourth is 1.
     dvec4 vector(std::size_t element) const;
 
+    /// One matrix of an array of 16 numbers an element.
+    dmat4 matrix(std::size_t element) const;
+
     [[noreturn]] void fail(const std::string& what) const;
 
   private:
