@@ -226,6 +226,43 @@ TEST(GltfMaterials, TheMaterialChoosesTheSetOfTextureCoordinates) {
     EXPECT_EQ(scene.meshes.at(0).uvs.at(0), dvec2(0.5));
 }
 
+TEST(GltfMaterials, AMissingSetOfTextureCoordinatesIsAWarning) {
+    struct Row {
+        const char* texture;
+        int set;  ///< That it asks for.
+        bool has_set_0, has_set_1;
+    };
+    for (const auto& [texture, set, has_set_0, has_set_1] :
+         std::vector<Row>{{"baseColorTexture", 0, true, false},
+                          {"baseColorTexture", 0, false, true},
+                          {"baseColorTexture", 0, false, false},
+                          {"baseColorTexture", 1, true, false},
+                          {"baseColorTexture", 1, true, true},
+                          {"normalTexture", 0, false, false},
+                          {"normalTexture", 2, true, true},
+                          {"normalTexture", 1, false, true}}) {
+        GltfBuilder made = one_triangle();
+        made.document["images"] = json::array({{{"uri", "wood.png"}}});
+        made.document["textures"] = json::array({{{"source", 0}}});
+        json& material = made.material();
+        (texture == std::string("normalTexture")
+             ? material
+             : material["pbrMetallicRoughness"])[texture] = {{"index", 0}, {"texCoord", set}};
+        json& attributes = made.primitive()["attributes"];
+        if (has_set_1) attributes["TEXCOORD_1"] = attributes["TEXCOORD_0"];
+        if (!has_set_0) attributes.erase("TEXCOORD_0");
+        const Scene scene = load_gltf(made.write(fresh_folder("gltf_no_set") / "scene.gltf"));
+        const bool is_there = set == 0 ? has_set_0 : set == 1 && has_set_1;
+        ASSERT_EQ(scene.warnings.size(), is_there ? 0u : 1u) << texture << ' ' << set;
+        if (!is_there)
+            EXPECT_NE(scene.warnings[0].find("mesh 0 \"triangle\", primitive 0: has no TEXCOORD_" +
+                                             std::to_string(set) +
+                                             " for the texture of material 0 \"paint\""),
+                      std::string::npos)
+                << scene.warnings[0];
+    }
+}
+
 TEST(GltfMaterials, OfAMetallicRoughnessTextureTheMeanCounts) {
     GltfBuilder made = one_triangle();
     // Red does not count, roughness is green, metal is blue.

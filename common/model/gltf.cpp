@@ -101,6 +101,7 @@ class GltfReader {
     const std::vector<dmat4>& world_from_bind_of(int skin_index);
     void read_primitive(const tinygltf::Primitive& primitive, const dmat4& world_from_node);
     Arrays arrays_of(const tinygltf::Primitive& primitive);
+    void warn_of_missing_uvs(const tinygltf::Primitive& primitive, int uv_set);
     std::vector<Influences> influences_of(const tinygltf::Primitive& primitive, std::size_t points);
     dmat4 posed(const std::vector<Influences>& influences, std::size_t element);
     Vertex add_vertex(const Arrays& arrays, std::uint32_t element, const Place& place);
@@ -404,8 +405,20 @@ GltfReader::Arrays GltfReader::arrays_of(const tinygltf::Primitive& primitive) {
     open(arrays.normals, "NORMAL", 3, 3);
     open(arrays.colors, "COLOR_0", 3, 4);
     open(arrays.uvs, "TEXCOORD_" + std::to_string(uv_set), 2, 2);
+    if (!arrays.uvs) warn_of_missing_uvs(primitive, uv_set);
     if (world_from_bind_) arrays.influences = influences_of(primitive, arrays.positions->size());
     return arrays;
+}
+
+/// A texture without coordinates has one texel everywhere, and nothing else shows why.
+void GltfReader::warn_of_missing_uvs(const tinygltf::Primitive& primitive, int uv_set) {
+    if (primitive.material < 0) return;
+    const tinygltf::Material& material =
+        model_.materials[static_cast<std::size_t>(primitive.material)];
+    if (material.pbrMetallicRoughness.baseColorTexture.index >= 0 ||
+        material.normalTexture.index >= 0)
+        warn(where_ + ": has no TEXCOORD_" + std::to_string(uv_set) + " for the texture of " +
+             name_of_material(model_, primitive.material) + ": one texel is drawn everywhere");
 }
 
 /// JOINTS_0 and WEIGHTS_0, JOINTS_1 and so on.

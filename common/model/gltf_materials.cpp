@@ -289,8 +289,7 @@ void MaterialMaker::add_toon(Material& material, const tinygltf::Material& from,
 
 Material MaterialMaker::make(std::size_t index) {
     const tinygltf::Material& from = model_.materials[index];
-    name_ =
-        "material " + std::to_string(index) + (from.name.empty() ? "" : " \"" + from.name + "\"");
+    name_ = name_of_material(model_, static_cast<int>(index));
     Material material;
     material.name = from.name;
     add_toon(material, from, index);
@@ -347,6 +346,11 @@ Material MaterialMaker::make(std::size_t index) {
 double number_in(const Value& object, const std::string& key, double missing) {
     if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) return missing;
     return object.Get(key).GetNumberAsDouble();
+}
+
+std::string name_of_material(const tinygltf::Model& model, int index) {
+    const std::string& name = model.materials[static_cast<std::size_t>(index)].name;
+    return "material " + std::to_string(index) + (name.empty() ? "" : " \"" + name + "\"");
 }
 
 int uv_set_of(const tinygltf::Material& material) {

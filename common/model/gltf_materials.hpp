@@ -27,6 +27,9 @@ std::vector<Material> gltf_materials(const tinygltf::Model& model,
                                      const std::filesystem::path& file, LoadBudget& budget,
                                      Warnings& warnings);
 
+/// For messages: `material 3 "wood"`.
+std::string name_of_material(const tinygltf::Model& model, int index);
+
 /// Which of its sets of texture coordinates a material of the file takes, 0 for none.
 int uv_set_of(const tinygltf::Material& material);
 
