@@ -264,7 +264,7 @@ TEST(Textures, OneImageMayBeClampedByOneMaterialAndRepeatedByAnother) {
     for (std::uint32_t i = 0; i < 5; ++i) mesh.triangles.push_back({{}, i});
     for (std::size_t i = 0; i < 4; ++i) {
         scene.materials[i].diffuse_map.file = model.folder / "red.png";
-        scene.materials[i].diffuse_map.clamp = i % 2;
+        scene.materials[i].diffuse_map.clamp = bvec2(i % 2);
     }
     const MaterialTextures textures = load_diffuse_textures(scene, {});
     ASSERT_EQ(textures.size(), 5u) << "one for each material";

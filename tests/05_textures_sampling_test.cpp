@@ -565,6 +565,57 @@ TEST(Textures, Eq5_9_EveryLevelHasTheMeanOfTheTexture) {
     }
 }
 
+TEST(Textures, Eq5_4_EachDirectionIsWrappedOnItsOwn) {
+    // Red tells columns apart and green rows, so that neither knows of the other.
+    Mix mix(13);
+    for (const ivec2 size : {ivec2(4, 2), ivec2(1, 7), ivec2(5, 16)}) {
+        Image<vec4> picture(size);
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) picture[{x, y}] = {x * x, y * y, 0, 1};
+        for (const Wrap u : all_wraps)
+            for (const Wrap v : all_wraps) {
+                const Texture apart = make_texture(picture, {u, v}),
+                              like_u = make_texture(picture, u), like_v = make_texture(picture, v);
+                for (int i = 0; i < 500; ++i) {
+                    const FragmentUv uv{6.0f * vec2(mix.share(), mix.share()) - 3.0f, vec2(0),
+                                        vec2(0)};
+                    for (const Filter filter : all_filters) {
+                        const vec4 color = sample(apart, filter, uv);
+                        ASSERT_EQ(color.r, sample(like_u, filter, uv).r)
+                            << name_of(u) << " across, " << name_of(v) << " up, u " << uv.here.x;
+                        ASSERT_EQ(color.g, sample(like_v, filter, uv).g)
+                            << name_of(u) << " across, " << name_of(v) << " up, v " << uv.here.y;
+                    }
+                }
+            }
+    }
+}
+
+TEST(Textures, ATexturesOwnFilterMayBeSimplerThanTheProgramsButNotBetter) {
+    look_up("Eq. 5.8, and samplers of glTF files");
+    Mix mix(14);
+    const Texture plain = make_texture(noise({16, 16}, 14), Wrap::repeat);
+    for (const Filter magnified : all_filters)
+        for (const Filter minified : all_filters) {
+            Texture texture = plain;
+            texture.magnified = magnified, texture.minified = minified;
+            for (int i = 0; i < 500; ++i) {
+                // The footprint is half a texel to three texels wide, and one high.
+                const float texels = 0.5f + 2.5f * mix.share();
+                const FragmentUv uv{
+                    vec2(mix.share(), mix.share()), {texels / 16, 0}, {0, 1 / 16.0f}};
+                for (const Filter filter : all_filters) {
+                    const Filter own = texels > 1 ? minified : magnified;
+                    const Filter used = own < filter ? own : filter;
+                    ASSERT_EQ(sample(texture, filter, uv), sample(plain, used, uv))
+                        << "asked for " << name_of(filter) << ", the texture's own "
+                        << name_of(magnified) << " and " << name_of(minified) << ", " << texels
+                        << " texels a pixel";
+                }
+            }
+        }
+}
+
 TEST(Textures, Eq5_10_AllMeansOfTheWorkedExample) {
     Image<vec4> picture({2, 1});
     picture[{0, 0}] = vec4(0), picture[{1, 0}] = vec4(8);
@@ -675,9 +726,9 @@ TEST(Textures, HardCase_SpecialNumbersSeeAColour) {
         const Texture& texture = textures[mix.below(textures.size())];
         const FragmentUv uv{mix.pair(), mix.pair(), mix.pair()};
         for (const float coordinate : {uv.here.x, uv.here.y}) {
-            const float inside = wrapped(coordinate, texture.wrap);
+            const float inside = wrapped(coordinate, texture.wrap.u);
             ASSERT_TRUE(inside >= 0 && inside <= 1)
-                << "wrapped(" << shown(coordinate) << "), " << name_of(texture.wrap) << ", is "
+                << "wrapped(" << shown(coordinate) << "), " << name_of(texture.wrap.u) << ", is "
                 << inside << "; seed 11, case " << i;
         }
         const vec2 place = texture_position(uv.here, texture.wrap);
@@ -688,7 +739,7 @@ TEST(Textures, HardCase_SpecialNumbersSeeAColour) {
             << "level_of_detail(); " << described(uv) << "; seed 11, case " << i;
         const Filter filter = all_filters[mix.below(3)];
         ASSERT_TRUE(is_color(sample(texture, filter, uv)))
-            << "filter " << name_of(filter) << ", " << name_of(texture.wrap) << ", "
+            << "filter " << name_of(filter) << ", " << name_of(texture.wrap.u) << ", "
             << described(uv) << "; seed 11, case " << i;
     }
 }

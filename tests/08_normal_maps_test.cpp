@@ -359,6 +359,10 @@ TEST(NormalMaps, HardCase_MirroredCopiesOfAMap) {
     for (const Wrap wrap : {Wrap::repeat, Wrap::clamp}) {
         texture.wrap = wrap;
         EXPECT_EQ(at({1.3f, -0.2f}), n);
+        texture.wrap = {Wrap::mirror, wrap};
+        EXPECT_EQ(at({1.3f, -0.2f}), n * vec3(-1, 1, 1));
+        texture.wrap = {wrap, Wrap::mirror};
+        EXPECT_EQ(at({1.3f, -0.2f}), n * vec3(1, -1, 1));
     }
 }
 

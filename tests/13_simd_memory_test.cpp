@@ -35,11 +35,14 @@ using namespace rasterbook::test;
 
 namespace {
 
-Texture any_texture(Dice& dice, Wrap wrap) {
+Texture any_texture(Dice& dice, WrapModes wrap) {
     constexpr std::array sizes = {1, 2, 3, 5, 8, 16, 37, 64};
     Image<vec4> picture({sizes.at(dice.below(8)), sizes.at(dice.below(8))});
     for (vec4& texel : picture.pixels()) texel = vec4(dice.color(), dice.between(0, 1));
-    return make_texture(std::move(picture), wrap);
+    Texture texture = make_texture(std::move(picture), wrap);
+    if (dice.one_in(3)) texture.magnified = all_filters[dice.below(3)];
+    if (dice.one_in(3)) texture.minified = all_filters[dice.below(3)];
+    return texture;
 }
 
 template <int N>
@@ -143,7 +146,7 @@ TEST(Simd, HardCase_SamplesHaveLesson05sBits) {
         Dice dice(N);
         int divergent = 0;
         for (int k = 0; k < 9000 / N; ++k) {
-            const Wrap wrap = all_wraps[dice.below(3)];
+            const WrapModes wrap(all_wraps[dice.below(3)], all_wraps[dice.below(3)]);
             const Texture texture = any_texture(dice, wrap);
             for (int batch = 0; batch < 4; ++batch) {
                 std::array<vec2, std::size_t(N)> here, ddx, ddy;
@@ -170,7 +173,9 @@ TEST(Simd, HardCase_SamplesHaveLesson05sBits) {
                             ASSERT_TRUE(agree(actual[c][lane], expected[c]))
                                 << "channel " << c << " of lane " << i << " of " << N << ": "
                                 << actual[c][lane] << ", expected " << expected[c] << "; "
-                                << name_of(filter) << ", " << name_of(wrap) << ", a texture of "
+                                << name_of(filter) << " (its own: " << name_of(texture.magnified)
+                                << " and " << name_of(texture.minified) << "), " << name_of(wrap.u)
+                                << " and " << name_of(wrap.v) << ", a texture of "
                                 << testing::PrintToString(texture.levels[0].size) << " texels, uv "
                                 << testing::PrintToString(here.at(i)) << ", ddx "
                                 << testing::PrintToString(ddx.at(i)) << ", ddy "

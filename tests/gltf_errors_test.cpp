@@ -478,12 +478,6 @@ TEST(GltfErrors, WhatIsIgnoredIsAWarning) {
              {"occlusion",
               [](GltfBuilder& made) { made.material()["occlusionTexture"]["index"] = 0; },
               "material 0 \"paint\": occlusionTexture is passed over"},
-             {"two ways to wrap",
-              [&](GltfBuilder& made) {
-                  add_texture(made);
-                  made.document["samplers"][0] = {{"wrapS", 33071}, {"wrapT", 10497}};
-              },
-              "wrapped in two ways"},
              {"turned texture",
               [&](GltfBuilder& made) {
                   add_texture(made)["extensions"]["KHR_texture_transform"]["rotation"] = 0.5;

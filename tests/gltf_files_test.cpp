@@ -404,6 +404,32 @@ TEST(GltfFiles, ImagesThatAreNotReadAreNamedAndReplaced) {
     }
 }
 
+TEST(GltfFiles, SamplersWrapEachDirectionAndMayAskForSharpTexels) {
+    const fs::path folder = fresh_folder("gltf_samplers");
+    write_image(folder / "wood.png", Image<u8vec3>({4, 4}, {255, 160, 40}));
+    GltfBuilder made = one_triangle();
+    made.document["images"] = json::array({{{"uri", "wood.png"}}});
+    made.document["textures"] = json::array({{{"source", 0}, {"sampler", 0}}});
+    made.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    const std::vector<std::pair<int, Wrap>> wraps = {
+        {10497, Wrap::repeat}, {33071, Wrap::clamp}, {33648, Wrap::mirror}};
+    for (const auto& [gl_u, u] : wraps)
+        for (const auto& [gl_v, v] : wraps)
+            for (const int mag : {9728, 9729})
+                for (const int min : {9728, 9729, 9984, 9985, 9986, 9987}) {
+                    made.document["samplers"] = json::array({{{"wrapS", gl_u},
+                                                              {"wrapT", gl_v},
+                                                              {"magFilter", mag},
+                                                              {"minFilter", min}}});
+                    Scene scene = load_model(made.write(folder / "scene.gltf"));
+                    EXPECT_TRUE(scene.warnings.empty());
+                    const auto texture = load_diffuse_textures(scene, TextureOptions()).at(1);
+                    EXPECT_TRUE(texture->wrap == WrapModes(u, v));
+                    EXPECT_EQ(texture->magnified == Filter::nearest, mag == 9728);
+                    EXPECT_EQ(texture->minified == Filter::nearest, min == 9728);
+                }
+}
+
 TEST(GltfFiles, EachWrapModeIsATextureOfItsOwn) {
     const fs::path folder = fresh_folder("gltf_wrapped");
     write_image(folder / "wood.png", Image<u8vec3>({1, 1}, {255, 160, 40}));

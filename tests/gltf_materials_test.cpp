@@ -156,7 +156,7 @@ TEST(GltfMaterials, ImagesAreFilesOrEmbedded) {
     EXPECT_EQ(beside.file, folder / "folder/my wood.png");
     EXPECT_EQ(beside.library, folder / "a.gltf");
     EXPECT_FALSE(beside.embedded);
-    EXPECT_FALSE(beside.clamp || beside.mirror);
+    EXPECT_TRUE(beside.clamp == bvec2(false) && beside.mirror == bvec2(false));
 
     const u8vec3 red(255, 0, 0), blue(0, 0, 255);
     pbr["baseColorTexture"]["index"] = add_picture(made, red, blue);
@@ -192,11 +192,15 @@ TEST(GltfMaterials, SamplersChooseTheWrapMode) {
         made.document["samplers"] = json::array({std::move(sampler)});
         return material_of(made).diffuse_map;
     };
-    EXPECT_FALSE(map(json::object()).clamp || map(json::object()).mirror);
+    EXPECT_EQ(map(json::object()).clamp, bvec2(false));
+    EXPECT_EQ(map(json::object()).mirror, bvec2(false));
     const TextureMap clamped = map({{"wrapS", 33071}, {"wrapT", 33071}});
-    EXPECT_TRUE(clamped.clamp && !clamped.mirror);
+    EXPECT_TRUE(clamped.clamp == bvec2(true) && clamped.mirror == bvec2(false));
     const TextureMap mirrored = map({{"wrapS", 33648}, {"wrapT", 33648}});
-    EXPECT_TRUE(mirrored.mirror && !mirrored.clamp);
+    EXPECT_TRUE(mirrored.mirror == bvec2(true) && mirrored.clamp == bvec2(false));
+    const TextureMap apart = map({{"wrapS", 10497}, {"wrapT", 33071}, {"magFilter", 9728}});
+    EXPECT_TRUE(apart.clamp == bvec2(false, true) && apart.mirror == bvec2(false));
+    EXPECT_TRUE(apart.nearest_magnified && !apart.nearest_minified);
 }
 
 TEST(GltfMaterials, TexturesAreMovedAndScaledWithVUpwards) {

@@ -322,7 +322,7 @@ TEST(Obj, MaterialsAreReadWithAllThatTheCourseUses) {
     EXPECT_EQ(all.specular_map.file, folder / "shine map.png");
     EXPECT_EQ(all.specular_map.offset, dvec3(1, 2, 3));
     EXPECT_EQ(all.specular_map.scale, dvec3(4, 5, 6));
-    EXPECT_TRUE(all.specular_map.clamp);
+    EXPECT_EQ(all.specular_map.clamp, bvec2(true));
     EXPECT_EQ(all.opacity_map.file, folder / "./masks/leaf.png");
     EXPECT_EQ(all.bump_map.file, folder / "height map.png");
     EXPECT_EQ(all.bump_map.bump_multiplier, 0.5f);
@@ -333,7 +333,7 @@ TEST(Obj, MaterialsAreReadWithAllThatTheCourseUses) {
     EXPECT_EQ(clear.opacity, 0.25f);
     EXPECT_EQ(clear.diffuse_map.file, "/textures/absolute.png");
     EXPECT_EQ(clear.bump_map.offset, dvec3(0.5, 0.25, 0));
-    EXPECT_FALSE(clear.bump_map.clamp);
+    EXPECT_EQ(clear.bump_map.clamp, bvec2(false));
 
     const Material& limits = scene.materials[4];
     EXPECT_EQ(limits.opacity, 1.0f);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr ivec2 texture_size(48, 20);
 
-Texture random_texture(Wrap wrap) {
+Texture random_texture(WrapModes wrap) {
     Random random(1);
     Image<vec4> picture(texture_size);
     for (vec4& texel : picture.pixels())
@@ -139,10 +139,17 @@ TEST_F(OpenGlTest, UvIsTheSameWherePlanesCut) {
 TEST_F(OpenGlTest, TexturesAreFilteredAlike) {
     constexpr float tolerance = 2.0f / 255;
     const OpenGlView view(ivec2(256));
-    for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
+    const std::vector<WrapModes> wraps = {Wrap::repeat,
+                                          Wrap::mirror,
+                                          Wrap::clamp,
+                                          {Wrap::repeat, Wrap::clamp},
+                                          {Wrap::mirror, Wrap::repeat},
+                                          {Wrap::clamp, Wrap::mirror}};
+    for (const WrapModes wrap : wraps)
         for (int turns = 0; turns < 4; ++turns) {
             SCOPED_TRACE(testing::Message()
-                         << "wrap " << static_cast<int>(wrap) << ", turned " << turns << " times");
+                         << "wrap " << static_cast<int>(wrap.u) << " and "
+                         << static_cast<int>(wrap.v) << ", turned " << turns << " times");
             const Texture texture = random_texture(wrap);
             gl->set_texture(texture);
             const std::vector<OpenGlTriangle> floor = exact_floor(turns);

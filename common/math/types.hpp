@@ -16,8 +16,8 @@
 
 namespace rasterbook {
 
+using glm::bvec2, glm::ivec2, glm::ivec3, glm::uvec3;
 using glm::dmat3, glm::dmat4, glm::dvec2, glm::dvec3, glm::dvec4;
-using glm::ivec2, glm::ivec3, glm::uvec3;
 using glm::mat3, glm::mat4, glm::vec2, glm::vec3, glm::vec4;
 using glm::u8vec3, glm::u8vec4;
 

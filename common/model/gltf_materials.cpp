@@ -56,7 +56,7 @@ class MaterialMaker {
     TextureMap map_of(int texture, const tinygltf::ExtensionMap& extensions, const char* which);
     void add_picture(TextureMap& map, int texture);
     Embedded embedded(const tinygltf::Image& from, const std::string& label);
-    void add_wrap(TextureMap& map, int sampler);
+    void add_sampler(TextureMap& map, int sampler);
     void add_look(Material& material, const tinygltf::Material& from);
     void add_toon(Material& material, const tinygltf::Material& from, std::size_t index);
     vec3 mean_of(const TextureMap& map, bool is_srgb);
@@ -126,17 +126,22 @@ MaterialMaker::Embedded MaterialMaker::embedded(const tinygltf::Image& from,
                 (media_type.empty() ? "" : " (" + media_type.substr(0, 40) + ")")};
 }
 
-/// Both directions of a picture are wrapped as the first is.
-void MaterialMaker::add_wrap(TextureMap& map, int sampler) {
+/// Wrapping, and whether texels are to be sharp. Mip levels are read as --filter has it: some
+/// exporters ask for the nearest texel there where none is meant.
+void MaterialMaker::add_sampler(TextureMap& map, int sampler) {
     if (sampler < 0) return;
     if (static_cast<std::size_t>(sampler) >= model_.samplers.size())
         throw InputError(file_, map.asked_by + " names sampler " + std::to_string(sampler) +
                                     ", which is not there");
     const tinygltf::Sampler& from = model_.samplers[static_cast<std::size_t>(sampler)];
-    map.clamp = from.wrapS == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-    map.mirror = from.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
-    if (from.wrapS != from.wrapT)
-        warn("a texture is wrapped in two ways; that of u is taken for both");
+    const std::array wraps{from.wrapS, from.wrapT};
+    for (int axis = 0; axis < 2; ++axis) {
+        const int wrap = wraps[static_cast<std::size_t>(axis)];
+        map.clamp[axis] = wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        map.mirror[axis] = wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
+    }
+    map.nearest_magnified = from.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    map.nearest_minified = from.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
 }
 
 TextureMap MaterialMaker::map_of(int texture, const tinygltf::ExtensionMap& extensions,
@@ -150,7 +155,7 @@ TextureMap MaterialMaker::map_of(int texture, const tinygltf::ExtensionMap& exte
              ", which is not there");
     const tinygltf::Texture& from = model_.textures[static_cast<std::size_t>(texture)];
     add_picture(map, texture);
-    add_wrap(map, from.sampler);
+    add_sampler(map, from.sampler);
     if (const Value* transform = find_extension(extensions, "KHR_texture_transform")) {
         const auto numbers = [&](const char* key, float missing) {
             dvec2 pair(missing);

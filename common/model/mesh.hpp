@@ -91,16 +91,18 @@ struct Mesh {
 
 /// A picture that a material names, with the options that MTL puts before its name.
 struct TextureMap {
-    std::filesystem::path file;     ///< Ready to open; empty when there is no map.
-    std::filesystem::path library;  ///< The material library, or glTF file, that names it.
-    std::size_t line = 0;           ///< Of that library, from 1; 0: none in particular.
-    dvec3 offset{0.0};              ///< -o, in uv.
-    dvec3 scale{1.0};               ///< -s, in uv.
-    float bump_multiplier = 1.0f;   ///< -bm, or the scale of a glTF normal map.
-    bool clamp = false;             ///< -clamp on.
-    bool mirror = false;            ///< Every other copy is mirrored; only where `clamp` is off.
-    std::string asked_by{};         ///< For messages; empty: the statement of MTL.
-    std::string unreadable{};       ///< Why there is no image to be read; empty: there is one.
+    std::filesystem::path file;      ///< Ready to open; empty when there is no map.
+    std::filesystem::path library;   ///< The material library, or glTF file, that names it.
+    std::size_t line = 0;            ///< Of that library, from 1; 0: none in particular.
+    dvec3 offset{0.0};               ///< -o, in uv.
+    dvec3 scale{1.0};                ///< -s, in uv.
+    float bump_multiplier = 1.0f;    ///< -bm, or the scale of a glTF normal map.
+    bvec2 clamp{false};              ///< -clamp on; across and up, which glTF tells apart.
+    bvec2 mirror{false};             ///< Every other copy is mirrored; only where `clamp` is off.
+    bool nearest_magnified = false;  ///< Texels larger than a pixel are sharp, as in pixel art.
+    bool nearest_minified = false;   ///< Smaller ones are not averaged.
+    std::string asked_by{};          ///< For messages; empty: the statement of MTL.
+    std::string unreadable{};        ///< Why there is no image to be read; empty: there is one.
 
     /// The bytes of the picture's file where that stands inside the model's file; `file` is then
     /// only a name, one for each picture.

@@ -154,7 +154,7 @@ void MaterialReader::read_map(const StatementReader& in, const Statement& statem
         else if (option == "-bm")
             map.bump_multiplier = static_cast<float>(read_number(in, next_word(words)));
         else if (option == "-clamp")
-            map.clamp = next_word(words) == "on";
+            map.clamp = bvec2(next_word(words) == "on");
         else if (option == "-mm")
             next_word(words), next_word(words);
         else if (std::ranges::count(with_one_word, option))

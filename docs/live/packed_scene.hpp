@@ -99,7 +99,7 @@ void transfer(Archive& archive, Mesh& mesh) {
 template <typename Archive>
 void transfer(Archive& archive, TextureMap& map) {
     transfer_all(archive, map.file, map.offset, map.scale, map.bump_multiplier, map.clamp,
-                 map.mirror);
+                 map.mirror, map.nearest_magnified, map.nearest_minified);
     if (map.file.empty()) return;
     EmbeddedImage& image = archive.images[map.file];
     if (!image) {

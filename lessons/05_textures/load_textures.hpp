@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,22 +30,34 @@ namespace rasterbook {
 inline MaterialTextures load_textures(
     Scene& scene, TextureMap Material::* map_of, const char* statement,
     const TextureOptions& options,
-    const std::function<Image<vec4>(const Image<u8vec4>&, Wrap)>& decode,
+    const std::function<Image<vec4>(const Image<u8vec4>&, WrapModes)>& decode,
     const std::function<bool(const Material&)>& calls_for) {
     std::vector<bool> is_used(scene.materials.size());
     for (const Mesh& mesh : scene.meshes)
         for (const Triangle& triangle : mesh.triangles) is_used[triangle.material] = true;
-    std::map<std::pair<std::filesystem::path, Wrap>, std::shared_ptr<const Texture>> loaded;
+    using Key = std::tuple<std::filesystem::path, WrapModes, Filter, Filter>;
+    std::map<Key, std::shared_ptr<const Texture>> loaded;
     MaterialTextures textures(scene.materials.size());
     for (std::size_t i = 0; i < textures.size(); ++i) {
-        const TextureMap& map = scene.materials[i].*map_of;
+        TextureMap& map = scene.materials[i].*map_of;
         if (map.file.empty() || !is_used[i] || !calls_for(scene.materials[i])) continue;
-        const Wrap wrap = map.clamp ? Wrap::clamp : map.mirror ? Wrap::mirror : options.wrap;
-        std::shared_ptr<const Texture>& texture = loaded[{map.file, wrap}];
+        for (int axis = 0; axis < 2; ++axis) {
+            if (wrap_of(map, axis) != Wrap::repeat) continue;
+            map.clamp[axis] = options.wrap == Wrap::clamp;
+            map.mirror[axis] = options.wrap == Wrap::mirror;
+        }
+        const WrapModes wrap(wrap_of(map, 0), wrap_of(map, 1));
+        const auto most = [](bool is_nearest) {
+            return is_nearest ? Filter::nearest : Filter::trilinear;
+        };
+        const Filter magnified = most(map.nearest_magnified), minified = most(map.nearest_minified);
+        std::shared_ptr<const Texture>& texture = loaded[{map.file, wrap, magnified, minified}];
         if (!texture) {
             const Image<u8vec4> image =
                 read_texture_file(map, statement, options.keep_going, scene);
-            texture = std::make_shared<Texture>(make_texture(decode(image, wrap), wrap));
+            Texture made = make_texture(decode(image, wrap), wrap);
+            made.magnified = magnified, made.minified = minified;
+            texture = std::make_shared<Texture>(std::move(made));
         }
         textures[i] = texture;
     }
@@ -55,7 +68,7 @@ inline MaterialTextures load_textures(
 inline MaterialTextures load_diffuse_textures(Scene& scene, const TextureOptions& options) {
     return load_textures(
         scene, &Material::diffuse_map, "map_Kd", options,
-        [&](const Image<u8vec4>& image, Wrap) { return options.decoded(image); },
+        [&](const Image<u8vec4>& image, WrapModes) { return options.decoded(image); },
         [](const Material&) { return true; });
 }
 

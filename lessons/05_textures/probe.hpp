@@ -76,6 +76,7 @@ inline void report_texels(PixelReport& report, const Texture& texture, Filter fi
 inline vec4 report_sample(PixelReport& report, const char* name, const Texture& texture,
                           Filter filter, const FragmentUv& uv) {
     const ivec2 size = texture.levels[0].size;
+    filter = filter_at(texture, filter, uv);
     report.line(name, std::to_string(size.x) + "x" + std::to_string(size.y) + " texels");
     report.line("  uv", words(uv.here), "Eq. 5.1");
     report.line("  in the texture", words(texture_position(uv.here, texture.wrap)),

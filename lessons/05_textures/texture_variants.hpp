@@ -165,16 +165,12 @@ struct EncodedLevel {
     Image<u8vec4> texels;  ///< With a border, as TextureLevel has.
 };
 
-inline EncodedLevel make_encoded_level(const Image<u8vec4>& picture, Wrap wrap) {
+inline EncodedLevel make_encoded_level(const Image<u8vec4>& picture, WrapModes wrap) {
     const ivec2 size = picture.size();
     EncodedLevel level{size, Image<u8vec4>(size + 2)};
     for (int y = 0; y < size.y + 2; ++y)
-        for (int x = 0; x < size.x + 2; ++x) {
-            const ivec2 texel = ivec2(x, y) - 1;
-            level.texels[{x, y}] =
-                picture[wrap == Wrap::repeat ? (texel + size) % size
-                                             : glm::clamp(texel, ivec2(0), size - 1)];
-        }
+        for (int x = 0; x < size.x + 2; ++x)
+            level.texels[{x, y}] = picture[texel_beyond(ivec2(x, y) - 1, size, wrap)];
     return level;
 }
 

@@ -18,6 +18,11 @@ namespace rasterbook {
 /// For each material a texture; null where it names none.
 using MaterialTextures = std::vector<std::shared_ptr<const Texture>>;
 
+/// How a map is wrapped, across (0) or up (1).
+inline Wrap wrap_of(const TextureMap& map, int axis) {
+    return map.clamp[axis] ? Wrap::clamp : map.mirror[axis] ? Wrap::mirror : Wrap::repeat;
+}
+
 /// The texture coordinates of a triangle's vertices, with the offset and scale of the map (-o, -s
 /// of MTL). A vertex that has none is given (0, 0).
 inline std::array<dvec2, 3> exact_uvs_of(const Mesh& mesh, const Triangle& triangle,

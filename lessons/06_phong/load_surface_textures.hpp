@@ -18,10 +18,10 @@ inline SurfaceTextures load_surface_textures(Scene& scene, const TextureOptions&
         load_diffuse_textures(scene, options),
         load_textures(
             scene, &Material::specular_map, "map_Ks", options,
-            [](const Image<u8vec4>& image, Wrap) { return plain_numbers(image); }, has_highlight),
+            [](const Image<u8vec4>& image, WrapModes) { return plain_numbers(image); }, has_highlight),
         load_textures(
             scene, &Material::emission_map, "map_Ke", options,
-            [&](const Image<u8vec4>& image, Wrap) { return options.decoded(image); },
+            [&](const Image<u8vec4>& image, WrapModes) { return options.decoded(image); },
             [](const Material& material) { return material.emission != vec3(0); })};
 }
 

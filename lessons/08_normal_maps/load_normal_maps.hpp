@@ -25,14 +25,15 @@ inline NormalMaps load_normal_maps(Scene& scene, const TextureOptions& options,
     const auto calls_for_map = [&](const Material& material) {
         return is_lit(material) && variant.space != MapSpace::none;
     };
-    NormalMaps maps{load_textures(
-                        scene, &Material::normal_map, "norm", options,
-                        [&](const Image<u8vec4>& image, Wrap) { return variant.normals(image); },
-                        calls_for_map),
-                    std::vector<MapSpace>(scene.materials.size(), MapSpace::tangent)};
+    NormalMaps maps{
+        load_textures(
+            scene, &Material::normal_map, "norm", options,
+            [&](const Image<u8vec4>& image, WrapModes) { return variant.normals(image); },
+            calls_for_map),
+        std::vector<MapSpace>(scene.materials.size(), MapSpace::tangent)};
     const MaterialTextures bumps = load_textures(
         scene, &Material::bump_map, "map_Bump", options,
-        [&](const Image<u8vec4>& image, Wrap wrap) {
+        [&](const Image<u8vec4>& image, WrapModes wrap) {
             return variant.normals_of_bumps(image, wrap);
         },
         [&](const Material& material) {

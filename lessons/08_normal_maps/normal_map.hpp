@@ -44,12 +44,10 @@ inline Image<vec4> normals_from_unorm(const Image<u8vec4>& image, Green green) {
 ///
 /// @param image  Its red is the height: 255 is as high above 0 as the map is wide.
 /// @param wrap   What lies beyond the image's borders.
-inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, Wrap wrap) {
+inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, WrapModes wrap) {
     const ivec2 size = image.size();
     const auto height = [&](ivec2 texel) {
-        texel =
-            wrap == Wrap::repeat ? (texel + size) % size : glm::clamp(texel, ivec2(0), size - 1);
-        return static_cast<float>(image[texel].r) / 255.0f;
+        return static_cast<float>(image[texel_beyond(texel, size, wrap)].r) / 255.0f;
     };
     const vec2 per_two_texels = 0.5f * vec2(size);
     Image<vec4> normals(size);
@@ -83,12 +81,12 @@ template <typename F>
 Vec3<F> sample_normal(const Texture& texture, Filter filter, const TextureCoordinates<F>& uv) {
     Vec3<F> normal(sample(texture, filter, uv));
     // In each second copy of a mirrored texture its right is on the left.
-    if (texture.wrap == Wrap::mirror)
-        for (int axis = 0; axis < 2; ++axis) {
-            const F there_and_back = F(0.5f) * uv.here[axis];
-            const auto is_back = there_and_back - floor(there_and_back) >= F(0.5f);
-            normal[axis] = select(is_back, -normal[axis], normal[axis]);
-        }
+    for (int axis = 0; axis < 2; ++axis) {
+        if (texture.wrap[axis] != Wrap::mirror) continue;
+        const F there_and_back = F(0.5f) * uv.here[axis];
+        const auto is_back = there_and_back - floor(there_and_back) >= F(0.5f);
+        normal[axis] = select(is_back, -normal[axis], normal[axis]);
+    }
     return normal;
 }
 

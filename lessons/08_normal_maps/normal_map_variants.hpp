@@ -120,7 +120,7 @@ struct NormalMapVariant {
                                                     : normals_from_snorm(image, green));
     }
     /// The normals of a `map_Bump`: from heights, or, where the image has colours, as of a `norm`.
-    Image<vec4> normals_of_bumps(const Image<u8vec4>& image, Wrap wrap) const {
+    Image<vec4> normals_of_bumps(const Image<u8vec4>& image, WrapModes wrap) const {
         return is_gray(image) ? stored(normals_from_heights(image, wrap)) : normals(image);
     }
 

@@ -86,7 +86,11 @@ TextureMap any_map(Numbers& numbers) {
     map.file = std::to_string(which);
     map.embedded = pictures[static_cast<std::size_t>(which)];
     if (numbers.flag()) map.offset = numbers.any_vector(), map.scale = numbers.any_vector();
-    map.clamp = numbers.flag(), map.mirror = !map.clamp && numbers.flag();
+    for (int axis = 0; axis < 2; ++axis) {
+        map.clamp[axis] = numbers.flag();
+        map.mirror[axis] = !map.clamp[axis] && numbers.flag();
+    }
+    map.nearest_magnified = numbers.flag(), map.nearest_minified = numbers.flag();
     map.bump_multiplier = numbers.any();
     return map;
 }

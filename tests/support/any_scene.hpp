@@ -55,7 +55,11 @@ inline Material material_of(AnyMaterial kind, Dice& dice) {
         Image<u8vec3> image({4, 4});
         for (u8vec3& texel : image.pixels()) texel = u8vec3(255.0f * dice.color());
         TextureMap map;
-        map.file = "picture " + std::to_string(dice.below(1'000'000));
+        const std::size_t number = dice.below(1'000'000);
+        map.file = "picture " + std::to_string(number);
+        map.clamp = {number % 3 == 0, number % 5 == 0};
+        map.mirror = {number % 3 == 1, number % 5 == 1};
+        map.nearest_magnified = number % 7 == 0, map.nearest_minified = number % 11 == 0;
         map.embedded = std::make_shared<const Bytes>(encode_bmp(image, map.file));
         return map;
     };

@@ -194,11 +194,13 @@ GLuint upload(const Texture& texture, std::size_t levels, GLint min_filter) {
         glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA32F, size.x, size.y, 0, GL_RGBA,
                      GL_FLOAT, bottom_first.pixels().data());
     }
-    const GLint wrap = texture.wrap == Wrap::repeat   ? GL_REPEAT
-                       : texture.wrap == Wrap::mirror ? GL_MIRRORED_REPEAT
-                                                      : GL_CLAMP_TO_EDGE;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+    const auto gl_wrap = [](Wrap wrap) {
+        return wrap == Wrap::repeat   ? GL_REPEAT
+               : wrap == Wrap::mirror ? GL_MIRRORED_REPEAT
+                                      : GL_CLAMP_TO_EDGE;
+    };
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, gl_wrap(texture.wrap.u));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, gl_wrap(texture.wrap.v));
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, min_filter);
     return name;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -22,6 +23,16 @@ namespace rasterbook {
 /// What lies beyond a texture's border: the texture again, mirrored, or its outermost texels.
 enum class Wrap { repeat, mirror, clamp };
 
+/// The same across and up.
+struct WrapModes {
+    Wrap u, v;
+
+    constexpr WrapModes(Wrap both) : u(both), v(both) {}
+    constexpr WrapModes(Wrap across, Wrap up) : u(across), v(up) {}
+    constexpr Wrap operator[](int axis) const { return axis == 0 ? u : v; }
+    auto operator<=>(const WrapModes&) const = default;
+};
+
 /// Which texels make a fragment's colour: the nearest one, the four around it, or four of each of
 /// two levels.
 enum class Filter { nearest, bilinear, trilinear };
@@ -34,9 +45,12 @@ struct TextureLevel {
 
 /// A mip chain: an image and smaller copies of it.
 struct Texture {
-    Wrap wrap;
+    WrapModes wrap;
     std::vector<TextureLevel>
         levels;  ///< Each half as wide and high as the one before; 1 x 1 last.
+    /// The most that the model's file asks for, where a pixel's footprint is a texel or less, and
+    /// where it is more.
+    Filter magnified = Filter::trilinear, minified = Filter::trilinear;
 };
 
 /// A texture coordinate wrapped to 0 to 1 (Eq. 5.4). NaN becomes 0, and so does infinity, but for
@@ -48,7 +62,7 @@ inline float wrapped(float coordinate, Wrap wrap) {
 
 /// A position in the texture: x from 0 at its left to 1 at its right, y from 0 at its upper border
 /// to 1 at its lower one (Eq. 5.5).
-inline vec2 texture_position(vec2 uv, Wrap wrap) {
+inline vec2 texture_position(vec2 uv, WrapModes wrap) {
     // TODO: Eq. 5.5, up to the position.
     return vec2(0);
 }
@@ -104,8 +118,22 @@ TextureCoordinates<F> fragment_uv(const std::array<Uv, 3>& uvs,
     return {interpolate(uvs, at.here), interpolate(uvs, at.ddx), interpolate(uvs, at.ddy)};
 }
 
+/// Whether a texture asks for a simpler filter than the best, as pixel art does.
+inline bool has_own_filter(const Texture& texture) {
+    return std::min(texture.magnified, texture.minified) != Filter::trilinear;
+}
+
+/// The filter of a fragment: the program's, or the texture's own where that is simpler. (Called by
+/// few textures: inlined, it would slow down the others.)
+[[gnu::noinline]] inline Filter filter_at(const Texture& texture, Filter filter,
+                                          const FragmentUv& uv) {
+    const bool is_minified = level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size) > 0;
+    return std::min(filter, is_minified ? texture.minified : texture.magnified);
+}
+
 /// The texture's colour, linear, and alpha in a fragment.
 inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) {
+    if (has_own_filter(texture)) filter = filter_at(texture, filter, uv);
     const vec2 position = texture_position(uv.here, texture.wrap);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], position);
     if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], position);
@@ -122,8 +150,18 @@ inline Image<vec4> downsampled(const Image<vec4>& picture) {
     return Image<vec4>(ivec2(1));
 }
 
+/// The texel to take for one just outside of the texture: that at the opposite side, or the
+/// outermost one. (A mirror image begins with the outermost texel once more.)
+inline ivec2 texel_beyond(ivec2 texel, ivec2 size, WrapModes wrap) {
+    const ivec2 opposite = (texel + size) % size;
+    texel = glm::clamp(texel, ivec2(0), size - 1);
+    for (int axis = 0; axis < 2; ++axis)
+        if (wrap[axis] == Wrap::repeat) texel[axis] = opposite[axis];
+    return texel;
+}
+
 /// An image with a border of one texel, as bilinear filtering asks for.
-inline TextureLevel with_border(const Image<vec4>& picture, Wrap wrap) {
+inline TextureLevel with_border(const Image<vec4>& picture, WrapModes wrap) {
     // TODO: the picture, and around it what lies beyond (the border, after Eq. 5.5).
     return {picture.size(), Image<vec4>(picture.size() + 2)};
 }
@@ -131,7 +169,7 @@ inline TextureLevel with_border(const Image<vec4>& picture, Wrap wrap) {
 /// A texture with all of its levels.
 ///
 /// @param picture  Linear colour and alpha; at least one texel.
-inline Texture make_texture(Image<vec4> picture, Wrap wrap) {
+inline Texture make_texture(Image<vec4> picture, WrapModes wrap) {
     // TODO: the other levels, down to a single texel, each half as wide and high as the one before
     // (Eq. 5.9).
     return {wrap, {with_border(picture, wrap)}};

@@ -40,7 +40,7 @@ inline Image<vec4> normals_from_unorm(const Image<u8vec4>& image, Green green) {
 ///
 /// @param image  Its red is the height: 255 is as high above 0 as the map is wide.
 /// @param wrap   What lies beyond the image's borders.
-inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, Wrap wrap) {
+inline Image<vec4> normals_from_heights(const Image<u8vec4>& image, WrapModes wrap) {
     // TODO: Eq. 8.9 with s = 1, as normal_mapped() multiplies by the material's s later; red over
     // 255 is the height; z and w are 1. Beyond the border: the texel at the opposite one for
     // Wrap::repeat, else that at the border itself.
@@ -69,12 +69,12 @@ template <typename F>
 Vec3<F> sample_normal(const Texture& texture, Filter filter, const TextureCoordinates<F>& uv) {
     Vec3<F> normal(sample(texture, filter, uv));
     // In each second copy of a mirrored texture its right is on the left.
-    if (texture.wrap == Wrap::mirror)
-        for (int axis = 0; axis < 2; ++axis) {
-            const F there_and_back = F(0.5f) * uv.here[axis];
-            const auto is_back = there_and_back - floor(there_and_back) >= F(0.5f);
-            normal[axis] = select(is_back, -normal[axis], normal[axis]);
-        }
+    for (int axis = 0; axis < 2; ++axis) {
+        if (texture.wrap[axis] != Wrap::mirror) continue;
+        const F there_and_back = F(0.5f) * uv.here[axis];
+        const auto is_back = there_and_back - floor(there_and_back) >= F(0.5f);
+        normal[axis] = select(is_back, -normal[axis], normal[axis]);
+    }
     return normal;
 }
 

@@ -159,14 +159,29 @@ Floats<N> level_of_detail(const glm::vec<2, Floats<N>>& ddx, const glm::vec<2, F
                   F(0.0f));
 }
 
+/// As sample(), of a texture with a filter of its own, as pixel art has it.
+template <int N>
+[[gnu::noinline]] glm::vec<4, Floats<N>> sample_one_by_one(
+    const Texture& texture, Filter filter, const TextureCoordinates<Floats<N>>& uv) {
+    const auto lane = [](const glm::vec<2, Floats<N>>& v, int i) { return vec2(v.x[i], v.y[i]); };
+    glm::vec<4, Floats<N>> color;
+    for (int i = 0; i < N; ++i) {
+        const vec4 own =
+            sample(texture, filter, FragmentUv{lane(uv.here, i), lane(uv.ddx, i), lane(uv.ddy, i)});
+        for (int c = 0; c < 4; ++c) color[c].set(i, own[c]);
+    }
+    return color;
+}
+
 /// As sample(). Structs of vectors are passed to functions through memory, and that may take longer
 /// than the function itself. `flatten` inlines all that is called here, and all that those call.
 template <int N>
 [[gnu::flatten]] glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
                                                const TextureCoordinates<Floats<N>>& uv) {
     using F = Floats<N>;
-    const F x = wrapped(uv.here.x, texture.wrap);
-    const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap);
+    if (has_own_filter(texture)) return sample_one_by_one(texture, filter, uv);
+    const F x = wrapped(uv.here.x, texture.wrap.u);
+    const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap.v);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], x, y);
     // The pixels that come next are mostly the N to the right. Clamped, as both become an index.
     const F x_ahead = clamp(x + F(N) * uv.ddx.x, F(0.0f), F(1.0f));
