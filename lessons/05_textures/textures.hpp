@@ -51,8 +51,8 @@ inline double copies_below(double coordinate, Wrap wrap) {
 inline std::array<vec2, 3> uvs_of(const Mesh& mesh, const Triangle& triangle, const TextureMap& map,
                                   const Texture* texture) {
     const std::array<dvec2, 3> uvs = exact_uvs_of(mesh, triangle, map);
-    const Wrap wrap = texture ? texture->wrap : Wrap::repeat;
-    const dvec2 copies(copies_below(uvs[0].x, wrap), copies_below(uvs[0].y, wrap));
+    const WrapModes wrap = texture ? texture->wrap : Wrap::repeat;
+    const dvec2 copies(copies_below(uvs[0].x, wrap.u), copies_below(uvs[0].y, wrap.v));
     return {vec2(uvs[0] - copies), vec2(uvs[1] - copies), vec2(uvs[2] - copies)};
 }
 

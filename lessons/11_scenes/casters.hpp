@@ -40,7 +40,7 @@ void draw_caster_with_holes(ShadowMap& map, const Casters& casters, const Projec
     fill_tile(caster.on_screen, tile, [&](ivec2 texel, Barycentrics on_screen) {
         counters.add(Counter::shadow_fragments);
         const float depth = caster.depth.at(on_screen);
-        if (!(depth < map.depths.depths()[texel + max_pcf_radius])) return;
+        if (!(depth > map.depths.depths()[texel + max_pcf_radius])) return;
         counters.add(Counter::alpha_tested_texels);
         NoCounters uncounted;
         const FragmentBarycentrics at = perspective_correct(setup, on_screen);

@@ -31,7 +31,7 @@ void draw_caster_with_holes(TileDepths& depths, const Casters& casters,
     fill_tile<F>(caster.on_screen, tile, [&](ivec2 texel, MaskOf<F> inside, const Vec3<F>& where) {
         covered.add(inside);
         const F depth = depth_at<F>(caster.depth, where);
-        const MaskOf<F> nearer = inside & (depth < load<F>(depths.from(texel)));
+        const MaskOf<F> nearer = inside & (depth > load<F>(depths.from(texel)));
         if (!any_of(nearer)) return;
         counters.add(Counter::alpha_tested_texels, static_cast<std::uint64_t>(count_of(nearer)));
         NoCounters uncounted;
