@@ -344,9 +344,9 @@ TEST(GltfFiles, BytesBehindABinaryFileAreAWarning) {
             const Scene scene = load_model(file);
             EXPECT_EQ(scene.bounds().max, vec3(1, 1, 0));
             ASSERT_EQ(scene.warnings.size(), more == 0 ? 0u : 1u);
-            if (more > 0)
-                EXPECT_EQ(scene.warnings[0], file.string() + ": " + std::to_string(more) +
-                                                 " bytes behind its end are ignored");
+            if (more == 0) continue;
+            EXPECT_EQ(scene.warnings[0], file.string() + ": " + std::to_string(more) +
+                                             " bytes behind its end are ignored");
         }
 }
 
