@@ -70,12 +70,11 @@ long double exact_depth(const std::array<vec3, 3>& p, ivec2 pixel) {
            area(a, b, c);
 }
 
-/// The error that the derivation finds for Eq. 3.3: 4 eps of the difference in depth, and half an
-/// eps of the depth.
-long double depth_tolerance(const std::array<vec3, 3>& p) {
-    const auto [low, high] = std::minmax({p[0].z, p[1].z, p[2].z});
-    return 4 * FLT_EPSILON * static_cast<long double>(high - low) +
-           FLT_EPSILON / 2 * static_cast<long double>(high);
+/// The error that the derivation finds for Eq. 3.3 where the exact depth is this: 4 eps of what it
+/// is above the smallest depth, and half an eps of itself.
+long double depth_tolerance(const std::array<vec3, 3>& p, long double exact) {
+    const long double above_low = exact - std::min({p[0].z, p[1].z, p[2].z});
+    return 4 * FLT_EPSILON * std::max(above_low, 0.0L) + FLT_EPSILON / 2 * exact;
 }
 
 std::string name(const std::array<vec3, 3>& p) {
@@ -85,11 +84,12 @@ std::string name(const std::array<vec3, 3>& p) {
 /// For EXPECT_TRUE: within the derived error.
 testing::AssertionResult is_exact_depth(const std::array<vec3, 3>& p, ivec2 pixel, float depth) {
     const long double exact = exact_depth(p, pixel), error = std::abs(depth - exact);
-    if (error <= depth_tolerance(p)) return testing::AssertionSuccess();
+    const long double tolerance = depth_tolerance(p, exact);
+    if (error <= tolerance) return testing::AssertionSuccess();
     return testing::AssertionFailure()
            << "the depth at pixel " << testing::PrintToString(pixel) << " is "
-           << test::text_of(depth) << ", expected " << exact << ", off by "
-           << error / depth_tolerance(p) << " times what Eq. 3.3 may be; " << name(p);
+           << test::text_of(depth) << ", expected " << exact << ", off by " << error / tolerance
+           << " times what Eq. 3.3 may be; " << name(p);
 }
 
 std::vector<Patch> random_patches(unsigned seed, int count, ivec2 size) {
@@ -161,6 +161,19 @@ TEST(ZBuffer, DepthsAreWithinTheDerivedErrorOfTheExactPlane) {
                 }
     }
     EXPECT_GT(compared, test::cases_of(100'000));
+}
+
+TEST(ZBuffer, HardCase_FarDepthsKeepTheirDigitsBesideNearOnes) {
+    look_up("Relative errors survive the sum");
+    // A floor from the eye to the horizon: depths from 1 to a billionth, in one triangle.
+    for (const float farthest : {0x1p-10f, 1e-6f, 1e-9f, 0x1p-100f}) {
+        const std::array<vec3, 3> p = {{{0, 200, 1}, {50, 0.75f, farthest}, {100, 200, 1}}};
+        const auto depths = depths_of(p, {0, 0}, {100, 200});
+        for (int y = 0; y < 200; ++y)
+            for (int x = 0; x < 100; ++x)
+                if (depths[{x, y}] != uncovered)
+                    ASSERT_TRUE(is_exact_depth(p, {x, y}, depths[{x, y}]));
+    }
 }
 
 TEST(ZBuffer, TriangleOfOneDepthHasExactlyThatDepth) {
@@ -354,9 +367,11 @@ TEST(ZBuffer, HardCase_InterpenetratingTrianglesMeetOnTheExactLine) {
         int first_in_front = 0;
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
-                const long double behind = exact_depth(p, {x, y}) - exact_depth(q, {x, y});
+                const long double of_p = exact_depth(p, {x, y}), of_q = exact_depth(q, {x, y});
+                const long double behind = of_p - of_q;
                 first_in_front += behind > 0;
-                if (std::abs(behind) <= depth_tolerance(p) + depth_tolerance(q)) continue;
+                if (std::abs(behind) <= depth_tolerance(p, of_p) + depth_tolerance(q, of_q))
+                    continue;
                 ASSERT_EQ((ids[{x, y}]), behind > 0 ? 0 : 1)
                     << "what is seen at pixel (" << x << ", " << y << "): 0 for " << name(p)
                     << ", 1 for " << name(q) << "; seed 8, case " << i;
