@@ -171,8 +171,9 @@ TEST(ZBuffer, HardCase_FarDepthsKeepTheirDigitsBesideNearOnes) {
         const auto depths = depths_of(p, {0, 0}, {100, 200});
         for (int y = 0; y < 200; ++y)
             for (int x = 0; x < 100; ++x)
-                if (depths[{x, y}] != uncovered)
+                if (depths[{x, y}] != uncovered) {
                     ASSERT_TRUE(is_exact_depth(p, {x, y}, depths[{x, y}]));
+                }
     }
 }
 

@@ -167,7 +167,7 @@ TEST(ShadowMaps, HardCase_ATestIsMadeOnlyWhereTheLightCounts) {
         EXPECT_GT(bumpy, flat * 98 / 100) << name_of(kind) << ": few bumps are so steep";
         options.shading.key_light = LightKind::point;  // where the spotlight is
         const std::uint64_t all_around = drawn(scene, options).count(Counter::shadow_tests);
-        if (kind == LightKind::spot) EXPECT_LT(flat, all_around * 8 / 10);
+        if (kind == LightKind::spot) { EXPECT_LT(flat, all_around * 8 / 10); }
     }
 }
 

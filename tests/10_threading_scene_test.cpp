@@ -82,6 +82,7 @@ std::uint64_t hash_of(const Image<vec3>& picture) {
 /// Counts as Counters does, until it has counted so many fragments: then it throws.
 struct ThrowingCounters {
     static inline std::atomic<long> fragments_left = 0;
+    static constexpr UndrawnTriangles* undrawn = nullptr;
 
     void add(Counter counter, std::uint64_t = 1) {
         if (counter == Counter::fragments_shaded && --fragments_left == 0)

@@ -66,16 +66,6 @@ std::vector<Named> numbers_of(const ProjectedTriangle& projected) {
     return numbers;
 }
 
-std::string in_words(const CulledTriangles& culled) {
-    Counters counters;
-    culled.add_to(counters);
-    std::string words;
-    for (std::size_t i = 0; i < counter_names.size(); ++i)
-        if (counters.values[i] > 0)
-            words += ' ' + std::to_string(counters.values[i]) + ' ' + std::string(counter_names[i]);
-    return words.empty() ? "none" : words.substr(1);
-}
-
 /// Apart from compare(), which is compiled for each width.
 testing::AssertionResult are_lesson_10s(const TrianglesInClipSpace& triangles,
                                         ProjectTriangles* project, ivec2 size, Culling culling) {
@@ -84,12 +74,11 @@ testing::AssertionResult are_lesson_10s(const TrianglesInClipSpace& triangles,
         return by(triangles.mesh, triangles.mesh.triangles, triangles.positions.data(), size,
                   culling, to);
     };
-    const CulledTriangles culled = call(project, actual),
-                          should_be = call(project_triangles, expected);
+    const std::size_t culled = call(project, actual), should_be = call(project_triangles, expected);
     if (actual.size() != expected.size() || culled != should_be)
         return testing::AssertionFailure()
-               << actual.size() << " triangles are left, expected " << expected.size()
-               << "; culled: " << in_words(culled) << ", expected " << in_words(should_be);
+               << actual.size() << " triangles are left and " << culled << " culled; expected "
+               << expected.size() << " and " << should_be;
     for (std::size_t i = 0; i < actual.size(); ++i) {
         const ProjectedTriangle &a = actual[i], &e = expected[i];
         const std::ptrdiff_t number = &e.triangle - triangles.mesh.triangles.data();

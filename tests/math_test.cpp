@@ -69,15 +69,21 @@ TEST(NormalizeOr, DoublesOfAnySizeNeedNoWiderType) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> component(-1, 1);
     std::uniform_int_distribution<int> exponent(-1000, 1020);
+    const dvec3 fallback(9);
     for (int i = 0; i < 100'000; ++i) {
         const dvec3 v(component(random), component(random), component(random));
         const int power = exponent(random);  // exact: no number becomes subnormal
         const dvec3 scaled(std::ldexp(v.x, power), std::ldexp(v.y, power), std::ldexp(v.z, power));
-        const dvec3 unit = normalize_or(scaled, dvec3(9));
-        for (int k = 0; k < 3; ++k)
-            ASSERT_NEAR(unit[k], v[k] / glm::length(v), 4 * DBL_EPSILON * std::abs(unit[k]))
-                << "seed 1, case " << i << ", times 2^" << power;
+        for (const dvec3 unit :
+             {normalize_in<double>(scaled, fallback), normalize_in<long double>(scaled, fallback)})
+            for (int k = 0; k < 3; ++k)
+                ASSERT_NEAR(unit[k], v[k] / glm::length(v), 4 * DBL_EPSILON * std::abs(unit[k]))
+                    << "seed 1, case " << i << ", times 2^" << power;
     }
+    const double nan = std::numeric_limits<double>::quiet_NaN(), endless = HUGE_VAL;
+    for (const dvec3 v : {dvec3(0), dvec3(nan, 1, 1), dvec3(1, nan, 1), dvec3(1, 1, endless)})
+        EXPECT_EQ(normalize_in<double>(v, fallback), fallback);
+    EXPECT_EQ(normalize_in<double>(dvec3(0, 0, 1e-320), fallback), dvec3(0, 0, 1));
 }
 
 TEST(DifferenceOfProducts, IsWithinTwoUlpWherePlainFloatLosesAllDigits) {

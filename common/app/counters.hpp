@@ -17,12 +17,8 @@ enum class Counter {
     meshes_culled_by_frustum,
     triangles_in,
     triangles_culled_by_facing,
-    triangles_without_area,   ///< On the screen. Lessons 02 and 03 count them as culled.
-    triangles_outside_view,   ///< Outside of the frustum, each alone or with its mesh.
-    triangles_behind_camera,  ///< Outside of the frustum, behind the camera.
-    triangles_overflowing,    ///< Clip space has larger numbers than can be computed with.
-    fragments_tested,         ///< Compared with the depth buffer.
-    fragments_shaded,         ///< Written into the picture.
+    fragments_tested,  ///< Compared with the depth buffer.
+    fragments_shaded,  ///< Written into the picture.
     texture_samples,
     fragments_lit,
     highlights,      ///< Fragments for which highlights are computed.
@@ -50,10 +46,6 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "meshes_culled_by_frustum",
     "triangles_in",
     "triangles_culled_by_facing",
-    "triangles_without_area",
-    "triangles_outside_view",
-    "triangles_behind_camera",
-    "triangles_overflowing",
     "fragments_tested",
     "fragments_shaded",
     "texture_samples",
@@ -73,9 +65,19 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "alpha_tested_fragments",
     "blended_fragments"};
 
+/// Why triangles of a model are not drawn.
+struct UndrawnTriangles {
+    std::uint64_t behind_camera = 0;
+    std::uint64_t outside_view = 0;  ///< Of the frustum, but not behind the camera.
+    std::uint64_t overflowing = 0;   ///< In clip space, their numbers are too large.
+    std::uint64_t without_area = 0;  ///< On the screen.
+    std::uint64_t facing_away = 0;
+};
+
 /// Counts.
 struct Counters {
     std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> values{};
+    UndrawnTriangles* undrawn = nullptr;  ///< Counted where there is one: of an empty picture.
 
     void add(Counter counter, std::uint64_t times = 1) {
         values[static_cast<std::size_t>(counter)] += times;
@@ -87,6 +89,7 @@ struct Counters {
 
 /// Takes the place of Counters where nothing is to be counted: compiles to nothing.
 struct NoCounters {
+    static constexpr UndrawnTriangles* undrawn = nullptr;
     void add(Counter, std::uint64_t = 1) {}
     void add(const NoCounters&) {}
 };

@@ -2,9 +2,14 @@
 #include "common/app/empty_picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <set>
 #include <vector>
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace rasterbook {
 
@@ -22,9 +27,46 @@ std::string names_of_clear_materials(const Scene& scene) {
            (others > 0 ? " and " + std::to_string(others) + " more" : "") + ": opacity 0)";
 }
 
+/// An area with the sign that a triangle's has on the screen, where y points down: > 0 if it is
+/// seen counter-clockwise; 0 if it has none when its vertices are snapped to 1/256 pixel.
+double area_on_screen(const std::array<vec4, 3>& at) {
+    const auto snapped = [](vec4 p) {
+        constexpr double steps = 512 * 256;  // of half a picture that is 1024 pixels wide
+        return dvec3(glm::round(steps / p.w * dvec2(p)), 1);
+    };
+    const bool is_in_front = std::ranges::all_of(at, [](vec4 p) { return p.w > 0; });
+    const auto vertex = [&](std::size_t i) {
+        return is_in_front ? snapped(at[i]) : dvec3(at[i].x, at[i].y, at[i].w);
+    };
+    return glm::determinant(dmat3(vertex(0), vertex(1), vertex(2)));
+}
+
 }  // namespace
 
-std::string why_empty(const Counters& counters, const Scene& scene, bool knows_area) {
+void count_undrawn(const Mesh& mesh, const mat4& clip_from_model, UndrawnTriangles& undrawn) {
+    constexpr float clip_limit = 0x1p125f;  // of lesson 04
+    for (const Triangle& triangle : mesh.triangles) {
+        std::array<vec4, 3> at;
+        for (std::size_t i = 0; i < 3; ++i)
+            at[i] = clip_from_model * vec4(mesh.positions[triangle.vertices[i].position], 1);
+        const auto all = [&](auto&& holds) { return std::ranges::all_of(at, holds); };
+        const auto all_beyond = [&](int axis) {
+            return all([&](vec4 p) { return p[axis] > p.w; }) ||
+                   all([&](vec4 p) { return p[axis] < -p.w; });
+        };
+        if (!all([](vec4 p) { return glm::all(glm::lessThan(glm::abs(p), vec4(clip_limit))); }))
+            ++undrawn.overflowing;
+        else if (all([](vec4 p) { return p.w <= 0; }))
+            ++undrawn.behind_camera;
+        else if (all_beyond(0) || all_beyond(1) || all_beyond(2))
+            ++undrawn.outside_view;
+        else if (const double area = area_on_screen(at); area <= 0)
+            ++(area == 0 ? undrawn.without_area : undrawn.facing_away);
+    }
+}
+
+std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
+                      const Scene& scene) {
     const auto count = [&](Counter counter) {
         return counters.values[static_cast<std::size_t>(counter)];
     };
@@ -34,16 +76,15 @@ std::string why_empty(const Counters& counters, const Scene& scene, bool knows_a
             reasons += (reasons.empty() ? "" : ", ") + std::to_string(times) + ' ' + thing +
                        (times > 1 ? "s " : " ") + why;
     };
-    const auto add_triangles = [&](Counter counter, const std::string& why) {
-        add(count(counter), "triangle", why);
-    };
-    add_triangles(Counter::triangles_behind_camera, "behind the camera");
-    add_triangles(Counter::triangles_outside_view, "outside of the camera's view");
-    add_triangles(Counter::triangles_overflowing, "too large or too far away for single precision");
-    add_triangles(Counter::triangles_culled_by_facing,
-                  knows_area ? "seen from behind (named clockwise?)"
-                             : "seen from behind (named clockwise?) or without area");
-    add_triangles(Counter::triangles_without_area, "without area on the screen");
+    add(undrawn.behind_camera, "triangle", "behind the camera");
+    add(undrawn.outside_view, "triangle", "outside of the camera's view");
+    add(undrawn.overflowing, "triangle", "too large or too far away for single precision");
+    const std::uint64_t culled = count(Counter::triangles_culled_by_facing);
+    if (culled > 0 && undrawn.facing_away + undrawn.without_area == 0)
+        add(culled, "triangle", "seen from behind (named clockwise?) or without area");
+    else if (culled > 0)  // else both sides are drawn
+        add(undrawn.facing_away, "triangle", "seen from behind (named clockwise?)");
+    add(undrawn.without_area, "triangle", "without area on the screen");
 
     // In an empty picture, what is alpha tested fails, and what is blended is clear.
     const std::uint64_t shaded = count(Counter::fragments_shaded),

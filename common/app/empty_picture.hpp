@@ -10,12 +10,18 @@
 
 namespace rasterbook {
 
+/// Counts the triangles of a mesh that are clipped away, without area on the screen, or facing
+/// away.
+///
+/// @param clip_from_model  Of a perspective; its planes are those of Eq. 4.10.
+void count_undrawn(const Mesh& mesh, const mat4& clip_from_model, UndrawnTriangles& undrawn);
+
 /// Says of a picture that holds nothing but its background what became of the model: "3 triangles
 /// lie behind the camera, 2 face away (named clockwise?)".
 ///
-/// @param counters    Of the picture, or of several.
-/// @param knows_area  triangles_without_area is counted; else these are among those culled by
-///                    facing, as in lessons 02 and 03.
-std::string why_empty(const Counters& counters, const Scene& scene, bool knows_area);
+/// @param counters  Of the picture.
+/// @param undrawn   Of the same; all 0 in lessons 02 and 03, which only cull by facing.
+std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
+                      const Scene& scene);
 
 }  // namespace rasterbook

@@ -226,6 +226,19 @@ Tally make_film(const LessonProgram& program) {
     return tally;
 }
 
+/// Draws the first picture again, and counts why its triangles are not drawn.
+std::string why_first_is_empty(const LessonProgram& program, const Scene& scene) {
+    Counters counters;
+    UndrawnTriangles undrawn;
+    counters.undrawn = &undrawn;
+    const float yaw_degrees = program.orbit ? program.orbit->yaw_degrees : 0;
+    const Frames& frames = program.options.frames;
+    program.render(
+        {yaw_degrees + degrees_at(frames.first, frames), program.threads ? *program.threads : 1},
+        counters);
+    return why_empty(counters, undrawn, scene);
+}
+
 void make_pictures(const LessonProgram& program) {
     LessonOptions& options = program.options;
     const auto start = std::chrono::steady_clock::now();
@@ -245,8 +258,9 @@ void make_pictures(const LessonProgram& program) {
     const Tally tally = make_film(program);
 
     if (tally.is_empty)
-        std::cerr << "warning: " << options.model.string() << ": nothing of it is to be seen: "
-                  << why_empty(tally.counters, scene, program.orbit != nullptr) << '\n';
+        std::cerr << "warning: " << options.model.string()
+                  << ": nothing of it is to be seen: " << why_first_is_empty(program, scene)
+                  << '\n';
     if (options.stats)
         print_stats(program, size, tally, load_ms, elapsed_ms(start));
     else if (const std::string first = file_of(options, options.frames.first).string();

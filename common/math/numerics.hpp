@@ -18,34 +18,38 @@ namespace rasterbook {
 /// 128-bit integer, for products of two 64-bit ones.
 __extension__ typedef __int128 int128;
 
-/// v times a power of two, which is exact, so that squares neither overflow nor underflow where
-/// they count: unless v has an ordinary size, its largest component becomes 1 to 2. Zero, and what
-/// is not finite, stays.
-inline dvec3 with_ordinary_size(dvec3 v) {
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    const bool is_ordinary = largest > 1e-140 && largest < 1e140;
-    if (is_ordinary || !(largest > 0 && largest <= std::numeric_limits<double>::max())) return v;
-    const int exponent = std::ilogb(largest);
-    return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
+/// normalize_or() with the square of the length in a type Wide, T itself or a wider one. Where
+/// squares may overflow or underflow in Wide, a power of two, which is exact, first brings v's
+/// largest component to between 1 and 2.
+template <std::floating_point Wide, std::floating_point T>
+glm::vec<3, T> normalize_in(glm::vec<3, T> v, glm::vec<3, T> fallback) {
+    constexpr Wide greatest = std::numeric_limits<Wide>::max();
+    Wide x = v.x, y = v.y, z = v.z;
+    if constexpr (std::numeric_limits<Wide>::max_exponent <
+                  2 * std::numeric_limits<T>::max_exponent) {
+        const Wide largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+        if (!(largest > 0 && largest <= greatest)) return fallback;
+        const int exponent = -std::ilogb(largest);
+        x = std::scalbn(x, exponent), y = std::scalbn(y, exponent), z = std::scalbn(z, exponent);
+    }
+    const Wide length = std::sqrt(x * x + y * y + z * z);
+    if (!(length > 0 && length <= greatest)) return fallback;
+    return {static_cast<T>(x / length), static_cast<T>(y / length), static_cast<T>(z / length)};
 }
 
 /// v scaled to length 1, or `fallback` when v has no direction.
 ///
-/// The square of the length is taken in double, which holds that of any float; for doubles, after
-/// with_ordinary_size(). So 1e-40 and 1e30 are ordinary lengths, and so is 1e300 in double.
-/// (v / length(v) in float gives NaN for 0 and 0 for 1e30.)
+/// The square of the length is taken in a wider type, where there is one: for some compilers, as
+/// MSVC, long double is double. It neither overflows nor underflows, so that 1e-40 and 1e30 are
+/// ordinary lengths. (v / length(v) in float gives NaN for 0 and 0 for 1e30.)
 ///
 /// @param v         Any values; zero, NaN and infinity have no direction.
 /// @param fallback  Returned as it is.
-/// @return          Each component within 1 ulp; within 3 for double.
+/// @return          Each component within 1 ulp; within 3 where there is no wider type.
 template <std::floating_point T>
 glm::vec<3, T> normalize_or(glm::vec<3, T> v, glm::vec<3, T> fallback) {
-    dvec3 wide(v);
-    if constexpr (std::is_same_v<T, double>) wide = with_ordinary_size(v);
-    const double x = wide.x, y = wide.y, z = wide.z;
-    const double length = std::sqrt(x * x + y * y + z * z);
-    if (!(length > 0 && length <= std::numeric_limits<double>::max())) return fallback;
-    return {static_cast<T>(x / length), static_cast<T>(y / length), static_cast<T>(z / length)};
+    return normalize_in<std::conditional_t<std::is_same_v<T, float>, double, long double>>(
+        v, fallback);
 }
 
 /// a b - c d within 1.5 ulp, even where the two products nearly cancel.

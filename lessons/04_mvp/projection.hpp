@@ -9,9 +9,9 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/clip.hpp"
-#include "04_mvp/culling.hpp"
 #include "04_mvp/transform.hpp"
 #include "common/app/counters.hpp"
+#include "common/app/empty_picture.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
@@ -41,6 +41,9 @@ inline ProjectedTriangle project(const Mesh& mesh, const Triangle& triangle,
             !is_front_facing(on_screen)};
 }
 
+/// Which triangles are not drawn because of the side that they show.
+enum class Culling { back_faces, none };
+
 /// Visits what may be visible of a mesh, in its order.
 ///
 /// Counts the mesh and its triangles, and what of them is culled.
@@ -53,22 +56,24 @@ template <typename CounterPolicy, typename Visit, typename Transform, typename C
 void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, ivec2 size,
                                Culling culling, CounterPolicy& counters, Visit&& visit,
                                Transform&& transform, Clip&& clip) {
-    if (is_culled(mesh, clip_from_model, counters)) return;
+    counters.add(Counter::meshes_in);
+    if (counters.undrawn) count_undrawn(mesh, clip_from_model, *counters.undrawn);
+    if (is_outside_frustum(mesh.bounds, clip_from_model)) {
+        counters.add(Counter::meshes_culled_by_frustum);
+        return;
+    }
     if (!mesh.tangents.empty()) counters.add(Counter::meshes_with_tangents);
     const std::vector<vec4> positions_clip = transform(mesh.positions);
-    CulledTriangles culled;
     for (const Triangle& triangle : mesh.triangles) {
         counters.add(Counter::triangles_in);
-        const auto vertices = vertices_of(triangle, positions_clip);
-        const auto& pieces = clip(vertices);
-        if (pieces.begin() == pieces.end()) culled.add_outside(vertices);
-        for (const ClippedTriangle& clipped : pieces) {
+        for (const ClippedTriangle& clipped : clip(vertices_of(triangle, positions_clip))) {
             const ProjectedTriangle projected = project(mesh, triangle, clipped, size);
-            if (culled.takes(projected.on_screen, culling, &clipped == pieces.begin()))
+            if (projected.is_back_facing && culling == Culling::back_faces)
+                counters.add(Counter::triangles_culled_by_facing);
+            else
                 visit(projected);
         }
     }
-    culled.add_to(counters);
 }
 
 /// The same of all meshes of a scene, transformed in float and clipped by all six planes.

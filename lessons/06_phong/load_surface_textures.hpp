@@ -14,15 +14,15 @@ namespace rasterbook {
 
 /// @throws InputError  As load_textures() has it.
 inline SurfaceTextures load_surface_textures(Scene& scene, const TextureOptions& options) {
-    return {
-        load_diffuse_textures(scene, options),
-        load_textures(
-            scene, &Material::specular_map, "map_Ks", options,
-            [](const Image<u8vec4>& image, WrapModes) { return plain_numbers(image); }, has_highlight),
-        load_textures(
-            scene, &Material::emission_map, "map_Ke", options,
-            [&](const Image<u8vec4>& image, WrapModes) { return options.decoded(image); },
-            [](const Material& material) { return material.emission != vec3(0); })};
+    return {load_diffuse_textures(scene, options),
+            load_textures(
+                scene, &Material::specular_map, "map_Ks", options,
+                [](const Image<u8vec4>& image, WrapModes) { return plain_numbers(image); },
+                has_highlight),
+            load_textures(
+                scene, &Material::emission_map, "map_Ke", options,
+                [&](const Image<u8vec4>& image, WrapModes) { return options.decoded(image); },
+                [](const Material& material) { return material.emission != vec3(0); })};
 }
 
 /// A texture of one texel.

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "10_threading/split.hpp"
 #include "10_threading/thread_pool.hpp"
 #include "common/app/counters.hpp"
+#include "common/app/empty_picture.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
@@ -106,21 +106,20 @@ inline std::size_t begin_of_batch(std::size_t batch, std::size_t things) {
 /// @param positions_clip  The mesh's positions, in clip space.
 /// @param size            Of the picture, in pixels.
 /// @param projected       What is left is added to it, in the triangles' order.
-/// @return                What is not, by the reason.
-inline CulledTriangles project_triangles(const Mesh& mesh, std::span<const Triangle> triangles,
-                                         const vec4* positions_clip, ivec2 size, Culling culling,
-                                         std::vector<ProjectedTriangle>& projected) {
-    CulledTriangles culled;
+/// @return                How many pieces were culled for the side that they show.
+inline std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle> triangles,
+                                     const vec4* positions_clip, ivec2 size, Culling culling,
+                                     std::vector<ProjectedTriangle>& projected) {
+    std::size_t culled = 0;
     for (const Triangle& triangle : triangles) {
         const auto& [p, q, r] = triangle.vertices;
-        const std::array vertices{positions_clip[p.position], positions_clip[q.position],
-                                  positions_clip[r.position]};
-        const ClippedTriangles pieces = clip_triangle(vertices);
-        if (pieces.begin() == pieces.end()) culled.add_outside(vertices);
-        for (const ClippedTriangle& clipped : pieces) {
+        for (const ClippedTriangle& clipped :
+             clip_triangle({positions_clip[p.position], positions_clip[q.position],
+                            positions_clip[r.position]})) {
             const ProjectedTriangle piece = project(mesh, triangle, clipped, size);
-            if (culled.takes(piece.on_screen, culling, &clipped == pieces.begin()) &&
-                piece.on_screen.twice_area != 0)
+            if (piece.is_back_facing && culling == Culling::back_faces)
+                ++culled;
+            else if (piece.on_screen.twice_area != 0)
                 projected.push_back(piece);
         }
     }
@@ -134,7 +133,12 @@ std::vector<const Mesh*> meshes_in_view(const Scene& scene, const mat4& clip_fro
                                         CounterPolicy& counters) {
     std::vector<const Mesh*> meshes;
     for (const Mesh& mesh : scene.meshes) {
-        if (is_culled(mesh, clip_from_world, counters)) continue;
+        counters.add(Counter::meshes_in);
+        if (counters.undrawn) count_undrawn(mesh, clip_from_world, *counters.undrawn);
+        if (is_outside_frustum(mesh.bounds, clip_from_world)) {
+            counters.add(Counter::meshes_culled_by_frustum);
+            continue;
+        }
         if (!mesh.tangents.empty()) counters.add(Counter::meshes_with_tangents);
         meshes.push_back(&mesh);
     }
@@ -151,7 +155,8 @@ class BinnedTriangles {
 
     /// Transforms, clips and bins them.
     ///
-    /// Counts as the earlier lessons do: triangles_in each one that is taken, and CulledTriangles.
+    /// Counts as the earlier lessons do: triangles_in each one that is taken, and
+    /// triangles_culled_by_facing each piece that is culled for the side that it shows.
     ///
     /// @param pool       Has size() and run() as ThreadPool does.
     /// @param culling    Whether pieces seen from behind are left out.
@@ -203,10 +208,10 @@ class BinnedTriangles {
                                  while (next < end && of_mesh[next].material == material) ++next;
                                  if (!takes(material)) continue;
                                  counters[worker].add(Counter::triangles_in, next - i);
-                                 set_up(*meshes[mesh], {&of_mesh[i], next - i},
-                                        &positions_clip[first_position[mesh]], tiling.size(),
-                                        culling, triangles)
-                                     .add_to(counters[worker]);
+                                 counters[worker].add(Counter::triangles_culled_by_facing,
+                                                      set_up(*meshes[mesh], {&of_mesh[i], next - i},
+                                                             &positions_clip[first_position[mesh]],
+                                                             tiling.size(), culling, triangles));
                              }
                          });
             for (const ProjectedTriangle& projected : triangles)

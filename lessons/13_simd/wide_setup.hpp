@@ -107,11 +107,11 @@ WideScreenTriangles<N> project_plain(std::span<const Triangle> triangles,
 /// As project_triangles() of lesson 10: as many triangles at once as F has numbers. Those that have
 /// to be clipped, or are unusual, take the steps of lesson 10.
 template <typename F>
-CulledTriangles project_triangles(const Mesh& mesh, std::span<const Triangle> triangles,
-                                  const vec4* positions_clip, ivec2 size, Culling culling,
-                                  std::vector<ProjectedTriangle>& projected) {
+std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle> triangles,
+                              const vec4* positions_clip, ivec2 size, Culling culling,
+                              std::vector<ProjectedTriangle>& projected) {
     constexpr std::size_t N = width_of<F>;
-    CulledTriangles culled;
+    std::size_t culled = 0;
     if constexpr (N > 1)
         for (; triangles.size() >= N; triangles = triangles.subspan(N)) {
             const auto [x, y, z, twice_area, is_plain] =
@@ -119,20 +119,17 @@ CulledTriangles project_triangles(const Mesh& mesh, std::span<const Triangle> tr
             for (int i = 0; i < static_cast<int>(N); ++i) {
                 const auto one = triangles.subspan(static_cast<std::size_t>(i), 1);
                 if (!is_plain[i]) {
-                    culled.add(
-                        project_triangles(mesh, one, positions_clip, size, culling, projected));
+                    culled +=
+                        project_triangles(mesh, one, positions_clip, size, culling, projected);
                     continue;
                 }
                 const auto area = static_cast<std::int64_t>(twice_area[i]);
-                if (area == 0) {
-                    ++culled.without_area;
-                    continue;
-                }
-                const bool is_back_facing = area < 0;
+                const bool is_back_facing = area <= 0;
                 if (is_back_facing && culling == Culling::back_faces) {
-                    ++culled.facing;
+                    ++culled;
                     continue;
                 }
+                if (area == 0) continue;
                 const auto& [p, q, r] = one[0].vertices;
                 projected.push_back(
                     {mesh,
@@ -146,8 +143,7 @@ CulledTriangles project_triangles(const Mesh& mesh, std::span<const Triangle> tr
                      is_back_facing});
             }
         }
-    culled.add(project_triangles(mesh, triangles, positions_clip, size, culling, projected));
-    return culled;
+    return culled + project_triangles(mesh, triangles, positions_clip, size, culling, projected);
 }
 
 }  // namespace rasterbook
