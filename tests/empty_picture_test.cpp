@@ -57,23 +57,24 @@ TEST(EmptyPicture, TheWarningSaysWhyNothingOfAGltfFileIsToBeSeen) {
     struct Empty {
         json material, camera;
         const char* why;
+        double zfar = 30;
     };
     const json plain = {{"name", "leaf"}}, facing = {{"translation", {0.3, 0.3, 2}}};
     const json masked = {{"name", "leaf"}, {"alphaMode", "MASK"}, {"alphaCutoff", 1.1}};
     const json clear = {{"name", "leaf"},
                         {"alphaMode", "BLEND"},
                         {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0}}}}};
-    for (const auto& [material, camera, why] :
+    for (const auto& [material, camera, why, zfar] :
          {Empty{masked, facing, " fragments failed by the alpha test"},
           {clear, facing, " fragments wholly transparent (material \"leaf\": opacity 0)"},
           {plain, {{"translation", {0, 0, -2}}}, ": 1 triangle behind the camera"},
-          {plain, {{"translation", {0, 0, 50}}}, ": 1 triangle outside of the camera's view"},
+          {plain, facing, " fragments beyond the camera's far plane", 1.5},
           {plain, {{"translation", {9, 0, 2}}}, ": 1 triangle outside of the camera's view"}}) {
         GltfBuilder made = one_triangle();
         made.material() = material;
         made.document["cameras"] = {
             {{"type", "perspective"},
-             {"perspective", {{"yfov", 0.9}, {"znear", 0.01}, {"zfar", 30}}}}};
+             {"perspective", {{"yfov", 0.9}, {"znear", 0.01}, {"zfar", zfar}}}}};
         made.document["nodes"].push_back(camera);
         made.document["nodes"][1]["camera"] = 0;
         made.document["scenes"][0]["nodes"] = {0, 1};

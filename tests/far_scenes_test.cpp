@@ -204,13 +204,18 @@ TEST(FarScenes, NodesFarAwayAndThoseThatCancelGiveTheSamePicture) {
     }
 }
 
-TEST(FarScenes, CamerasAndLightsStandWhereTheFileSays) {
+TEST(FarScenes, MeshesCamerasAndLightsStandWhereTheFileSays) {
     const fs::path file = fresh_folder("far") / "a.gltf";
     const Shape shape(3, 2000);
     for (const Whole3 offset : offsets) {
         const Scene scene = load_model(shape.gltf({moved(offset)}).write(file));
         const dvec3 origin = scene.origin;
         EXPECT_NE(origin, dvec3(0));
+        for (std::size_t i = 0; i < shape.points.size(); ++i) {
+            const vec3 own = vec3(dvec3(shape.points[i]) / 1000.0);  // as the file has it
+            const dvec3 found = origin + dvec3(scene.meshes.at(0).positions.at(i));
+            ASSERT_LE(glm::distance(found, dvec3(offset) + dvec3(own)), 1e-6) << "point " << i;
+        }
         EXPECT_EQ(origin + dvec3(scene.cameras.at(0).world_from_view[3]),
                   dvec3(offset) + dvec3(0, 0, 9));
         EXPECT_EQ(origin + dvec3(scene.lights.at(0).position_world),

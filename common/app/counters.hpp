@@ -89,7 +89,6 @@ struct Counters {
 
 /// Takes the place of Counters where nothing is to be counted: compiles to nothing.
 struct NoCounters {
-    static constexpr UndrawnTriangles* undrawn = nullptr;
     void add(Counter, std::uint64_t = 1) {}
     void add(const NoCounters&) {}
 };

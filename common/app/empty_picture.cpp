@@ -52,7 +52,7 @@ void count_undrawn(const Mesh& mesh, const mat4& clip_from_model, UndrawnTriangl
         const auto all = [&](auto&& holds) { return std::ranges::all_of(at, holds); };
         const auto all_beyond = [&](int axis) {
             return all([&](vec4 p) { return p[axis] > p.w; }) ||
-                   all([&](vec4 p) { return p[axis] < -p.w; });
+                   all([&](vec4 p) { return p[axis] < (axis < 2 ? -p.w : 0); });
         };
         if (!all([](vec4 p) { return glm::all(glm::lessThan(glm::abs(p), vec4(clip_limit))); }))
             ++undrawn.overflowing;
@@ -86,7 +86,8 @@ std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
         add(undrawn.facing_away, "triangle", "seen from behind (named clockwise?)");
     add(undrawn.without_area, "triangle", "without area on the screen");
 
-    // In an empty picture, what is alpha tested fails, and what is blended is clear.
+    // In an empty picture, what is alpha tested fails, what is blended is clear, and a fragment
+    // fails the depth test only where it is not nearer than what the buffer is cleared to.
     const std::uint64_t shaded = count(Counter::fragments_shaded),
                         blended = count(Counter::blended_fragments),
                         holes = count(Counter::alpha_tested_fragments),
@@ -94,7 +95,7 @@ std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
     add(holes, "fragment", "failed by the alpha test");
     add(blended, "fragment", "wholly transparent" + names_of_clear_materials(scene));
     add(shaded - blended, "fragment", "of the background's color");
-    add(tested - shaded - holes, "fragment", "failed by the depth test");
+    add(tested - shaded - holes, "fragment", "beyond the camera's far plane");
     return reasons.empty() ? "its triangles cover no pixel's centre" : reasons;
 }
 

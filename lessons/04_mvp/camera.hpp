@@ -25,7 +25,7 @@ struct Camera {
     float far = std::numeric_limits<float>::infinity();  ///< Beyond it nothing is drawn; > near.
 
     /// The depth from which on something is drawn: 0 without a far plane.
-    float farthest_depth() const { return near / far; }
+    float farthest_depth() const { return std::isinf(far) ? 0 : near / far; }
 
     /// View first, then perspective (Eq. 4.4).
     ///

@@ -57,7 +57,7 @@ void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, iv
                                Culling culling, CounterPolicy& counters, Visit&& visit,
                                Transform&& transform, Clip&& clip) {
     counters.add(Counter::meshes_in);
-    if (counters.undrawn) count_undrawn(mesh, clip_from_model, *counters.undrawn);
+    count_undrawn_if_asked(mesh, clip_from_model, counters);
     if (is_outside_frustum(mesh.bounds, clip_from_model)) {
         counters.add(Counter::meshes_culled_by_frustum);
         return;

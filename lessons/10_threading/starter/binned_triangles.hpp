@@ -119,7 +119,7 @@ std::vector<const Mesh*> meshes_in_view(const Scene& scene, const mat4& clip_fro
     std::vector<const Mesh*> meshes;
     for (const Mesh& mesh : scene.meshes) {
         counters.add(Counter::meshes_in);
-        if (counters.undrawn) count_undrawn(mesh, clip_from_world, *counters.undrawn);
+        count_undrawn_if_asked(mesh, clip_from_world, counters);
         if (is_outside_frustum(mesh.bounds, clip_from_world)) {
             counters.add(Counter::meshes_culled_by_frustum);
             continue;
