@@ -141,7 +141,8 @@ struct NormalMappedTorus {
     void draw(Emit&& emit) const {
         NoCounters counters;
         DepthBuffer depth(size);
-        const SurfaceTextures no_textures{MaterialTextures(1), MaterialTextures(1), MaterialTextures(1)};
+        const SurfaceTextures no_textures{MaterialTextures(1), MaterialTextures(1),
+                                          MaterialTextures(1)};
         const auto draw_triangle = [&](const ProjectedTriangle& projected) {
             const TriangleSurface surface = triangle_surface(scene, no_textures, {}, projected);
             const PerspectiveSetup setup =
