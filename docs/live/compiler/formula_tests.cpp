@@ -69,7 +69,7 @@ rasterbook::Scene rasterbook::load_model(const std::filesystem::path&, const Loa
     std::abort();
 }
 rasterbook::Image<rasterbook::u8vec4> rasterbook::read_image(const std::filesystem::path&,
-                                                             std::uintmax_t) {
+                                                             std::uint64_t, std::string*) {
     std::abort();
 }
 
