@@ -64,8 +64,11 @@ class SmoothNormals {
             for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add(mesh, t);
         for (std::size_t i = 0; i < positions; ++i) {
             const std::span faces = std::span(around_).subspan(begin_[i], end_[i] - begin_[i]);
-            if (!std::ranges::is_sorted(faces, {}, &FaceAround::group))
-                std::ranges::stable_sort(faces, {}, &FaceAround::group);
+            if (!std::ranges::is_sorted(faces, {}, &FaceAround::group)) {
+                std::multimap<std::uint32_t, FaceAround> by_group;  // keeps a group's order
+                for (const FaceAround& face : faces) by_group.emplace(face.group, face);
+                for (std::size_t f = 0; const auto& [group, face] : by_group) faces[f++] = face;
+            }
             if (faces.size() > crowd_) end_[i] = begin_[i] + merge(faces);
         }
     }
