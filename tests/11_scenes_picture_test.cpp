@@ -432,7 +432,7 @@ TEST(SceneFiles, HardCase_EmissionMapsGlowInAllShadingModels) {
     }
 }
 
-TEST(SceneFiles, Eq11_10_ColorsOfAnObjFileAreInterpolatedInLinearLight) {
+TEST(SceneFiles, Eq11_10_HardCase_ColorsOfAnObjFileAreInterpolatedInLinearLight) {
     const std::filesystem::path folder = fresh_folder("colors"), file = folder / "m.obj";
     std::ofstream(folder / "m.mtl") << "newmtl m\nKd 1 1 1\nillum 0\n";
     // A triangle from red to blue, and to green, of which the file has 188 of 255.
