@@ -16,7 +16,7 @@ namespace rasterbook {
 /// @param clip_from_model  Of a perspective; its planes are those of Eq. 4.10.
 void count_undrawn(const Mesh& mesh, const mat4& clip_from_model, UndrawnTriangles& undrawn);
 
-/// The same, where the counters of a picture ask for it.
+/// Counts a mesh's undrawn triangles where a picture's counters ask for it.
 inline void count_undrawn_if_asked(const Mesh& mesh, const mat4& clip_from_model,
                                    Counters& counters) {
     if (counters.undrawn) count_undrawn(mesh, clip_from_model, *counters.undrawn);

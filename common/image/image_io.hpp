@@ -31,9 +31,11 @@ Image<u8vec4> read_image(const std::filesystem::path& file, std::uint64_t max_pi
 
 /// The same for a picture whose file is in memory already.
 ///
-/// @param bytes  Fewer than 2^31.
-/// @param name   Named in errors.
-/// @param max_pixels,remark  As of read_image().
+/// @param bytes       Fewer than 2^31.
+/// @param name        Named in errors.
+/// @param max_pixels  As many are accepted.
+/// @param remark      If not null, takes what is wrong with a picture that can be read
+///                    nevertheless.
 Image<u8vec4> decode_image(std::span<const std::uint8_t> bytes, const std::filesystem::path& name,
                            std::uint64_t max_pixels = any_number, std::string* remark = nullptr);
 

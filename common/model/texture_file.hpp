@@ -23,7 +23,7 @@ Image<u8vec4> read_texture_file(const TextureMap& map, const char* statement, bo
 
 /// The same without another message.
 ///
-/// @param remark       As of read_image().
+/// @param remark       If not null, takes what is wrong with a file that can be read nevertheless.
 /// @throws InputError  Names the image alone.
 Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget& budget,
                                 std::string* remark = nullptr);

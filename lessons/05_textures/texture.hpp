@@ -23,7 +23,7 @@ namespace rasterbook {
 /// What lies beyond a texture's border: the texture again, mirrored, or its outermost texels.
 enum class Wrap { repeat, mirror, clamp };
 
-/// The same across and up.
+/// What lies beyond a texture's left and right border (u), and beyond its lower and upper one (v).
 struct WrapModes {
     Wrap u, v;
 

@@ -96,7 +96,7 @@ FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
     return color;
 }
 
-/// The same, and samples the colour texture.
+/// The colours of a fragment whose colour texture has not been sampled yet.
 template <typename F, typename G, typename CounterPolicy>
 FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
                                const PerspectiveBarycentrics<F>& at, Filter filter,

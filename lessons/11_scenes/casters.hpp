@@ -51,7 +51,7 @@ void draw_caster_with_holes(ShadowMap& map, const Casters& casters, const Projec
     });
 }
 
-/// As draw_tile() of lesson 10.
+/// Clears a tile of a map, and draws the casters that are binned there.
 template <typename CounterPolicy>
 void draw_tile(ShadowMap& map, const Casters& casters, const Tiling& tiling, std::size_t i,
                CounterPolicy& counters) {

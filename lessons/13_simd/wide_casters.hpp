@@ -22,7 +22,9 @@
 
 namespace rasterbook {
 
-/// As draw_caster_with_holes() of lesson 11; the fragments are counted by who calls it.
+/// Draws a caster's depths into a tile of a map, but for its holes (Eq. 11.7).
+///
+/// @param covered  Is increased by the texels that the caster covers, its holes with them.
 template <typename F, typename CounterPolicy>
 void draw_caster_with_holes(TileDepths& depths, const Casters& casters,
                             const ProjectedTriangle& caster, const Tile& tile, LaneSum<F>& covered,
@@ -43,7 +45,7 @@ void draw_caster_with_holes(TileDepths& depths, const Casters& casters,
     });
 }
 
-/// As draw_tile() of lesson 11: draws a part of a shadow map.
+/// Clears a tile of a map, and draws the casters that are binned there.
 template <typename F, typename CounterPolicy>
 void draw_tile(ShadowMap& map, const Casters& casters, const Tiling& tiling, std::size_t i,
                CounterPolicy& counters) {

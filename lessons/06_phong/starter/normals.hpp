@@ -155,7 +155,7 @@ inline void complete_normals(Mesh& mesh, const std::optional<SmoothNormals>& smo
     mesh.smoothing_groups = mesh.shared_positions = {};  // needed no more
 }
 
-/// The same for a single mesh, or for all that share positions.
+/// Completes the normals of a single mesh, or of all that share positions.
 inline void complete_normals(std::span<Mesh> meshes) {
     std::optional<SmoothNormals> smooth;
     for (const Mesh& mesh : meshes)

@@ -107,7 +107,7 @@ class ShadowMapsOnDemand {
                                  });
     }
 
-    /// The same of a scene with its lights.
+    /// Makes the maps of a scene's lights, and bins the casters; light falls through their holes.
     template <typename Pool, typename CounterPolicy>
     ShadowMapsOnDemand(Pool& pool, int part_size, const SceneRendererOptions& options,
                        const SceneAssets& assets, WorkerCounters<CounterPolicy>& counters,

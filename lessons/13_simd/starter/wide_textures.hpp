@@ -159,7 +159,7 @@ Floats<N> level_of_detail(const glm::vec<2, Floats<N>>& ddx, const glm::vec<2, F
                   F(0.0f));
 }
 
-/// As sample(), of a texture with a filter of its own, as pixel art has it.
+/// Samples a texture that has a filter of its own, as pixel art does: one lane after the other.
 template <int N>
 [[gnu::noinline]] glm::vec<4, Floats<N>> sample_one_by_one(
     const Texture& texture, Filter filter, const TextureCoordinates<Floats<N>>& uv) {
