@@ -572,22 +572,20 @@ TEST(Mvp, EachVisibleTriangleIsVisitedInTheScenesOrder) {
         bool is_back_facing;
         bool operator==(const Visited&) const = default;
     };
-    const auto visited = [&](Culling culling, Counters& counters) {
+    const auto visited = [&](Culling culling) {
         std::vector<Visited> all;
         for_each_visible_triangle(
-            scene, clip_from_world, size, culling, counters,
-            [&](const ProjectedTriangle& triangle) {
+            scene, clip_from_world, size, culling, [&](const ProjectedTriangle& triangle) {
                 all.push_back({&triangle.mesh, &triangle.triangle, triangle.is_back_facing});
             });
         return all;
     };
-    const auto count = [](const Counters& counters, Counter counter) {
-        return counters.values[static_cast<std::size_t>(counter)];
-    };
     const Mesh &first = scene.meshes[0], &last = scene.meshes[2];
-    Counters culled, all;
-    const std::vector<Visited> fronts = visited(Culling::back_faces, culled);
-    std::vector<Visited> both = visited(Culling::none, all);
+    thread_counters = {};
+    const std::vector<Visited> fronts = visited(Culling::back_faces);
+    const Counters culled = std::exchange(thread_counters, {});
+    std::vector<Visited> both = visited(Culling::none);
+    const Counters all = thread_counters;
     const auto parts = std::ranges::count(both, &last.triangles[0], &Visited::triangle);
     EXPECT_GE(parts, 1) << "what the near plane leaves";
     std::vector<Visited> expected = {{&first, &first.triangles[0], false},
@@ -599,11 +597,11 @@ TEST(Mvp, EachVisibleTriangleIsVisitedInTheScenesOrder) {
     std::erase_if(both, [](const Visited& one) { return one.is_back_facing; });
     EXPECT_TRUE(fronts == both);
     for (const Counters& counters : {culled, all}) {
-        EXPECT_EQ(count(counters, Counter::meshes_in), 3u);
-        EXPECT_EQ(count(counters, Counter::meshes_culled_by_frustum), 1u);
-        EXPECT_EQ(count(counters, Counter::meshes_with_tangents), 1u);
-        EXPECT_EQ(count(counters, Counter::triangles_in), 4u);
+        EXPECT_EQ(counters[Counter::meshes_in], 3u);
+        EXPECT_EQ(counters[Counter::meshes_culled_by_frustum], 1u);
+        EXPECT_EQ(counters[Counter::meshes_with_tangents], 1u);
+        EXPECT_EQ(counters[Counter::triangles_in], 4u);
     }
-    EXPECT_EQ(count(all, Counter::triangles_culled_by_facing), 0u);
-    EXPECT_EQ(count(culled, Counter::triangles_culled_by_facing), expected.size() - fronts.size());
+    EXPECT_EQ(all[Counter::triangles_culled_by_facing], 0u);
+    EXPECT_EQ(culled[Counter::triangles_culled_by_facing], expected.size() - fronts.size());
 }

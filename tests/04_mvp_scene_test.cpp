@@ -236,9 +236,8 @@ TEST(Mvp, Eq4_14_AnInstanceIsCulledByWhereItStands) {
     const Camera camera = {eye, look_at(eye, center, vec3(0, 1, 0)), 1, 1, center};
     const auto visited = [&](const mat4& world_from_model) {
         int count = 0;
-        NoCounters ignored;
         for_each_visible_triangle(MvpVariant{}, {mesh, world_from_model}, camera, ivec2(64),
-                                  ignored, [&](const ProjectedTriangle&) { ++count; });
+                                  [&](const ProjectedTriangle&) { ++count; });
         return count;
     };
     EXPECT_EQ(visited(translation(vec3(100, 0, 0))), 1)

@@ -43,8 +43,7 @@ lesson_06::Options small_picture() {
 
 /// The image before it is written, linear.
 Image<vec3> picture_of(const Scene& scene, const lesson_06::Options& options) {
-    Counters ignored;
-    return lesson_06::render(options, lesson_06::make_assets(scene, options), ignored);
+    return lesson_06::render(options, lesson_06::make_assets(scene, options));
 }
 
 Drawn drawn_of(const PhongAssets& assets, const lesson_06::Options& options) {
@@ -181,7 +180,6 @@ TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
         {"teapot", loaded("teapot.obj")},
         {"scene_bumpy", loaded("scene_bumpy.obj")},
         {"illum", squares_of_illum_0_1_2("", "")}};
-    Counters ignored;
     for (const auto& [name, scene] : scenes) {
         lesson_06::Options options = small_picture();
         const PhongAssets as_called_for = lesson_06::make_assets(scene, options);
@@ -191,9 +189,8 @@ TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
             for (const Highlight highlight : {Highlight::phong, Highlight::blinn}) {
                 options.shading.shading = shading;
                 options.shading.highlight = highlight;
-                const Image<vec3> picture = lesson_06::render(options, as_called_for, ignored);
-                ASSERT_TRUE(
-                    are_the_same_bits(picture, lesson_06::render(options, with_all, ignored)))
+                const Image<vec3> picture = lesson_06::render(options, as_called_for);
+                ASSERT_TRUE(are_the_same_bits(picture, lesson_06::render(options, with_all)))
                     << name << ", " << name_of(shading) << ", " << name_of(highlight);
                 EXPECT_FALSE(is_backdrop(picture)) << name;
             }

@@ -58,8 +58,7 @@ struct ByHand {
 
     /// Whether each pixel is inked.
     Image<char> edges(float width_px, const EdgeThresholds& thresholds = {}) {
-        NoCounters none;
-        draw_edges(depth, normals, camera, width_px, thresholds, color, none);
+        draw_edges(depth, normals, camera, width_px, thresholds, color);
         Image<char> inked(color.size());
         for (std::size_t i = 0; i < color.pixels().size(); ++i)
             inked.pixels()[i] = color.pixels()[i] == ink;
@@ -331,8 +330,8 @@ TEST(Toon, Eq7_14_TheUnitsOfTheSceneDoNotMatter) {
                 for (p.x = 0; p.x < 12; ++p.x)
                     step.depth.test_and_write(
                         p, depth_at((p.x < 6 ? 10.0L : farther) * unit, of_unit));
-            Counters counters;
-            draw_edges(step.depth, step.normals, of_unit, 2, {}, step.color, counters);
+            const CountedSince counters;
+            draw_edges(step.depth, step.normals, of_unit, 2, {}, step.color);
             EXPECT_EQ(count(counters, Counter::outline_pixels),
                       static_cast<std::uint64_t>(expected * 9))
                 << "pixels inked at a step from w = 10 to " << farther << " units of " << unit;
@@ -345,8 +344,8 @@ TEST(Toon, Eq7_14_PicturesThatAreTooSmall) {
         ASSERT_EQ(ones(picture.edges(4)), 0)
             << "pixels inked in " << testing::PrintToString(size)
             << ", width 4: no pixel has neighbours 2 away on all sides";
-        Counters counters;
-        draw_edges(picture.depth, picture.normals, camera, 4, {}, picture.color, counters);
+        const CountedSince counters;
+        draw_edges(picture.depth, picture.normals, camera, 4, {}, picture.color);
         ASSERT_EQ(count(counters, Counter::outline_tests), 0u)
             << "none of " << testing::PrintToString(size) << " pixels is asked";
     }

@@ -282,8 +282,7 @@ TEST(Toon, HardCase_SmallBallsAreInkAllOver) {
                     normals[p] = vec3(n, std::sqrt(1 - glm::dot(n, n)));
                     depth.test_and_write(p, 0.5f);
                 }
-            NoCounters none;
-            draw_edges(depth, normals, near_1, 2 * static_cast<float>(r), {}, color, none);
+            draw_edges(depth, normals, near_1, 2 * static_cast<float>(r), {}, color);
             int bare = 0;
             for (ivec2 p(0); p.y < size.y; ++p.y)
                 for (p.x = 0; p.x < size.x; ++p.x) bare += normals[p] != vec3(0) && color[p] != ink;

@@ -270,10 +270,10 @@ TEST(Toon, HardCase_TheRimOfABodyOutsideReachesIn) {
     }
     ASSERT_TRUE(is_outside_frustum(cube.bounds, camera.clip_from_world(size)));
     for (const auto& [width, is_in] : {std::pair{0.25f, false}, {6.0f, true}}) {
-        Counters counters;
+        const CountedSince counters;
         Image<vec3> color(size, paper_color);
         DepthBuffer depth(size);
-        draw_hull(cube, hull_normals(cube), camera, width, depth, color, counters);
+        draw_hull(cube, hull_normals(cube), camera, width, depth, color);
         EXPECT_EQ(count(counters, Counter::outline_pixels) > 0, is_in)
             << "whether pixels are counted, of a cube just outside at the left, width " << width;
         EXPECT_EQ(color[ivec2(0, 32)] == ink, is_in)

@@ -284,10 +284,9 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
             const float x = static_cast<float>(mix.below(5)) / 4;
             const float y = (1 - x) * static_cast<float>(mix.below(5)) / 4;
             const FragmentBarycentrics at{{x, y, 1 - x - y}, mix.any_three(), mix.any_three()};
-            NoCounters none;
-            const vec3 normal = normal_mapped(
-                map, variant, at, interpolate(surface.normals_world, at.here), filter, none);
-            const SurfacePoint<float> point = surface_point(surface, at.here, normal, eye, none);
+            const vec3 normal = normal_mapped(map, variant, at,
+                                              interpolate(surface.normals_world, at.here), filter);
+            const SurfacePoint<float> point = surface_point(surface, at.here, normal, eye);
             const ReflectedLight found =
                 reflected_light(std::span(lights), point, highlight_of(surface));
             ASSERT_TRUE(is_finite(found.diffuse) && is_finite(found.specular))
@@ -335,8 +334,7 @@ TEST(NormalMaps, Eq8_6_TheNormalOfAFragmentTakesTheStepsOfTheText) {
             const float x = 0.05f * static_cast<float>(k), y = (1 - x) * 0.3f;
             const FragmentBarycentrics at{{x, y, 1 - x - y}, vec3(0), vec3(0)};
             const vec3 normal = interpolate(vertex_normals, at.here);
-            NoCounters none;
-            const vec3 found = normal_mapped(map, variant, at, normal, Filter::nearest, none);
+            const vec3 found = normal_mapped(map, variant, at, normal, Filter::nearest);
 
             const vec3 tangent = interpolate(tangents, at.here);
             const TangentFrame frame = tangent_frame(

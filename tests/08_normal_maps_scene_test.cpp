@@ -47,8 +47,7 @@ Drawn drawn_scene(const Scene& scene, const lesson_08::Options& options) {
 }
 
 Image<vec3> picture_of(const Scene& scene, const lesson_08::Options& options) {
-    Counters ignored;
-    return lesson_08::render(options, lesson_08::make_assets(scene, options), ignored);
+    return lesson_08::render(options, lesson_08::make_assets(scene, options));
 }
 
 bool is_finite(const Image<vec3>& picture) {

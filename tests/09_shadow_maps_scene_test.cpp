@@ -90,19 +90,19 @@ class FirstTriangle {
   public:
     FirstTriangle(const Scene& scene, const Light& light, const ShadowVariant& variant)
         : shadow_maps_(draw_shadow_maps(variant, false, scene, shadow_bounds(scene),
-                                        std::array{light, sun({0, 1, 0})}, counters_)),
+                                        std::array{light, sun({0, 1, 0})})),
           receiver_(triangle_receiver(vertices_in(scene.meshes[0], scene.meshes[0].triangles[0]))) {
     }
 
     float visibility(std::size_t light, vec3 position, vec3 normal) {
-        return light_visibility(shadow_maps_, light, receiver_, position, normal, counters_);
+        return light_visibility(shadow_maps_, light, receiver_, position, normal);
     }
     std::uint64_t count(Counter counter) const {
-        return counters_.values[static_cast<std::size_t>(counter)];
+        return counters_.values()[static_cast<std::size_t>(counter)];
     }
 
   private:
-    Counters counters_;
+    const CountedSince counters_;
     ShadowMaps shadow_maps_;
     TriangleReceiver receiver_;
 };

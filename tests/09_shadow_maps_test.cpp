@@ -88,8 +88,7 @@ testing::AssertionResult is_dark_under_a_large_roof(const Light& light, int size
         return testing::AssertionFailure()
                << "light_views() has " << views.count << " maps, expected 1: the roof is above";
     ShadowMap map(views.clip_from_world[0], views.is_perspective, size, roof.bounds);
-    NoCounters none;
-    draw_casters(map, roof, [](std::size_t) { return true; }, none);
+    draw_casters(map, roof, [](std::size_t) { return true; });
     for (int y = -20; y <= 20; ++y)
         for (int x = -20; x <= 20; ++x) {
             const vec3 point = vec3(x, 0, y) / 20.0f;
@@ -500,9 +499,8 @@ TEST(ShadowMaps, Eq9_6_TheNearestCasterIsDrawn) {
         return mesh_of({{-1, -1, z}, {0, -1, z}, {0, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}});
     };
     ShadowMap map = small_map();
-    NoCounters none;
     for (const float depth : {0.75f, 0.25f})
-        draw_casters(map, plate(depth), [](std::size_t) { return true; }, none);
+        draw_casters(map, plate(depth), [](std::size_t) { return true; });
     for (int y = -max_pcf_radius; y < 4 + max_pcf_radius; ++y)
         for (int x = -max_pcf_radius; x < 4 + max_pcf_radius; ++x) {
             const bool is_covered = x >= 0 && x < 2 && y >= 0 && y < 4;
@@ -513,7 +511,7 @@ TEST(ShadowMaps, Eq9_6_TheNearestCasterIsDrawn) {
                 << "0.75 cover the columns 0 and 1";
         }
     ShadowMap empty = small_map();
-    draw_casters(empty, plate(0.25f), [](std::size_t) { return false; }, none);
+    draw_casters(empty, plate(0.25f), [](std::size_t) { return false; });
     for (const float depth : empty.depths.depths().pixels())
         ASSERT_EQ(depth, 0) << "of a material that casts no shadow, nothing is drawn";
 }

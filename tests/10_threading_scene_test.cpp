@@ -65,10 +65,8 @@ lesson_09::Options without_threads(const lesson_10::Options& options) {
 }
 
 /// The picture that lesson 09 draws.
-template <typename CounterPolicy>
-Image<vec3> expected_of(const lesson_10::Options& options, const ShadowAssets& assets,
-                        CounterPolicy& counters) {
-    return lesson_09::render(without_threads(options), assets, counters);
+Image<vec3> expected_of(const lesson_10::Options& options, const ShadowAssets& assets) {
+    return lesson_09::render(without_threads(options), assets);
 }
 
 /// Of all bits of a picture (FNV-1a).
@@ -79,24 +77,33 @@ std::uint64_t hash_of(const Image<vec3>& picture) {
     return hash;
 }
 
-/// Counts as Counters does, until it has counted so many fragments: then it throws.
-struct ThrowingCounters {
-    static inline std::atomic<long> fragments_left = 0;
-    static constexpr UndrawnTriangles* undrawn = nullptr;
+/// Throws instead of doing one of the tasks of all jobs.
+class TiredWorkers : public Workers {
+  public:
+    /// @param tasks_left  The task that is not done, counted from 1 through all jobs.
+    TiredWorkers(ThreadPool& pool, long tasks_left) : pool_(pool), tasks_left_(tasks_left) {}
 
-    void add(Counter counter, std::uint64_t = 1) {
-        if (counter == Counter::fragments_shaded && --fragments_left == 0)
-            throw std::runtime_error("a worker is tired");
+    std::size_t size() const override { return pool_.size(); }
+    void run_tasks(std::size_t tasks, const Task& task) override {
+        pool_.run_tasks(tasks, [&](std::size_t i, std::size_t worker) {
+            if (--tasks_left_ == 0) throw std::runtime_error("a worker is tired");
+            task(i, worker);
+        });
     }
-    void add(const ThrowingCounters&) {}
+
+    long tasks_left() const { return tasks_left_; }
+
+  private:
+    ThreadPool& pool_;
+    std::atomic<long> tasks_left_;
 };
 
 /// Hands out tasks in order, each to a worker that is known beforehand.
-struct OneByOnePool {
+struct OneByOnePool : Workers {
     static std::size_t worker_of(std::size_t task) { return (task * task + 3) % 5; }
 
-    std::size_t size() const { return 5; }
-    void run(std::size_t tasks, const auto& task) const {
+    std::size_t size() const override { return 5; }
+    void run_tasks(std::size_t tasks, const Task& task) override {
         for (std::size_t i = 0; i < tasks; ++i) task(i, worker_of(i));
     }
 };
@@ -150,8 +157,7 @@ TEST(Threading, Eq10_7_ABatchListsItsTrianglesByTiles) {
     const std::vector<const Mesh*> meshes = {&mesh};
     const Tiling tiling(Split::tiles, {32, 16}, 1, 16);
     ThreadPool pool(1);
-    WorkerCounters<NoCounters> counters(1);
-    const BinnedTriangles binned(pool, Scene(), meshes, mat4(1), tiling, Culling::none, counters);
+    const BinnedTriangles binned(pool, Scene(), meshes, mat4(1), tiling, Culling::none);
     ASSERT_EQ(binned.batches.size(), 1u);
     ASSERT_EQ(binned.batches[0].triangles.size(), 3u);
     for (std::size_t tile = 0; tile < 2; ++tile) {
@@ -177,8 +183,7 @@ TEST(Threading, HardCase_LargeTrianglesAreInNoTilesList) {
     const std::vector<const Mesh*> meshes = {&mesh};
     const Tiling tiling(Split::tiles, {512, 512}, 1, 8);
     ThreadPool pool(1);
-    WorkerCounters<NoCounters> counters(1);
-    const BinnedTriangles binned(pool, Scene(), meshes, mat4(1), tiling, Culling::none, counters);
+    const BinnedTriangles binned(pool, Scene(), meshes, mat4(1), tiling, Culling::none);
     const TriangleBatch& batch = binned.batches.at(0);
     std::size_t with_small = 0;
     for (std::size_t tile = 0; tile < tiling.count(); ++tile) {
@@ -240,10 +245,8 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
             const Tiling tiling(split, size, 7, 16);
             // One after the other, as earlier lessons do it.
             std::vector<std::vector<std::size_t>> expected(tiling.count());
-            Counters serial;
             for_each_visible_triangle(
-                scene, clip_from_world, size, culling, serial,
-                [&](const ProjectedTriangle& projected) {
+                scene, clip_from_world, size, culling, [&](const ProjectedTriangle& projected) {
                     if (projected.on_screen.twice_area == 0) return;
                     tiling.for_each_in(projected.on_screen, [&](std::size_t tile) {
                         expected[tile].push_back(number_of(projected, scene));
@@ -254,9 +257,9 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
             ASSERT_GT(count, 2 * batch_size) << "several batches";
             for (const std::size_t workers : {1u, 2u, 7u, 61u}) {
                 ShuffledPool pool(workers, 5);
-                WorkerCounters<Counters> counters(workers);
+                const CountedSince sum;
                 const BinnedTriangles triangles(pool, scene, meshes, clip_from_world, tiling,
-                                                culling, counters);
+                                                culling);
                 const std::size_t batches = triangles.batches.size();
                 ASSERT_EQ(batches, batches_of(count));
                 for (std::size_t b = 0; b < batches; ++b)
@@ -273,9 +276,7 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
                         << "the scene's triangles by number, in the order in which they are drawn, "
                         << "in tile " << tile << " of " << tiling.count() << ", " << name_of(split)
                         << ", " << workers << " workers";
-                Counters sum;
-                counters.add_to(sum);
-                EXPECT_EQ(sum.values[std::size_t(Counter::triangles_in)], count);
+                EXPECT_EQ(sum.values()[std::size_t(Counter::triangles_in)], count);
             }
         }
 }
@@ -283,9 +284,8 @@ TEST(Threading, Eq10_7_EachTileListsItsTrianglesInTheScenesOrder) {
 TEST(Threading, HardCase_NothingToDraw) {
     look_up("Eq. 10.7");
     const Tiling tiling(Split::tiles, {64, 64}, 3, 16);
-    WorkerCounters<NoCounters> counters(3);
     MeasuredPool idle(3);
-    const BinnedTriangles none(idle, Scene(), {}, mat4(1), tiling, Culling::none, counters);
+    const BinnedTriangles none(idle, Scene(), {}, mat4(1), tiling, Culling::none);
     EXPECT_TRUE(none.batches.empty());
     for (const std::vector<double>& tasks_ms : idle.jobs_ms)
         EXPECT_TRUE(tasks_ms.empty()) << "without positions and triangles there is no task";
@@ -298,9 +298,8 @@ TEST(Threading, HardCase_NothingToDraw) {
     meshes[2].triangles = {{{Vertex{0}, Vertex{1}, Vertex{2}}, 0},
                            {{Vertex{1}, Vertex{1}, Vertex{1}}, 0},
                            {{Vertex{2}, Vertex{2}, Vertex{2}}, 0}};
-    const BinnedTriangles empty(
-        pool, Scene(), pointers_to(meshes), mat4(1), tiling, Culling::none,
-        [](std::size_t material) { return material == 0; }, counters);
+    const BinnedTriangles empty(pool, Scene(), pointers_to(meshes), mat4(1), tiling, Culling::none,
+                                [](std::size_t material) { return material == 0; });
     ASSERT_EQ(empty.batches.size(), 1u);
     EXPECT_TRUE(empty.batches[0].triangles.empty());
     for (std::size_t tile = 0; tile < tiling.count(); ++tile)
@@ -310,15 +309,14 @@ TEST(Threading, HardCase_NothingToDraw) {
 TEST(Threading, Eq10_7_HardCase_AnyThreadsAndSplitGiveTheSameBitsAHundredTimes) {
     lesson_10::Options options = small_picture();
     const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-    Counters ignored;
-    const Image<vec3> expected = expected_of(options, assets, ignored);
+    const Image<vec3> expected = expected_of(options, assets);
     const std::uint64_t hash = hash_of(expected);
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
         for (const Split split : splits) {
             options.threads.split = split;
             for (int i = 0; i < repeats; ++i)
-                if (const Image<vec3> picture = lesson_10::render(options, assets, pool, ignored);
+                if (const Image<vec3> picture = lesson_10::render(options, assets, pool);
                     hash_of(picture) != hash) {
                     FAIL() << "not the bits of lesson 09's picture, " << threads << " threads, "
                            << name_of(split) << ", run " << i + 1 << " of " << repeats << ": "
@@ -330,17 +328,15 @@ TEST(Threading, Eq10_7_HardCase_AnyThreadsAndSplitGiveTheSameBitsAHundredTimes) 
 
 TEST(Threading, Eq10_7_HardCase_AnyOrderOfTheTasksGivesTheSameBits) {
     lesson_10::Options options = small_picture(middling_size);
-    Counters ignored;
     for (const LightKind kind : light_kinds) {
         options.shading.key_light = kind;
         const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-        const Image<vec3> expected = expected_of(options, assets, ignored);
+        const Image<vec3> expected = expected_of(options, assets);
         for (std::uint32_t seed = 0; seed < 12; ++seed) {
             ShuffledPool pool(1 + seed % 5 * 3, seed);
             options.threads.split = splits[seed % 3];
             options.threads.tile = seed % 2 ? 32 : 5;
-            ASSERT_TRUE(
-                have_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
+            ASSERT_TRUE(have_the_same_bits(lesson_10::render(options, assets, pool), expected))
                 << "beside lesson 09's picture; " << name_of(kind) << ", "
                 << name_of(options.threads.split) << ", tasks in any order (seed " << seed << ")";
         }
@@ -377,20 +373,21 @@ TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
     for (std::size_t k = 0; k < knobs.size(); ++k) {
         lesson_10::Options& options = knobs[k];
         const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-        Counters expected_counts;
-        const Image<vec3> expected = expected_of(options, assets, expected_counts);
+        const CountedSince begin;
+        const Image<vec3> expected = expected_of(options, assets);
+        const Counters expected_counts = begin;
         for (const Split split : splits)
             for (const int tile : {7, 64}) {
                 if (tile == 64 && repeats < 100) continue;
                 options.threads.split = split, options.threads.tile = tile;
-                Counters counts;
-                const Image<vec3> picture = lesson_10::render(options, assets, pool, counts);
+                const CountedSince counts;
+                const Image<vec3> picture = lesson_10::render(options, assets, pool);
                 const std::string where = std::string("with ") + names_of_knobs[k] + ", " +
                                           name_of(split) + ", tile side " + std::to_string(tile) +
                                           ", beside lesson 09";
                 ASSERT_TRUE(have_the_same_bits(picture, expected)) << where;
                 for (std::size_t i = 0; i < counter_names.size(); ++i)
-                    ASSERT_EQ(counts.values[i], expected_counts.values[i])
+                    ASSERT_EQ(counts.values()[i], expected_counts.values[i])
                         << "the counter " << counter_names[i] << ' ' << where;
             }
     }
@@ -398,19 +395,18 @@ TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
 
 TEST(Threading, HardCase_PicturesOfAFewPixels) {
     look_up("Eq. 10.3");
-    Counters ignored;
     for (const ivec2 size : {ivec2(1, 1), {1, 7}, {7, 1}, {2, 2}, {3, 61}}) {
         lesson_10::Options options = small_picture(size);
         options.shadow.size = 16;
         const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-        const Image<vec3> expected = expected_of(options, assets, ignored);
+        const Image<vec3> expected = expected_of(options, assets);
         for (const int threads : thread_counts) {
             ThreadPool pool(threads);
             for (const Split split : splits)
                 for (const int tile : {1, 64}) {
                     options.threads.split = split, options.threads.tile = tile;
-                    ASSERT_TRUE(have_the_same_bits(
-                        lesson_10::render(options, assets, pool, ignored), expected))
+                    ASSERT_TRUE(
+                        have_the_same_bits(lesson_10::render(options, assets, pool), expected))
                         << "a picture of " << size.x << " x " << size.y << ", " << threads
                         << " threads, " << name_of(split) << ", tile side " << tile;
                 }
@@ -418,30 +414,33 @@ TEST(Threading, HardCase_PicturesOfAFewPixels) {
     }
 }
 
-TEST(Threading, HardCase_AWorkerThatThrowsWhileItDraws) {
+TEST(Threading, HardCase_AWorkerThatThrowsInAnyTask) {
     look_up("The pool");
     lesson_10::Options options = small_picture();
     const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-    Counters ignored;
-    const Image<vec3> expected = expected_of(options, assets, ignored);
+    const Image<vec3> expected = expected_of(options, assets);
     for (const int threads : thread_counts) {
         ThreadPool pool(threads);
-        for (const Split split : splits)
-            for (const long fragments : {1, 500}) {
-                options.threads.split = split;
-                ThrowingCounters::fragments_left = fragments;
-                ThrowingCounters counters;
+        for (const Split split : splits) {
+            options.threads.split = split;
+            constexpr long many = 1'000'000;
+            TiredWorkers counting(pool, many);
+            lesson_10::render(options, assets, counting);
+            const long tasks = many - counting.tasks_left();
+            ASSERT_GT(tasks, 3);
+            for (long task = 1; task <= tasks; task += std::max(1L, tasks / 7)) {
+                TiredWorkers tired(pool, task);
                 try {
-                    lesson_10::render(options, assets, pool, counters);
-                    FAIL() << "a worker throws, with " << threads << " threads, " << name_of(split)
-                           << ", and render() does not";
+                    lesson_10::render(options, assets, tired);
+                    FAIL() << "task " << task << " of " << tasks << " throws, with " << threads
+                           << " threads, " << name_of(split) << ", and render() does not";
                 } catch (const std::runtime_error& error) {
                     EXPECT_STREQ(error.what(), "a worker is tired");
                 }
-                ASSERT_TRUE(
-                    have_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
+                ASSERT_TRUE(have_the_same_bits(lesson_10::render(options, assets, pool), expected))
                     << "the picture after one in which a worker threw, " << threads << " threads";
             }
+        }
     }
 }
 
@@ -464,26 +463,23 @@ TEST(Threading, HardCase_MapsHaveTheSameBitsAndNothingAroundThem) {
             for (std::size_t i = 0; i < views.count; ++i)
                 for (const bool is_drawn : {true, false}) {
                     ShadowMap expected = map_of(i);
-                    Counters serial;
+                    const CountedSince begin;
                     if (is_drawn)
-                        for (const Mesh& mesh : scene.meshes)
-                            draw_casters(expected, mesh, casts, serial);
+                        for (const Mesh& mesh : scene.meshes) draw_casters(expected, mesh, casts);
+                    const Counters serial = begin;
                     for (const Split split : splits) {
                         ShadowMap map = map_of(i);
                         const ivec2 all = map.depths.depths().size();
                         for (int y = 0; y < all.y; ++y)
                             for (int x = 0; x < all.x; ++x) map.depths.depths()[{x, y}] = 2;
                         ShuffledPool pool(5, 9);
-                        WorkerCounters<Counters> counters(5);
-                        draw_map(pool, map, scene, Tiling(split, ivec2(size), 5, 13), is_drawn,
-                                 counters);
+                        const CountedSince sum;
+                        draw_map(pool, map, scene, Tiling(split, ivec2(size), 5, 13), is_drawn);
                         ASSERT_TRUE(are_equal(map.depths.depths(), expected.depths.depths()))
                             << "a map of " << size << " texels, which begins " << max_pcf_radius
                             << " texels from its memory's corner; " << name_of(kind) << ", "
                             << name_of(split);
-                        Counters sum;
-                        counters.add_to(sum);
-                        ASSERT_EQ(sum.values, serial.values) << "counters";
+                        ASSERT_EQ(sum.values(), serial.values) << "counters";
                     }
                 }
         }
@@ -494,16 +490,15 @@ TEST(Threading, HardCase_WhoDrewWhatIsShownAsItWas) {
     // Each tile by a worker that is known: it is tinted in that worker's colour.
     lesson_10::Options options = small_picture(middling_size);
     const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
-    Counters ignored;
     OneByOnePool pool;
     for (const Split split : splits) {
         options.threads.split = split, options.threads.show = false;
-        Image<vec3> expected = lesson_10::render(options, assets, pool, ignored);
+        Image<vec3> expected = lesson_10::render(options, assets, pool);
         const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
         for (std::size_t i = 0; i < tiling.count(); ++i)
             tint(expected, tiling[i], pool.worker_of(i));
         options.threads.show = true;
-        EXPECT_TRUE(have_the_same_bits(lesson_10::render(options, assets, pool, ignored), expected))
+        EXPECT_TRUE(have_the_same_bits(lesson_10::render(options, assets, pool), expected))
             << "with --show-threads, " << name_of(split);
     }
     // What was brighter is brighter still, in each colour, and none is black.

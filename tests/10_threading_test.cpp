@@ -278,19 +278,17 @@ TEST(Threading, HardCase_AfterATaskHasThrownNoOtherIsBegun) {
     }
 }
 
-TEST(Threading, HardCase_CountersOfTwoWorkersAreFarApart) {
+TEST(Threading, WhatWorkersCountIsTheCallers) {
     look_up("Why no locks?");
-    WorkerCounters<Counters> counters(3);
-    for (std::size_t worker = 0; worker < 3; ++worker)
-        for (std::size_t i = 0; i <= worker; ++i) counters[worker].add(Counter::fragments_lit);
-    const auto at = [&](std::size_t worker) {
-        return reinterpret_cast<std::uintptr_t>(&counters[worker]);
-    };
-    EXPECT_GE(at(1) - at(0), sizeof(Counters));
-    EXPECT_EQ(at(0) % cache_line, 0u) << "none begins where another ends";
-    EXPECT_EQ(at(1) % cache_line, 0u);
-    Counters sum;
-    sum.add(Counter::fragments_lit);
-    counters.add_to(sum);
-    EXPECT_EQ(sum.values[static_cast<std::size_t>(Counter::fragments_lit)], 7u);
+    for (const int threads : {1, 2, 5}) {
+        ThreadPool pool(threads);
+        const Counters before = thread_counters;
+        count(Counter::fragments_lit, 3);
+        pool.run(40, [&](std::size_t i, std::size_t) {
+            for (std::size_t k = 0; k < i; ++k) count(Counter::fragments_lit);
+        });
+        EXPECT_EQ(thread_counters[Counter::fragments_lit],
+                  before[Counter::fragments_lit] + 3 + 40 * 39 / 2)
+            << threads << " threads";
+    }
 }

@@ -134,9 +134,8 @@ TEST(Scenes, Eq11_7_HardCase_LightFallsThroughHolesAsRaysDo) {
         SceneAssets assets = make_scene_assets(scene_of(leaf), options);
         assets.textures.diffuse[2] = texture_of(leaf);
         ThreadPool pool(2);
-        Counters counters;
         StepClock clock;
-        const Image<vec3> picture = lesson_11::render(options, assets, pool, counters, clock);
+        const Image<vec3> picture = lesson_11::render(options, assets, pool, clock);
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) {
                 const vec2 ndc = 2.0f * (vec2(x, y) + 0.5f) / static_cast<float>(side) - 1.0f;

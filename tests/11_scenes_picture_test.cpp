@@ -53,10 +53,10 @@ lesson_11::Options small_picture(ivec2 size = {160, 90}) {
 
 Drawn drawn(Scene scene, const lesson_11::Options& options) {
     return test::drawn(options, make_scene_assets(std::move(scene), options),
-                       [](const auto& of, const auto& assets, auto& counters) {
+                       [](const auto& of, const auto& assets) {
                            ThreadPool pool(2);
                            StepClock clock;
-                           return lesson_11::render(of, assets, pool, counters, clock);
+                           return lesson_11::render(of, assets, pool, clock);
                        });
 }
 
@@ -301,7 +301,6 @@ TEST(SceneFiles, HardCase_AnyNumberOfThreadsAndAnyOrderGiveTheSameBits) {
     for (const Scene& model : all) {
         lesson_11::Options options = small_picture();
         const SceneAssets assets = make_scene_assets(model, options);
-        Counters ignored;
         StepClock clock;
         std::optional<Image<vec3>> expected;
         for (const int threads : {1, 2, 3, 7, 16})
@@ -309,15 +308,15 @@ TEST(SceneFiles, HardCase_AnyNumberOfThreadsAndAnyOrderGiveTheSameBits) {
                 options.threads.split = split;
                 options.threads.tile = 8 + threads;
                 ThreadPool pool(threads);
-                Image<vec3> picture = lesson_11::render(options, assets, pool, ignored, clock);
+                Image<vec3> picture = lesson_11::render(options, assets, pool, clock);
                 if (!expected)
                     expected = std::move(picture);
                 else
                     ASSERT_TRUE(have_the_same_bits(picture, *expected))
                         << threads << " threads, " << name_of(split) << ", beside one thread";
                 ShuffledPool shuffled(static_cast<std::size_t>(threads), 7);
-                ASSERT_TRUE(have_the_same_bits(
-                    lesson_11::render(options, assets, shuffled, ignored, clock), *expected))
+                ASSERT_TRUE(have_the_same_bits(lesson_11::render(options, assets, shuffled, clock),
+                                               *expected))
                     << "tasks in another order, " << name_of(split);
             }
     }
@@ -597,9 +596,10 @@ TEST(SceneFiles, HardCase_TheFinalRendererDrawsLesson10sPicture) {
             same.texture = options.texture, same.shading = options.shading;
             same.normal_map = options.normal_map, same.shadow = options.shadow;
             ThreadPool pool(2);
-            Counters counters;
+            const CountedSince begin;
             const Image<vec3> expected =
-                lesson_10::render(same, lesson_10::make_assets(loaded(name), same), pool, counters);
+                lesson_10::render(same, lesson_10::make_assets(loaded(name), same), pool);
+            const Counters counters = begin;
             const Drawn actual = drawn(loaded(name), options);
             constexpr std::array names_of_knobs = {"no option",
                                                    "--light point",

@@ -53,7 +53,7 @@ TEST(VisibilityBuffer, HardCase_RandomScenesHaveLesson11sBitsAndCounts) {
         ASSERT_TRUE(counts_agree(forward, visible, options.visibility.max_ids,
                                  opaque_pixels(options, assets, pool)))
             << where;
-        forward_counters.add(forward.counters), visible_counters.add(visible.counters);
+        forward_counters += forward.counters, visible_counters += visible.counters;
     }
     const Drawn forward{{}, forward_counters}, visible{{}, visible_counters};
     expect_all_work(visible_counters, random_scenes);

@@ -425,9 +425,8 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
     for (const auto& [texels, part_side] : {std::pair(100, 32), {40, 3}, {61, 2}, {257, 32}})
         for (const ivec2 size : {ivec2(120, 90), {64, 200}, {257, 257}}) {
             const ShadowVariant variant{.size = texels};
-            WorkerCounters<Counters> counters(pool.size());
             const ShadowMapsOnDemand on_demand(pool, part_side, variant, false, scene, bounds,
-                                               lights, counters, casts);
+                                               lights, casts);
             ASSERT_EQ(on_demand.parts().size(), 1u) << "one map of a directional light";
             const ShadowMapParts& parts = on_demand.parts()[0];
             const int columns = (texels + part_side - 1) / part_side;
@@ -435,15 +434,14 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
             for (std::size_t i = 0; i < asked.size(); ++i) {
                 asked[i] = i == 0 || dice.one_in(2);
                 const ivec2 part(static_cast<int>(i) % columns, static_cast<int>(i) / columns);
-                if (asked[i]) parts.draw_around(part_side * part, 0, counters[0]);
+                if (asked[i]) parts.draw_around(part_side * part, 0);
             }
             const Image<vec3> picture = picture_of(on_demand, size);
             ASSERT_EQ(picture.size(), size);
             // All of the map, as lesson 09 draws it.
             const ShadowMap& map = parts.map();
             ShadowMap whole(map.clip_from_world, false, texels, scene.bounds());
-            NoCounters none;
-            draw_casters(whole, scene.meshes[0], [](std::size_t) { return true; }, none);
+            draw_casters(whole, scene.meshes[0], [](std::size_t) { return true; });
             const auto depth_of = [&](ivec2 texel) {
                 return whole.depths.depths()[texel + max_pcf_radius];
             };
@@ -496,9 +494,7 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
                 << "pixels that are blue, black, grey: all three are there";
         }
     const ShadowVariant variant{.size = 64};
-    WorkerCounters<Counters> counters(pool.size());
-    const ShadowMapsOnDemand no_maps(pool, 32, variant, false, Scene(), ShadowBounds(), {},
-                                     counters, {});
+    const ShadowMapsOnDemand no_maps(pool, 32, variant, false, Scene(), ShadowBounds(), {}, {});
     EXPECT_TRUE(are_equal(picture_of(no_maps, {9, 5}), Image<vec3>({9, 5}, vec3(0))))
         << "without a map all is black";
 }

@@ -89,11 +89,10 @@ Image<int> ids_drawn(const std::vector<ProjectedTriangle>& triangles, const Tili
     const Frame<ShadowMaps> frame{assets, {}, Filter::nearest, vec3(0), no_maps, color, depth};
     Image<int> numbers(tiling.size(), -1);
     TileVisibility visible(no_limit);
-    NoCounters none;
     for (std::size_t i = 0; i < tiling.count(); ++i) {
         visible.begin(tiling[i]);
         for (const ProjectedTriangle& triangle : triangles)
-            draw_id(frame, triangle, tiling[i], visible, none);
+            draw_id(frame, triangle, tiling[i], visible);
         for (const auto& [number, runs] : taken(visible, triangles))
             for (const auto& [x, y, length] : runs)
                 for (int k = 0; k < length; ++k) numbers[{x + k, y}] = static_cast<int>(number);
@@ -161,9 +160,7 @@ Image<float> depths_of_whole(int size, const Scene& scene) {
     Bounds bounds;
     bounds.add(vec3(-1)), bounds.add(vec3(1));
     ShadowMap map(mat4(1), false, size, bounds);
-    NoCounters none;
-    for (const Mesh& mesh : scene.meshes)
-        draw_casters(map, mesh, [](std::size_t) { return true; }, none);
+    for (const Mesh& mesh : scene.meshes) draw_casters(map, mesh, [](std::size_t) { return true; });
     return map.depths.depths();
 }
 
@@ -190,25 +187,17 @@ std::set<std::size_t> parts_drawn(const ShadowMapParts& parts) {
     return all;
 }
 
-/// Counts parts; whoever draws one waits until all threads have begun, and then a while.
-struct HoldingCounters {
+/// Whoever draws a part waits until all threads have begun, and then a while.
+struct Holding {
     std::size_t threads;
     std::atomic<std::size_t> begun = 0, parts = 0;
 
-    void add(Counter counter) {
-        if (counter != Counter::shadow_parts) return;
+    void wait() {
         ++parts;
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
         while (begun < threads && std::chrono::steady_clock::now() < end) std::this_thread::yield();
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-};
-
-/// Counts parts of many threads.
-struct SharedCounters {
-    std::atomic<std::size_t> parts = 0;
-
-    void add(Counter counter) { parts += counter == Counter::shadow_parts; }
 };
 
 }  // namespace
@@ -440,19 +429,19 @@ TEST(VisibilityBuffer, Eq12_6_PartsOfTheWorkedExample) {
     ShadowMap map = map_of_minus_one(256);
     const Tiling tiling(Split::tiles, ivec2(256), 1, 64);
     const ShadowMapParts parts(map, tiling, BinnedTriangles());
-    Counters counters;
-    parts.draw_around({127, 40}, 1, counters);
+    const CountedSince counters;
+    parts.draw_around({127, 40}, 1);
     EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{1, 2}))
         << "parts drawn for a kernel of radius 1 around (127, 40): parts of 64 texels, 4 a row";
     EXPECT_EQ(count(counters, Counter::shadow_parts), 2u);
-    parts.draw_around({128, 41}, 1, counters);
+    parts.draw_around({128, 41}, 1);
     EXPECT_EQ(count(counters, Counter::shadow_parts), 2u) << "what is drawn is not drawn again";
-    parts.draw_around({128, 63}, 0, counters);
+    parts.draw_around({128, 63}, 0);
     EXPECT_EQ(count(counters, Counter::shadow_parts), 2u) << "radius 0: one texel, of part 2";
-    parts.draw_around({128, 63}, 1, counters);
+    parts.draw_around({128, 63}, 1);
     EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{1, 2, 5, 6}))
         << "parts drawn when a kernel of radius 1 around (128, 63) has been asked for, too";
-    parts.draw_around({0, 0}, 1, counters);
+    parts.draw_around({0, 0}, 1);
     EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{0, 1, 2, 5, 6}))
         << "parts drawn after a kernel around (0, 0), too: there is no column -1";
 }
@@ -470,7 +459,7 @@ TEST(VisibilityBuffer, Eq12_6_JustTheAskedPartsAreDrawnAndHaveLesson09sBits) {
         const Tiling tiling(Split::tiles, ivec2(size), 1, side);
         const ShadowMapParts parts(map, tiling,
                                    seed % 7 == 0 ? BinnedTriangles() : binned(map, scene, tiling));
-        Counters counters;
+        const CountedSince counters;
         std::set<std::size_t> asked;
         for (int test = 0; test < 6; ++test) {
             const auto end = static_cast<std::uint32_t>(size);
@@ -478,7 +467,7 @@ TEST(VisibilityBuffer, Eq12_6_JustTheAskedPartsAreDrawnAndHaveLesson09sBits) {
             if (dice.one_in(3)) middle.x = dice.one_in(2) ? 0 : size - 1;
             if (dice.one_in(3)) middle.y = dice.one_in(2) ? 0 : size - 1;
             const int radius = static_cast<int>(dice.below(max_pcf_radius + 1));
-            parts.draw_around(middle, radius, counters);
+            parts.draw_around(middle, radius);
             asked.merge(parts_asked(middle, radius, size, side));
             const std::string where = "after kernel " + std::to_string(test) + ", of radius " +
                                       std::to_string(radius) + " around " +
@@ -514,11 +503,10 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
                                     .bias = all_biases[seed % all_biases.size()],
                                     .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
         const int side = 4 + static_cast<int>(dice.below(30));
-        WorkerCounters<Counters> counters(pool.size());
         const ShadowMapsOnDemand on_demand(pool, side, variant, false, scene, bounds, lights,
-                                           counters, light_casts);
-        Counters serial, asking;
-        const ShadowMaps whole = draw_shadow_maps(variant, false, scene, bounds, lights, serial);
+                                           light_casts);
+        std::uint64_t serial = 0, asking = 0;
+        const ShadowMaps whole = draw_shadow_maps(variant, false, scene, bounds, lights);
         std::vector<std::set<std::size_t>> asked(on_demand.parts().size());
         for (int i = 0; i < 12; ++i) {
             const Mesh& mesh = scene.meshes[0];
@@ -531,21 +519,24 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
             const vec3 normal = dice.in_cube(1);
             for (std::size_t l = 0; l < lights.size(); ++l) {
                 // Lesson 09 says which texels it reads; their parts are found tap by tap.
-                const float expected =
-                    light_visibility(whole, l, same, point, normal, serial,
-                                     [&](std::size_t map, const PcfKernel& kernel) {
-                                         asked.at(map).merge(parts_asked(
-                                             kernel.middle, whole.radius, variant.size, side));
-                                     });
+                const CountedSince by_09;
+                const float expected = light_visibility(
+                    whole, l, same, point, normal, [&](std::size_t map, const PcfKernel& kernel) {
+                        asked.at(map).merge(
+                            parts_asked(kernel.middle, whole.radius, variant.size, side));
+                    });
+                serial += count(by_09, Counter::shadow_tests);
                 half_lit += expected > 0 && expected < 1;
                 const std::string where =
                     std::string(name_of(kind)) + ", " + name_of(variant.bias) + ", a map of " +
                     std::to_string(variant.size) + " texels in parts of " + std::to_string(side) +
                     ", PCF of " + std::to_string(variant.pcf) + " (seed " + std::to_string(seed) +
                     ", point " + std::to_string(i) + ")";
-                ASSERT_EQ(light_visibility(on_demand, l, receiver, point, normal, asking), expected)
+                const CountedSince by_12;
+                ASSERT_EQ(light_visibility(on_demand, l, receiver, point, normal), expected)
                     << "visibility of light " << l << " with maps on demand, and with lesson 09's; "
                     << where;
+                asking += count(by_12, Counter::shadow_tests);
                 for (std::size_t map = 0; map < asked.size(); ++map)
                     ASSERT_EQ(parts_drawn(on_demand.parts()[map]), asked[map])
                         << "parts of map " << map << " that are drawn, and that taps lie in; "
@@ -555,7 +546,7 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
         maps += asked.size();
         for (std::size_t map = 0; map < asked.size(); ++map)
             parts_never_asked += on_demand.parts()[map].tiling().count() - asked[map].size();
-        EXPECT_EQ(count(asking, Counter::shadow_tests), count(serial, Counter::shadow_tests));
+        EXPECT_EQ(asking, serial) << "shadow tests";
     }
     EXPECT_GT(maps, 80u) << "maps; a point light has up to six";
     EXPECT_GT(half_lit, 100u) << "points at a shadow's edge";
@@ -571,17 +562,19 @@ TEST(VisibilityBuffer, HardCase_WhoAsksForAPartThatIsBeingDrawnWaits) {
         ShadowMap map = map_of_minus_one(32);
         const Tiling tiling(Split::tiles, ivec2(32), 1, 32);
         const ShadowMapParts parts(map, tiling, binned(map, scene, tiling));
-        HoldingCounters counters{pool.size()};
+        Holding holding{pool.size()};
         std::atomic<int> too_early = 0;
         pool.run(pool.size(), [&](std::size_t, std::size_t) {
-            ++counters.begun;
-            parts.draw_around({9, 9}, 1, counters);
+            ++holding.begun;
+            parts.draw_in({{8, 8}, {10, 10}}, [&](auto&... what) {
+                holding.wait();
+                draw_tile(what...);
+            });
             if (!parts.is_drawn(0)) ++too_early;
         });
         ASSERT_EQ(too_early, 0) << "of " << threads << " threads that asked for a part, so many "
                                 << "went on before it was drawn";
-        ASSERT_EQ(counters.parts, 1u)
-            << "times that a part was drawn for " << threads << " threads";
+        ASSERT_EQ(holding.parts, 1u) << "times that a part was drawn for " << threads << " threads";
         ASSERT_TRUE(are_equal(map.depths.depths(), whole))
             << "the map as drawn by the first of " << threads << " threads that asked for it";
     }
@@ -596,23 +589,24 @@ TEST(VisibilityBuffer, HardCase_APartWhoseDrawingThrowsIsDrawnByTheNextWhoAsks) 
         ShadowMap map = map_of_minus_one(32);
         const Tiling tiling(Split::tiles, ivec2(32), 1, 32);
         const ShadowMapParts parts(map, tiling, binned(map, scene, tiling));
-        HoldingCounters counters{pool.size()};  // all others wait when the first one throws
+        Holding holding{pool.size()};  // all others wait when the first one throws
         std::atomic<int> left = 3, caught = 0;
         const auto fill = [&](auto&... what) {
+            holding.wait();
             draw_tile(what...);
             if (left-- > 0) throw std::runtime_error("no memory");
         };
         pool.run(pool.size(), [&](std::size_t, std::size_t) {
-            ++counters.begun;
+            ++holding.begun;
             try {
-                parts.draw_in({{8, 8}, {10, 10}}, counters, fill);
+                parts.draw_in({{8, 8}, {10, 10}}, fill);
             } catch (const std::runtime_error&) { ++caught; }
         });
         ASSERT_EQ(caught, std::min(threads, 3))
             << "of three failures, with " << threads << " threads that ask once each";
         ASSERT_EQ(parts.is_drawn(0), threads > 3);
         left = 0;
-        parts.draw_in({{8, 8}, {10, 10}}, counters, fill);
+        parts.draw_in({{8, 8}, {10, 10}}, fill);
         ASSERT_TRUE(are_equal(map.depths.depths(), whole)) << "the map after the failures";
     }
 }
@@ -627,7 +621,7 @@ TEST(VisibilityBuffer, HardCase_SixteenThreadsAskForTheSamePartsAtOnce) {
     for (int repeat = 0; repeat < 150; ++repeat) {
         ShadowMap map = map_of_minus_one(size);
         const ShadowMapParts parts(map, tiling, binned(map, scene, tiling));
-        SharedCounters counters;
+        const CountedSince counters;
         std::atomic<int> wrong = 0;
         // Each thread asks for all parts, in one of two orders, and reads what it asked for at
         // once.
@@ -635,7 +629,7 @@ TEST(VisibilityBuffer, HardCase_SixteenThreadsAskForTheSamePartsAtOnce) {
             for (int k = 0; k < 9; ++k) {
                 const int part = task % 2 ? k : 8 - k;
                 const ivec2 first = 16 * ivec2(part % 3, part / 3);
-                parts.draw_around(first + 8, 2, counters);
+                parts.draw_around(first + 8, 2);
                 for (int y = 0; y < 16; ++y)
                     for (int x = 0; x < 16; ++x) {
                         const ivec2 texel = first + ivec2(x, y) + max_pcf_radius;
@@ -645,6 +639,7 @@ TEST(VisibilityBuffer, HardCase_SixteenThreadsAskForTheSamePartsAtOnce) {
         });
         ASSERT_EQ(wrong, 0) << "texels that a thread has read otherwise than lesson 09 draws them, "
                             << "after it asked for their part; repeat " << repeat;
-        ASSERT_EQ(counters.parts, 9u) << "parts that were drawn, of nine; repeat " << repeat;
+        ASSERT_EQ(count(counters, Counter::shadow_parts), 9u)
+            << "parts that were drawn, of nine; repeat " << repeat;
     }
 }

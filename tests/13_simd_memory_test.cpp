@@ -400,11 +400,12 @@ TEST(Simd, Eq13_2_PartsOfAMapHaveLesson10sBits) {
                 seed % 7 == 0 ? BinnedTriangles() : casters_of(pool, expected, scene, tiling);
             for (std::size_t i = 0; i < tiling.count(); ++i) {
                 if (dice.one_in(3)) continue;
-                Counters before, now;
-                draw_tile(expected, casters, tiling, i, before);
-                draw_tile<F>(actual, casters, tiling, i, now);
-                ASSERT_EQ(count(now, Counter::shadow_fragments),
-                          count(before, Counter::shadow_fragments))
+                thread_counters = {};
+                draw_tile(expected, casters, tiling, i);
+                const Counters before = std::exchange(thread_counters, {});
+                draw_tile<F>(actual, casters, tiling, i);
+                ASSERT_EQ(thread_counters[Counter::shadow_fragments],
+                          before[Counter::shadow_fragments])
                     << "shadow fragments of part " << i;
                 ASSERT_TRUE(have_the_same_bits(actual.depths.depths(), expected.depths.depths()))
                     << "depths of a map of " << size << " texels after part " << i << " of "
@@ -435,11 +436,10 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                                         .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
             const int side = 4 + static_cast<int>(dice.below(30));
             const bool all_effects = seed % 5 == 0;
-            WorkerCounters<Counters> making(1);
             const ShadowMapsOnDemand before(pool, side, variant, all_effects, scene, bounds, lights,
-                                            making, light_casts);
+                                            light_casts);
             const ShadowMapsOnDemand now(pool, side, variant, all_effects, scene, bounds, lights,
-                                         making, light_casts);
+                                         light_casts);
             Counters expected_counts, counts;
             for (int batch = 0; batch < 8; ++batch) {
                 const Mesh& mesh = scene.meshes[0];
@@ -483,24 +483,25 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                         normals.at(lane)[static_cast<int>(dice.below(3))] = any_float(dice);
                 }
                 for (std::size_t l = 0; l < lights.size(); ++l) {
-                    LaneCounters<Counters> lanes{counts, pixels};
                     Mask<N> points_asked = first_lanes<Floats<N>>(N);
                     for (int i = 0; i < pixels; ++i)
                         points_asked.lanes[i] = ask_all || dice.one_in(2) ? -1 : 0;
                     for (int i = pixels; i < N; ++i)
                         points_asked.lanes[i] = points_asked.lanes[pixels - 1];
-                    const Floats<N> actual =
-                        light_visibility(now, l, in_slots, in_lanes<N>(points),
-                                         in_lanes<N>(normals), points_asked, lanes);
+                    fragments_at_once = static_cast<std::uint64_t>(pixels);
+                    thread_counters = {};
+                    const Floats<N> actual = light_visibility(now, l, in_slots, in_lanes<N>(points),
+                                                              in_lanes<N>(normals), points_asked);
+                    counts += std::exchange(thread_counters, {});
                     std::array<bool, 2> sides{};
                     std::array<bool, 6> faces{};
                     for (int i = 0; i < pixels; ++i) {
                         if (!points_asked[i]) continue;
                         const vec3 point = points.at(std::size_t(i)),
                                    normal = normals.at(std::size_t(i));
-                        const float expected =
-                            light_visibility(before, l, same.at(triangle_of.at(std::size_t(i))),
-                                             point, normal, expected_counts);
+                        const float expected = light_visibility(
+                            before, l, same.at(triangle_of.at(std::size_t(i))), point, normal);
+                        expected_counts += std::exchange(thread_counters, {});
                         ASSERT_TRUE(agree(actual[i], expected))
                             << "visibility of light " << l << " in lane " << i << " of " << N
                             << ": " << actual[i] << ", expected " << expected << "; point "

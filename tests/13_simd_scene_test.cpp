@@ -72,7 +72,7 @@ TEST(Simd, HardCase_RandomScenesHaveLesson12sBitsAndCounts) {
                 << "beside lesson 12's picture; " << where;
             ASSERT_TRUE(counts_are_equal(actual, expected)) << where;
         }
-        all.add(expected.counters);
+        all += expected.counters;
     }
     expect_all_work(all, random_scenes);
 }

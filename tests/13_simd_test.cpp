@@ -32,6 +32,7 @@
 #include "support/lanes.hpp"
 #include "support/look_up.hpp"
 #include "support/name_of_split.hpp"
+#include "support/pictures.hpp"
 #include "support/printers.hpp"
 #include "support/projected.hpp"
 
@@ -145,15 +146,6 @@ std::array<vec2, 3> any_triangle(Dice& dice) {
     }
     return v;
 }
-
-/// The numbers that batches of pixels have counted.
-struct BatchCounters {
-    std::vector<std::uint64_t>* batches;
-
-    void add(Counter counter, std::uint64_t times = 1) {
-        if (counter == Counter::fragments_shaded) batches->push_back(times);
-    }
-};
 
 /// An unlit material whose colour comes from vertex colours, and a triangle of it.
 struct ColoredTriangles {
@@ -986,9 +978,8 @@ TEST(Simd, Eq13_4_BatchesOfTheWorkedExample) {
     const ColoredTriangles triangles;
     const ivec2 size(20, 20);
     ThreadPool pool(1);
-    WorkerCounters<Counters> none(1);
     const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{}, false, triangles.assets.scene,
-                                  ShadowBounds(), {}, none, {});
+                                  ShadowBounds(), {}, {});
     Image<vec3> color(size);
     DepthBuffer depth(size);
     const Frame<ShadowMapsOnDemand> frame{
@@ -1001,15 +992,19 @@ TEST(Simd, Eq13_4_BatchesOfTheWorkedExample) {
     for (const std::size_t of_other : {0u, 2u}) {
         const std::array visible = {VisibleTriangle{&other, std::span(runs).first(of_other)},
                                     VisibleTriangle{&one, std::span(runs).subspan(of_other)}};
-        std::vector<std::uint64_t> batches;
-        BatchCounters counters{&batches};
-        shade_pixels<Permutation{}, Floats<16>>(frame, visible, counters);
-        EXPECT_EQ(batches, (std::vector<std::uint64_t>{16, 4}))
-            << "pixels of each batch of 16 lanes";
-        batches.clear();
-        shade_pixels<Permutation{}, Floats<4>>(frame, visible, counters);
-        EXPECT_EQ(batches, (std::vector<std::uint64_t>{4, 4, 4, 4, 4}))
-            << "pixels of each batch of 4 lanes";
+        const auto counted_and_last = [&](auto&& shade) {
+            const CountedSince counters;
+            shade();
+            return std::pair(count(counters, Counter::fragments_shaded), fragments_at_once);
+        };
+        const auto shaded_by_16 =
+            counted_and_last([&] { shade_pixels<Permutation{}, Floats<16>>(frame, visible); });
+        EXPECT_EQ(shaded_by_16, std::pair(std::uint64_t{20}, std::uint64_t{4}))
+            << "pixels, and those of the last batch, of 16 lanes";
+        const auto shaded_by_4 =
+            counted_and_last([&] { shade_pixels<Permutation{}, Floats<4>>(frame, visible); });
+        EXPECT_EQ(shaded_by_4, std::pair(std::uint64_t{20}, std::uint64_t{4}))
+            << "pixels, and those of the last batch, of 4 lanes";
     }
 }
 
@@ -1017,9 +1012,8 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
     const ColoredTriangles triangles;
     const ivec2 size(80, 40);
     ThreadPool pool(1);
-    WorkerCounters<Counters> none(1);
     const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{}, false, triangles.assets.scene,
-                                  ShadowBounds(), {}, none, {});
+                                  ShadowBounds(), {}, {});
     const std::array projected = {triangles.projected(size, 0), triangles.projected(size, 1),
                                   triangles.projected(size, 2)};
     for_each_width([&]<int N>() {
@@ -1044,26 +1038,24 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
                 triangles.assets, {}, Filter::nearest, vec3(0), maps, expected, depth};
             const Frame<ShadowMapsOnDemand> frame{
                 triangles.assets, {}, Filter::nearest, vec3(0), maps, actual, depth};
-            std::vector<std::uint64_t> one_by_one, batches;
-            BatchCounters counters{&one_by_one}, wide{&batches};
             std::vector<VisibleTriangle> visible;
             for (std::size_t t = 0; t < runs.size(); ++t) {
                 visible.push_back({&projected.at(t), runs.at(t)});
-                shade_pixels<Permutation{}>(before, projected.at(t), runs.at(t), counters);
+                shade_pixels<Permutation{}>(before, projected.at(t), runs.at(t));
             }
-            shade_pixels<Permutation{}, Floats<N>>(frame, visible, wide);
+            const CountedSince counters;
+            shade_pixels<Permutation{}, Floats<N>>(frame, visible);
+            const std::uint64_t counted = count(counters, Counter::fragments_shaded);
             const std::string where = std::to_string(pixels) + " pixels in " +
                                       std::to_string(triangle_count) + " triangles, " +
                                       std::to_string(N) + " lanes (" + std::to_string(k) + ")";
             ASSERT_TRUE(have_the_same_bits(actual, expected))
                 << "beside lesson 12's shade_pixels(); " << where;
-            std::uint64_t counted = 0;
-            for (const std::uint64_t count : batches) counted += count;
             ASSERT_EQ(counted, pixels) << "pixels that are counted as shaded, of " << where;
-            ASSERT_EQ(batches.size(), (pixels + N - 1) / N) << "batches of " << where;
-            for (std::size_t i = 0; i + 1 < batches.size(); ++i)
-                ASSERT_EQ(batches[i], std::uint64_t(N))
-                    << "only the last batch has empty lanes; batch " << i << " of " << where;
+            if (pixels > 0) {
+                ASSERT_EQ(fragments_at_once, (pixels - 1) % N + 1)
+                    << "pixels of the last batch, if all others are full; " << where;
+            }
         }
     });
 }

@@ -26,6 +26,7 @@
 #include "support/lesson_12.hpp"
 #include "support/lesson_13.hpp"
 #include "support/lesson_process.hpp"
+#include "support/pictures.hpp"
 #include "support/projected.hpp"
 
 using namespace rasterbook;
@@ -172,9 +173,8 @@ TEST(Allocations, AreCounted) {
 TEST(Allocations, OfLesson04DoNotDependOnTriangles) {
     EXPECT_TRUE(does_not_depend_on_triangles(
         lesson_04::Options(), [](const auto& options, const Scene& scene) {
-            Counters counters;
-            const std::size_t count =
-                allocations_of([&] { lesson_04::render(options, scene, counters); });
+            const test::CountedSince counters;
+            const std::size_t count = allocations_of([&] { lesson_04::render(options, scene); });
             expect_many(counters, Counter::fragments_shaded);
             return count;
         }));
@@ -189,9 +189,9 @@ TEST(Allocations, OfLesson05DoNotDependOnTriangles) {
                 does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
                     lesson_05::Assets assets = lesson_05::make_assets(scene, options);
                     assets.textures[1] = texture_of(vec4(0.5f));
-                    Counters counters;
+                    const test::CountedSince counters;
                     const std::size_t count =
-                        allocations_of([&] { lesson_05::render(options, assets, counters); });
+                        allocations_of([&] { lesson_05::render(options, assets); });
                     expect_many(counters, Counter::texture_samples);
                     return count;
                 }));
@@ -202,20 +202,19 @@ TEST(Allocations, OfLesson06DoNotDependOnTriangles) {
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
         lesson_06::Options knobs;
         knobs.shading.shading = shading;
-        EXPECT_TRUE(
-            does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-                Scene shiny = scene;
-                shiny.materials[1].specular = vec3(0.5f), shiny.materials[1].shininess = 10;
-                PhongAssets assets = lesson_06::make_assets(shiny, options);
-                assets.textures.diffuse[1] = texture_of(vec4(0.5f));
-                assets.effects[1].set(Effect::texture);
-                Counters counters;
-                const std::size_t count =
-                    allocations_of([&] { lesson_06::render(options, assets, counters); });
-                expect_many(counters, Counter::highlights);
-                expect_many(counters, Counter::texture_samples);
-                return count;
-            }));
+        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options,
+                                                           const Scene& scene) {
+            Scene shiny = scene;
+            shiny.materials[1].specular = vec3(0.5f), shiny.materials[1].shininess = 10;
+            PhongAssets assets = lesson_06::make_assets(shiny, options);
+            assets.textures.diffuse[1] = texture_of(vec4(0.5f));
+            assets.effects[1].set(Effect::texture);
+            const test::CountedSince counters;
+            const std::size_t count = allocations_of([&] { lesson_06::render(options, assets); });
+            expect_many(counters, Counter::highlights);
+            expect_many(counters, Counter::texture_samples);
+            return count;
+        }));
     }
 }
 
@@ -227,9 +226,9 @@ TEST(Allocations, OfLesson07DoNotDependOnTriangles) {
             EXPECT_TRUE(
                 does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
                     const ToonAssets assets = lesson_07::make_assets(scene, options);
-                    Counters counters;
+                    const test::CountedSince counters;
                     const std::size_t count =
-                        allocations_of([&] { lesson_07::render(options, assets, counters); });
+                        allocations_of([&] { lesson_07::render(options, assets); });
                     expect_many(counters, Counter::toon_fragments);
                     return count;
                 }));
@@ -241,16 +240,15 @@ TEST(Allocations, OfLesson08DoNotDependOnTriangles) {
         lesson_08::Options knobs;
         knobs.normal_map.frame = frame;
         knobs.shading.all_effects = true;  // a map for each mesh
-        EXPECT_TRUE(
-            does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-                NormalMapAssets assets = lesson_08::make_assets(scene, options);
-                assets.normal_maps.textures[1] = texture_of(vec4(0.6f, 0, 0.8f, 1));
-                Counters counters;
-                const std::size_t count =
-                    allocations_of([&] { lesson_08::render(options, assets, counters); });
-                expect_many(counters, Counter::normal_map_samples);
-                return count;
-            }));
+        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options,
+                                                           const Scene& scene) {
+            NormalMapAssets assets = lesson_08::make_assets(scene, options);
+            assets.normal_maps.textures[1] = texture_of(vec4(0.6f, 0, 0.8f, 1));
+            const test::CountedSince counters;
+            const std::size_t count = allocations_of([&] { lesson_08::render(options, assets); });
+            expect_many(counters, Counter::normal_map_samples);
+            return count;
+        }));
     }
 }
 
@@ -259,17 +257,16 @@ TEST(Allocations, OfLesson09DoNotDependOnTriangles) {
         lesson_09::Options knobs;
         knobs.shading.key_light = light, knobs.shadow.size = 64;
         knobs.shading.all_effects = true;  // maps for each mesh and light
-        EXPECT_TRUE(
-            does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-                ShadowAssets assets = lesson_09::make_assets(scene, options);
-                assets.normal_maps.textures[1] = texture_of(vec4(0.6f, 0, 0.8f, 1));
-                Counters counters;
-                const std::size_t count =
-                    allocations_of([&] { lesson_09::render(options, assets, counters); });
-                expect_many(counters, Counter::shadow_fragments);
-                expect_many(counters, Counter::shadow_tests);
-                return count;
-            }));
+        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options,
+                                                           const Scene& scene) {
+            ShadowAssets assets = lesson_09::make_assets(scene, options);
+            assets.normal_maps.textures[1] = texture_of(vec4(0.6f, 0, 0.8f, 1));
+            const test::CountedSince counters;
+            const std::size_t count = allocations_of([&] { lesson_09::render(options, assets); });
+            expect_many(counters, Counter::shadow_fragments);
+            expect_many(counters, Counter::shadow_tests);
+            return count;
+        }));
     }
 }
 
@@ -282,9 +279,9 @@ TEST(Allocations, OfLesson10DependOnBatchesAndNotOnTriangles) {
             const auto count_for = [&](int side) {
                 const ShadowAssets assets = lesson_10::make_assets(waves(side), options);
                 ThreadPool pool(3);
-                Counters counters;
+                const test::CountedSince counters;
                 const std::size_t count =
-                    allocations_of([&] { lesson_10::render(options, assets, pool, counters); });
+                    allocations_of([&] { lesson_10::render(options, assets, pool); });
                 expect_many(counters, Counter::shadow_fragments);
                 return count;
             };
@@ -331,10 +328,10 @@ TEST(Allocations, ThatFailInAnyThreadEndTheProgramInOneLine) {
             using Options = lesson_10::Options;
             return rasterbook::run_lesson<Options>(
                 argc, argv, "10_threading", "", make_shadow_assets<Options>,
-                [&](const auto& options, const auto& assets, auto& counters) {
+                [&](const auto& options, const auto& assets) {
                     ThreadPool pool(options.threads.threads);
                     begin();
-                    Image<vec3> picture = lesson_10::render(options, assets, pool, counters);
+                    Image<vec3> picture = lesson_10::render(options, assets, pool);
                     end();
                     return picture;
                 },

@@ -78,8 +78,8 @@ lesson_13::Options small_scene() {
 Drawn drawn_by_11(const SceneAssets& assets, const lesson_11::Options& options) {
     ThreadPool pool(2);
     StepClock clock;
-    return drawn(options, assets, [&](const auto& of, const auto& with, Counters& counters) {
-        return lesson_11::render(of, with, pool, counters, clock);
+    return drawn(options, assets, [&](const auto& of, const auto& with) {
+        return lesson_11::render(of, with, pool, clock);
     });
 }
 

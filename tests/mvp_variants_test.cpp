@@ -381,9 +381,7 @@ TEST(MvpVariants, WhatIsFlattenedToALineHasTheColorOfWhatFacesUp) {
     } const options;
     const vec3 center(far_away + 4, far_away + 2, 0), eye = center + vec3(0, 0, 4);
     const Camera camera = {eye, look_at(eye, center, vec3(0, 1, 0)), 1.5f, 1, center};
-    NoCounters ignored;
-    const Image<vec3> picture =
-        render_by_pixels(options, scene, {{mesh, flatten}}, camera, ignored);
+    const Image<vec3> picture = render_by_pixels(options, scene, {{mesh, flatten}}, camera);
     const Image<vec3> nothing = backdrop(size);
     const vec3 expected = flat_color(vec3(0, 1, 0), scene.materials[0]);
     int seen = 0;

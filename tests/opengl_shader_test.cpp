@@ -120,13 +120,12 @@ TEST_F(OpenGlTest, Lesson09sFragmentShaderDrawsTheSamePicture) {
     options.texture.filter = Filter::bilinear;  // OpenGL finds levels only roughly
     options.shading.all_effects = true;         // so that each material has all textures
     const ShadowAssets assets = lesson_09::make_assets(loaded(options.model.string()), options);
-    Counters uncounted;
-    const Image<vec3> ours = lesson_09::render(options, assets, uncounted);
+    const Image<vec3> ours = lesson_09::render(options, assets);
 
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
     const std::array lights = raking_lights(options.shading.key_light, assets.scene.bounds());
-    const ShadowMaps shadow_maps = draw_shadow_maps(options.shadow, false, assets.scene,
-                                                    assets.shadow_bounds, lights, uncounted);
+    const ShadowMaps shadow_maps =
+        draw_shadow_maps(options.shadow, false, assets.scene, assets.shadow_bounds, lights);
     const auto normal_maps = unorm_normal_maps(assets.normal_maps);
     std::vector<OpenGlPart> parts = parts_of(assets.scene);
     for (OpenGlPart& part : parts)

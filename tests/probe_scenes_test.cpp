@@ -32,23 +32,23 @@ void expect_the_three_pictures_pixels(const lesson_13::Options& options, Scene s
     static_cast<SceneRendererOptions&>(visibility) = options;
     expect(
         before,
-        [&](const auto& of, const auto& with, Counters& counters) {
+        [&](const auto& of, const auto& with) {
             StepClock clock;
-            return lesson_11::render(of, with, pool, counters, clock);
+            return lesson_11::render(of, with, pool, clock);
         },
         pixels);
     expect(
         visibility,
-        [&](const auto& of, const auto& with, Counters& counters) {
+        [&](const auto& of, const auto& with) {
             StepClock clock;
-            return lesson_12::render(of, with, pool, counters, clock);
+            return lesson_12::render(of, with, pool, clock);
         },
         pixels / 2);
     expect(
         options,
-        [&](const auto& of, const auto& with, Counters& counters) {
+        [&](const auto& of, const auto& with) {
             StepClock clock;
-            return lesson_13::render(of, with, pool, counters, clock);
+            return lesson_13::render(of, with, pool, clock);
         },
         pixels / 2);
 }

@@ -201,9 +201,7 @@ TEST(Probe, Lessons09And10SayWhatThePictureHas) {
         threaded.samples_per_side = options.samples_per_side;
         expect_the_pictures_pixels(
             threaded, assets, pixels,
-            [&](const auto& of, const auto& with, Counters& counters) {
-                return lesson_10::render(of, with, pool, counters);
-            },
+            [&](const auto& of, const auto& with) { return lesson_10::render(of, with, pool); },
             [](const auto&... with) { return shadow_probe(with...); });
     };
     expect(exact, "scene_bumpy.obj", 200);

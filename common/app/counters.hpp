@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a lesson did to make its picture, counted for --stats.
+/// What a lesson does to make its picture, counted for --stats.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <type_traits>
 
 namespace rasterbook {
 
@@ -65,6 +66,51 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "alpha_tested_fragments",
     "blended_fragments"};
 
+/// How often each thing was done.
+struct Counters {
+    std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> values{};
+
+    std::uint64_t operator[](Counter counter) const {
+        return values[static_cast<std::size_t>(counter)];
+    }
+    Counters& operator+=(const Counters& others) {
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] += others.values[i];
+        return *this;
+    }
+    bool operator==(const Counters&) const = default;
+};
+
+/// What this thread has counted.
+inline thread_local constinit Counters thread_counters;
+
+/// Counts that this thread has done something, so many times.
+inline void count(Counter counter, std::uint64_t times = 1) {
+    thread_counters.values[static_cast<std::size_t>(counter)] += times;
+}
+
+/// How many fragments this thread shades at once; in lesson 13, the lanes that stand for one.
+inline thread_local constinit std::uint64_t fragments_at_once = 1;
+
+/// Counts what is done to each fragment of an F.
+///
+/// @tparam F  float for one fragment; for those that are shaded at once, lesson 13's Floats.
+template <typename F>
+void count_each(Counter counter) {
+    count(counter, std::is_same_v<F, float> ? 1 : fragments_at_once);
+}
+
+/// What the thread counts while there is one of these is forgotten.
+class Uncounted {
+  public:
+    Uncounted() = default;
+    Uncounted(const Uncounted&) = delete;
+    Uncounted& operator=(const Uncounted&) = delete;
+    ~Uncounted() { thread_counters = before_; }
+
+  private:
+    Counters before_ = thread_counters;
+};
+
 /// Why triangles of a model are not drawn.
 struct UndrawnTriangles {
     std::uint64_t behind_camera = 0;
@@ -74,23 +120,7 @@ struct UndrawnTriangles {
     std::uint64_t facing_away = 0;
 };
 
-/// Counts.
-struct Counters {
-    std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> values{};
-    UndrawnTriangles* undrawn = nullptr;  ///< Counted where there is one: of an empty picture.
-
-    void add(Counter counter, std::uint64_t times = 1) {
-        values[static_cast<std::size_t>(counter)] += times;
-    }
-    void add(const Counters& others) {
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] += others.values[i];
-    }
-};
-
-/// Takes the place of Counters where nothing is to be counted: compiles to nothing.
-struct NoCounters {
-    void add(Counter, std::uint64_t = 1) {}
-    void add(const NoCounters&) {}
-};
+/// Where they are counted, if the thread is asked to: of an empty picture.
+inline thread_local constinit UndrawnTriangles* undrawn_triangles = nullptr;
 
 }  // namespace rasterbook

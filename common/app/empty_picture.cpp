@@ -67,9 +67,6 @@ void count_undrawn(const Mesh& mesh, const mat4& clip_from_model, UndrawnTriangl
 
 std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
                       const Scene& scene) {
-    const auto count = [&](Counter counter) {
-        return counters.values[static_cast<std::size_t>(counter)];
-    };
     std::string reasons;
     const auto add = [&](std::uint64_t times, const std::string& thing, const std::string& why) {
         if (times > 0)
@@ -79,7 +76,7 @@ std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
     add(undrawn.behind_camera, "triangle", "behind the camera");
     add(undrawn.outside_view, "triangle", "outside of the camera's view");
     add(undrawn.overflowing, "triangle", "too large or too far away for single precision");
-    const std::uint64_t culled = count(Counter::triangles_culled_by_facing);
+    const std::uint64_t culled = counters[Counter::triangles_culled_by_facing];
     if (culled > 0 && undrawn.facing_away + undrawn.without_area == 0)
         add(culled, "triangle", "seen from behind (named clockwise?) or without area");
     else if (culled > 0)  // else both sides are drawn
@@ -88,10 +85,10 @@ std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
 
     // In an empty picture, what is alpha tested fails, what is blended is clear, and a fragment
     // fails the depth test only where it is not nearer than what the buffer is cleared to.
-    const std::uint64_t shaded = count(Counter::fragments_shaded),
-                        blended = count(Counter::blended_fragments),
-                        holes = count(Counter::alpha_tested_fragments),
-                        tested = std::max(count(Counter::fragments_tested), shaded + holes);
+    const std::uint64_t shaded = counters[Counter::fragments_shaded],
+                        blended = counters[Counter::blended_fragments],
+                        holes = counters[Counter::alpha_tested_fragments],
+                        tested = std::max(counters[Counter::fragments_tested], shaded + holes);
     add(holes, "fragment", "failed by the alpha test");
     add(blended, "fragment", "wholly transparent" + names_of_clear_materials(scene));
     add(shaded - blended, "fragment", "of the background's color");

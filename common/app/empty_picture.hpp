@@ -16,13 +16,10 @@ namespace rasterbook {
 /// @param clip_from_model  Of a perspective; its planes are those of Eq. 4.10.
 void count_undrawn(const Mesh& mesh, const mat4& clip_from_model, UndrawnTriangles& undrawn);
 
-/// Counts a mesh's undrawn triangles where a picture's counters ask for it.
-inline void count_undrawn_if_asked(const Mesh& mesh, const mat4& clip_from_model,
-                                   Counters& counters) {
-    if (counters.undrawn) count_undrawn(mesh, clip_from_model, *counters.undrawn);
+/// Counts a mesh's undrawn triangles if this thread is asked to.
+inline void count_undrawn_if_asked(const Mesh& mesh, const mat4& clip_from_model) {
+    if (undrawn_triangles) count_undrawn(mesh, clip_from_model, *undrawn_triangles);
 }
-template <typename OtherCounters>
-void count_undrawn_if_asked(const Mesh&, const mat4&, OtherCounters&) {}
 
 /// Says of a picture that holds nothing but its background what became of the model: "3 triangles
 /// lie behind the camera, 2 face away (named clockwise?)".

@@ -140,7 +140,7 @@ struct Tally {
     void add(const Tally& others) {
         pictures += others.pictures;
         is_empty = is_empty && others.is_empty;
-        counters.add(others.counters);
+        counters += others.counters;
         render_ms += others.render_ms;
         write_ms += others.write_ms;
     }
@@ -164,7 +164,9 @@ Tally make_picture(const LessonProgram& program, const FrameOptions& frame,
     const LessonOptions& options = program.options;
     Tally tally;
     const auto render_start = std::chrono::steady_clock::now();
-    Image<vec3> rendered = program.render(frame, tally.counters);
+    thread_counters = {};
+    Image<vec3> rendered = program.render(frame);
+    tally.counters = thread_counters;
     tally.is_empty = is_backdrop(rendered);
     const Image<vec3> picture = averaged(std::move(rendered), options.samples_per_side);
     tally.render_ms = elapsed_ms(render_start);
@@ -183,11 +185,10 @@ void print_probe(const LessonProgram& program) {
         throw std::runtime_error("--probe: this program is built without it; " + program.name +
                                  "_complete has it, and ./lessons/run builds that one");
     const LessonOptions& options = program.options;
-    Counters counters;
     const FrameOptions frame{program.orbit ? program.orbit->yaw_degrees : 0,
                              program.threads ? *program.threads : 1};
     const Image<u8vec3> drawn =
-        srgb8_from_linear(averaged(program.render(frame, counters), options.samples_per_side));
+        srgb8_from_linear(averaged(program.render(frame), options.samples_per_side));
     std::cout << explained(probe, *options.probed, options.samples_per_side,
                            drawn[*options.probed]);
 }
@@ -228,15 +229,15 @@ Tally make_film(const LessonProgram& program) {
 
 /// Draws the first picture again, and counts why its triangles are not drawn.
 std::string why_first_is_empty(const LessonProgram& program, const Scene& scene) {
-    Counters counters;
     UndrawnTriangles undrawn;
-    counters.undrawn = &undrawn;
+    undrawn_triangles = &undrawn;
+    thread_counters = {};
     const float yaw_degrees = program.orbit ? program.orbit->yaw_degrees : 0;
     const Frames& frames = program.options.frames;
     program.render(
-        {yaw_degrees + degrees_at(frames.first, frames), program.threads ? *program.threads : 1},
-        counters);
-    return why_empty(counters, undrawn, scene);
+        {yaw_degrees + degrees_at(frames.first, frames), program.threads ? *program.threads : 1});
+    undrawn_triangles = nullptr;
+    return why_empty(thread_counters, undrawn, scene);
 }
 
 void make_pictures(const LessonProgram& program) {

@@ -115,8 +115,8 @@ struct LessonProgram {
     std::function<void(Knobs&)> declare_knobs;
     std::function<const Scene&(Scene)> prepare;  ///< Called once, with the model as it was read.
 
-    /// Called by several threads at once, each with counters of its own.
-    std::function<Image<vec3>(const FrameOptions&, Counters&)> render;
+    /// Called by several threads at once. What it counts is added to the calling thread's counters.
+    std::function<Image<vec3>(const FrameOptions&)> render;
 
     std::function<PixelProbe()> make_probe{};  ///< For --probe; empty: the lesson has none.
 };
@@ -146,12 +146,12 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 /// For run_lesson(): a lesson without --probe.
 struct NoProbe {};
 
-/// Whether programs know of --probe. A reader's own goes without, so that its picture takes less
-/// time to come; ./lessons/run builds another when it is asked for.
-#ifdef RASTERBOOK_WITHOUT_PROBE
-constexpr bool has_probe = false;
-#else
+/// Whether a program can answer --probe. Most cannot, so that they are compiled faster, and to
+/// faster code; ./lessons/run builds another when it is asked.
+#ifdef RASTERBOOK_PROBE
 constexpr bool has_probe = true;
+#else
+constexpr bool has_probe = false;
 #endif
 
 /// Runs a lesson: reads the command line and the model, renders, writes the picture.
@@ -161,8 +161,8 @@ constexpr bool has_probe = true;
 ///                     that draw.
 /// @param make_assets  Called once as make_assets(Scene, const Options&): gives what is drawn, with
 ///                     a Scene `scene`.
-/// @param render       Called for each picture as render(const Options&, const Assets&, Counters&);
-///                     gives the picture in linear colour. Where there are several pictures,
+/// @param render       Called for each picture as render(const Options&, const Assets&); gives the
+/// picture in linear colour. Where there are several pictures,
 ///                     several threads call it at once: what it keeps from one to the next must be
 ///                     thread_local.
 /// @param make_probe   Called for --probe as make_probe(const Options&, const Assets&); gives the
@@ -180,8 +180,13 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, MakeA
     if constexpr (requires { options.orbit; }) orbit = &options.orbit;
     if constexpr (requires { options.threads.threads; }) threads = &options.threads.threads;
     std::function<PixelProbe()> probe;
-    if constexpr (has_probe && !std::is_same_v<MakeProbe, NoProbe>)
-        probe = [&] { return make_probe(std::as_const(options), std::as_const(*assets)); };
+    if constexpr (!std::is_same_v<MakeProbe, NoProbe>)
+        probe = [&] {
+            if constexpr (has_probe)
+                return make_probe(std::as_const(options), std::as_const(*assets));
+            else
+                return PixelProbe();
+        };
     return run_lesson_program(
         {std::move(name), std::move(title), options, orbit, show_depth, threads,
          [&](Knobs& knobs) {
@@ -191,11 +196,11 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, MakeA
              assets.emplace(make_assets(std::move(model), options));
              return scene_of(*assets);
          },
-         [&](const FrameOptions& frame, Counters& counters) {
+         [&](const FrameOptions& frame) {
              Options own = options;
              if constexpr (requires { own.orbit; }) own.orbit.yaw_degrees = frame.yaw_degrees;
              if constexpr (requires { own.threads.threads; }) own.threads.threads = frame.threads;
-             return render(own, *assets, counters);
+             return render(own, *assets);
          },
          probe},
         argc, argv);

@@ -87,7 +87,7 @@ u8vec4 palette_color(ByteView palette, std::size_t index, const std::filesystem:
 }
 
 void append_header(Bytes& bytes, ivec2 size, std::uint32_t file_bytes) {
-    bytes.insert(bytes.end(), {'B', 'M'});
+    for (const char letter : {'B', 'M'}) bytes.push_back(static_cast<std::uint8_t>(letter));
     append_u32(bytes, file_bytes);
     append_u32(bytes, 0);             // reserved
     append_u32(bytes, header_bytes);  // where the pixels begin

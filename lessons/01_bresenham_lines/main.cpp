@@ -27,8 +27,7 @@ static vec3 line_color(float depth) {
     return glm::mix(far_color, near_color, depth);
 }
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Scene& scene) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 
@@ -39,10 +38,10 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
             for (const Vertex& vertex : mesh.vertices_of(face)) {
                 const vec3 to = positions_screen[vertex.position];
                 const vec3 light = line_color(0.5f * (from.z + to.z));
-                counters.add(Counter::lines);
+                count(Counter::lines);
                 draw_line_as(options.line, pixel_of(from), pixel_of(to), options.size,
                              LineEnd::excluded, [&](ivec2 pixel, float coverage) {
-                                 counters.add(Counter::line_pixels);
+                                 count(Counter::line_pixels);
                                  color[pixel] += coverage * light;
                              });
                 from = to;
@@ -54,7 +53,5 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "01_bresenham_lines", "Draws a model as a wireframe.",
-                               [](const auto& options, const auto& scene, auto& counters) {
-                                   return render(options, scene, counters);
-                               });
+                               render);
 }

@@ -24,27 +24,26 @@ struct Options : LessonOptions {
     }
 };
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Scene& scene) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
-            counters.add(Counter::triangles_in);
+            count(Counter::triangles_in);
             const vec3 a = positions_screen[triangle.vertices[0].position];
             const vec3 b = positions_screen[triangle.vertices[1].position];
             const vec3 c = positions_screen[triangle.vertices[2].position];
             const ScreenTriangle on_screen = snap_triangle(a, b, c);
             if (!is_front_facing(on_screen)) {
-                counters.add(Counter::triangles_culled_by_facing);
+                count(Counter::triangles_culled_by_facing);
                 continue;
             }
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
             fill(options.fill, on_screen, {a, b, c}, options.size,
                  [&](ivec2 pixel, vec3 barycentrics) {
-                     counters.add(Counter::fragments_shaded);
+                     count(Counter::fragments_shaded);
                      color[pixel] = options.paint == Paint::flat ? face_color : barycentrics;
                  });
         }
@@ -53,10 +52,7 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "02_triangle_fill", "Draws a model as filled triangles, in the file's order.",
-        [](const auto& options, const auto& scene, auto& counters) {
-            return render(options, scene, counters);
-        },
-        [](const auto&... of) { return fill_probe(of...); });
+    return run_lesson<Options>(argc, argv, "02_triangle_fill",
+                               "Draws a model as filled triangles, in the file's order.", render,
+                               [](const auto&... of) { return fill_probe(of...); });
 }

@@ -27,8 +27,7 @@ struct Options : LessonOptions {
     }
 };
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Scene& scene) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size, options.depth.farthest());
@@ -36,22 +35,22 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
-            counters.add(Counter::triangles_in);
+            count(Counter::triangles_in);
             const vec3 a = positions_screen[triangle.vertices[0].position];
             const vec3 b = positions_screen[triangle.vertices[1].position];
             const vec3 c = positions_screen[triangle.vertices[2].position];
             const ScreenTriangle on_screen = snap_triangle(a, b, c);
             if (!is_front_facing(on_screen)) {
-                counters.add(Counter::triangles_culled_by_facing);
+                count(Counter::triangles_culled_by_facing);
                 continue;
             }
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
             const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
             fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 barycentrics) {
-                counters.add(Counter::fragments_tested);
+                count(Counter::fragments_tested);
                 const float z = options.depth.kept(triangle_depth.at(barycentrics));
                 if (!depth.test_and_write(pixel, z)) return;
-                counters.add(Counter::fragments_shaded);
+                count(Counter::fragments_shaded);
                 color[pixel] = options.paint == Paint::flat ? face_color : barycentrics;
             });
         }
@@ -61,10 +60,7 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "03_z_buffer", "Draws a model as filled triangles with a depth buffer.",
-        [](const auto& options, const auto& scene, auto& counters) {
-            return render(options, scene, counters);
-        },
-        [](const auto&... of) { return depth_probe(of...); });
+    return run_lesson<Options>(argc, argv, "03_z_buffer",
+                               "Draws a model as filled triangles with a depth buffer.", render,
+                               [](const auto&... of) { return depth_probe(of...); });
 }

@@ -36,12 +36,10 @@ static std::vector<Instance> make_instances(const Options& options, const Scene&
     return instances_of(scene, world_from_pot);
 }
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Scene& scene) {
     const std::vector<Instance> instances = make_instances(options, scene);
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
-    if (options.mvp.asks_pixels())
-        return render_by_pixels(options, scene, instances, camera, counters);
+    if (options.mvp.asks_pixels()) return render_by_pixels(options, scene, instances, camera);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
@@ -53,25 +51,21 @@ static Image<vec3> render(const Options& options, const Scene& scene, CounterPol
             const vec3 face_color = flat_color(normalize_or(normal, vec3(0, 1, 0)), material);
 
             fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, vec3 on_screen) {
-                counters.add(Counter::fragments_tested);
+                count(Counter::fragments_tested);
                 if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-                counters.add(Counter::fragments_shaded);
+                count(Counter::fragments_shaded);
                 color[pixel] = face_color;
             });
         };
-        for_each_visible_triangle(options.mvp, instance, camera, options.size, counters, draw);
+        for_each_visible_triangle(options.mvp, instance, camera, options.size, draw);
     }
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "04_mvp", "Draws a scene through a camera.",
-        [](const auto& options, const auto& scene, auto& counters) {
-            return render(options, scene, counters);
-        },
-        [](const auto& options, const auto& scene) {
-            return mvp_probe(options, scene, make_instances(options, scene));
-        });
+    return run_lesson<Options>(argc, argv, "04_mvp", "Draws a scene through a camera.", render,
+                               [](const auto& options, const auto& scene) {
+                                   return mvp_probe(options, scene, make_instances(options, scene));
+                               });
 }

@@ -201,13 +201,12 @@ inline ClippedTriangles clip(const MvpVariant& variant, const std::array<vec4, 3
 
 /// for_each_visible_triangle of an instance, transformed and clipped as the variant has it; backs
 /// are culled.
-template <typename CounterPolicy, typename Visit>
+template <typename Visit>
 void for_each_visible_triangle(const MvpVariant& variant, const Instance& instance,
-                               const Camera& camera, ivec2 size, CounterPolicy& counters,
-                               Visit&& visit) {
+                               const Camera& camera, ivec2 size, Visit&& visit) {
     const mat4 clip_from_model = camera.clip_from_world(size) * instance.world_from_model;
     for_each_visible_triangle(
-        instance.mesh, clip_from_model, size, Culling::back_faces, counters, visit,
+        instance.mesh, clip_from_model, size, Culling::back_faces, visit,
         [&](const std::vector<vec3>&) { return transform(variant, camera, size, instance); },
         [&](const std::array<vec4, 3>& vertices) { return clip(variant, vertices, size); });
 }
@@ -287,10 +286,9 @@ void fill_homogeneous(const ClippedTriangle& triangle, ivec2 size, Emit&& emit) 
 }
 
 /// The picture of a scene of which nothing is clipped: every pixel is asked.
-template <typename Options, typename CounterPolicy>
+template <typename Options>
 Image<vec3> render_by_pixels(const Options& options, const Scene& scene,
-                             const std::vector<Instance>& instances, const Camera& camera,
-                             CounterPolicy& counters) {
+                             const std::vector<Instance>& instances, const Camera& camera) {
     const OrthographicView orthographic(scene, options.size);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
@@ -306,9 +304,9 @@ Image<vec3> render_by_pixels(const Options& options, const Scene& scene,
                 flat_color(normalize_or(normal, vec3(0, 1, 0)), scene.materials[triangle.material]);
             fill_homogeneous(whole_triangle(vertices_of(triangle, positions_clip)), options.size,
                              [&](ivec2 pixel, float z) {
-                                 counters.add(Counter::fragments_tested);
+                                 count(Counter::fragments_tested);
                                  if (!depth.test_and_write(pixel, z)) return;
-                                 counters.add(Counter::fragments_shaded);
+                                 count(Counter::fragments_shaded);
                                  color[pixel] = face_color;
                              });
         }

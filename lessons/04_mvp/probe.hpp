@@ -90,9 +90,8 @@ inline std::optional<SeenFragment> report_triangles(PixelReport& report,
 inline std::vector<ProjectedTriangle> projected_triangles(const Scene& scene,
                                                           const mat4& clip_from_world, ivec2 size) {
     std::vector<ProjectedTriangle> triangles;
-    NoCounters uncounted;
     for_each_visible_triangle(
-        scene, clip_from_world, size, Culling::none, uncounted,
+        scene, clip_from_world, size, Culling::none,
         [&](const ProjectedTriangle& projected) { triangles.push_back(projected); });
     return triangles;
 }
@@ -147,10 +146,9 @@ PixelProbe mvp_probe(const Options& options, const Scene& scene, std::vector<Ins
     std::vector<ProjectedTriangle> triangles;
     std::vector<std::size_t> ends;  // of each instance's triangles
     for (const Instance& instance : instances) {
-        NoCounters uncounted;
         for_each_visible_triangle(
             instance.mesh, camera.clip_from_world(options.size) * instance.world_from_model,
-            options.size, Culling::none, uncounted,
+            options.size, Culling::none,
             [&](const ProjectedTriangle& projected) { triangles.push_back(projected); },
             [&](const std::vector<vec3>&) {
                 return transform(options.mvp, camera, options.size, instance);

@@ -52,24 +52,23 @@ enum class Culling { back_faces, none };
 /// @param visit      Called as visit(const ProjectedTriangle&).
 /// @param transform  Called as transform(positions): takes the mesh's positions to clip space.
 /// @param clip       Called as clip(vertices_clip): gives the ClippedTriangles of one triangle.
-template <typename CounterPolicy, typename Visit, typename Transform, typename Clip>
+template <typename Visit, typename Transform, typename Clip>
 void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, ivec2 size,
-                               Culling culling, CounterPolicy& counters, Visit&& visit,
-                               Transform&& transform, Clip&& clip) {
-    counters.add(Counter::meshes_in);
-    count_undrawn_if_asked(mesh, clip_from_model, counters);
+                               Culling culling, Visit&& visit, Transform&& transform, Clip&& clip) {
+    count(Counter::meshes_in);
+    count_undrawn_if_asked(mesh, clip_from_model);
     if (is_outside_frustum(mesh.bounds, clip_from_model)) {
-        counters.add(Counter::meshes_culled_by_frustum);
+        count(Counter::meshes_culled_by_frustum);
         return;
     }
-    if (!mesh.tangents.empty()) counters.add(Counter::meshes_with_tangents);
+    if (!mesh.tangents.empty()) count(Counter::meshes_with_tangents);
     const std::vector<vec4> positions_clip = transform(mesh.positions);
     for (const Triangle& triangle : mesh.triangles) {
-        counters.add(Counter::triangles_in);
+        count(Counter::triangles_in);
         for (const ClippedTriangle& clipped : clip(vertices_of(triangle, positions_clip))) {
             const ProjectedTriangle projected = project(mesh, triangle, clipped, size);
             if (projected.is_back_facing && culling == Culling::back_faces)
-                counters.add(Counter::triangles_culled_by_facing);
+                count(Counter::triangles_culled_by_facing);
             else
                 visit(projected);
         }
@@ -77,15 +76,15 @@ void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, iv
 }
 
 /// The same of all meshes of a scene, transformed in float and clipped by all six planes.
-template <typename CounterPolicy, typename Visit>
+template <typename Visit>
 void for_each_visible_triangle(const Scene& scene, const mat4& clip_from_world, ivec2 size,
-                               Culling culling, CounterPolicy& counters, Visit&& visit) {
+                               Culling culling, Visit&& visit) {
     const auto to_clip_space = [&](const std::vector<vec3>& positions) {
         return transform(clip_from_world, positions);
     };
     for (const Mesh& mesh : scene.meshes)
-        for_each_visible_triangle(mesh, clip_from_world, size, culling, counters, visit,
-                                  to_clip_space, clip_triangle);
+        for_each_visible_triangle(mesh, clip_from_world, size, culling, visit, to_clip_space,
+                                  clip_triangle);
 }
 
 }  // namespace rasterbook

@@ -34,8 +34,7 @@ static Assets make_assets(Scene scene, const Options& options) {
     return {std::move(scene), std::move(textures)};
 }
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const Assets& assets, CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const Assets& assets) {
     const auto& [scene, textures] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -51,25 +50,23 @@ static Image<vec3> render(const Options& options, const Assets& assets, CounterP
         MappedBarycentrics mapped(options.texture, projected.on_screen, projected.clipped);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_tested);
+            count(Counter::fragments_tested);
             if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-            counters.add(Counter::fragments_shaded);
+            count(Counter::fragments_shaded);
             color[pixel] = face_color;
             if (texture == nullptr) return;
-            counters.add(Counter::texture_samples);
+            count(Counter::texture_samples);
             const FragmentUv uv = fragment_uv(uvs, mapped.at(pixel, on_screen));
             color[pixel] *= vec3(sample(*texture, options.texture.filter, uv));
         });
     };
-    for_each_visible_triangle(scene, clip_from_world, options.size, Culling::back_faces, counters,
-                              draw);
+    for_each_visible_triangle(scene, clip_from_world, options.size, Culling::back_faces, draw);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "05_textures", "Draws a scene with textures.", make_assets,
-        [](auto&... arguments) { return render(arguments...); },
-        [](auto&... of) { return texture_probe(of...); });
+    return run_lesson<Options>(argc, argv, "05_textures", "Draws a scene with textures.",
+                               make_assets, render,
+                               [](auto&... of) { return texture_probe(of...); });
 }

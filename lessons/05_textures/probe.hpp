@@ -76,14 +76,14 @@ inline void report_texels(PixelReport& report, const Texture& texture, Filter fi
 inline vec4 report_sample(PixelReport& report, const char* name, const Texture& texture,
                           Filter filter, const FragmentUv& uv) {
     const ivec2 size = texture.levels[0].size;
-    filter = filter_at(texture, filter, uv);
+    const float level = level_of_detail(uv.ddx, uv.ddy, size);
+    filter = filter_at(texture, filter, level);
     report.line(name, std::to_string(size.x) + "x" + std::to_string(size.y) + " texels");
     report.line("  uv", words(uv.here), "Eq. 5.1");
     report.line("  in the texture", words(texture_position(uv.here, texture.wrap)),
                 "Eq. 5.4 and 5.5");
     std::size_t finest = 0, coarsest = 0;
     if (filter == Filter::trilinear) {
-        const float level = level_of_detail(uv.ddx, uv.ddy, size);
         const std::size_t last = texture.levels.size() - 1;
         finest = static_cast<std::size_t>(clamp(level, 0.0f, static_cast<float>(last)));
         coarsest = std::min(finest + 1, last);

@@ -141,21 +141,22 @@ inline bool has_own_filter(const Texture& texture) {
     return std::min(texture.magnified, texture.minified) != Filter::trilinear;
 }
 
-/// The filter of a fragment: the program's, or the texture's own where that is simpler. (Called by
-/// few textures: inlined, it would slow down the others.)
-[[gnu::noinline]] inline Filter filter_at(const Texture& texture, Filter filter,
-                                          const FragmentUv& uv) {
-    const bool is_minified = level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size) > 0;
-    return std::min(filter, is_minified ? texture.minified : texture.magnified);
+/// The filter of a fragment: the program's, or the texture's own where that is simpler.
+///
+/// @param level  Of detail: above 0, the texture is minified.
+inline Filter filter_at(const Texture& texture, Filter filter, float level) {
+    return std::min(filter, level > 0 ? texture.minified : texture.magnified);
 }
 
 /// The texture's colour, linear, and alpha in a fragment.
 inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) {
-    if (has_own_filter(texture)) filter = filter_at(texture, filter, uv);
+    float level = 0;
+    if (filter == Filter::trilinear || has_own_filter(texture))
+        level = level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size);
+    filter = filter_at(texture, filter, level);
     const vec2 position = texture_position(uv.here, texture.wrap);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], position);
     if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], position);
-    const float level = level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size);
     return sample_trilinear(texture, position, level);
 }
 

@@ -25,9 +25,7 @@ struct Options : LessonOptions {
     void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
 };
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const PhongAssets& assets,
-                          CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const PhongAssets& assets) {
     const auto& [scene, textures, effects] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -44,19 +42,19 @@ static Image<vec3> render(const Options& options, const PhongAssets& assets,
             light_vertices(options.shading, lights, camera.position_world, surface, projected);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_tested);
+            count(Counter::fragments_tested);
             if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-            counters.add(Counter::fragments_shaded);
+            count(Counter::fragments_shaded);
             const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
             const SurfaceColor base_color =
-                surface_color(surface, on_surface, options.texture.filter, counters);
+                surface_color(surface, on_surface, options.texture.filter);
             if (!surface.effects[Effect::light]) {
                 color[pixel] = unlit(base_color);
                 return;
             }
             const vec3 normal = interpolate(surface.normals_world, on_surface.here);
             SurfacePoint<float> point =
-                surface_point(surface, on_surface.here, normal, camera.position_world, counters);
+                surface_point(surface, on_surface.here, normal, camera.position_world);
             scale_normal(options.shading, normal, point);
             const ReflectedLight reflected = at_vertices.is_used()
                                                  ? at_vertices.at(on_surface.here)
@@ -65,14 +63,13 @@ static Image<vec3> render(const Options& options, const PhongAssets& assets,
         });
     };
     for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
-                              counters, draw);
+                              draw);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "06_phong", "Draws a scene with Phong lighting.", make_phong_assets<Options>,
-        [](auto&... arguments) { return render(arguments...); },
-        [](auto&... of) { return phong_probe(of...); });
+    return run_lesson<Options>(argc, argv, "06_phong", "Draws a scene with Phong lighting.",
+                               make_phong_assets<Options>, render,
+                               [](auto&... of) { return phong_probe(of...); });
 }

@@ -26,7 +26,6 @@ PixelProbe phong_probe(const PhongProbeOptions& options, const PhongAssets& asse
             report, *seen, triangle_surface(scene, assets.textures, effects, projected),
             options.texture.filter);
         if (!effects[Effect::light]) return report_unlit(report, base_color);
-        NoCounters uncounted;
         const std::array lights = studio_lights(shading.key_light, scene.bounds());
         const VertexLighting at_vertices =
             light_vertices(shading, lights, camera.position_world, surface, projected);
@@ -36,7 +35,7 @@ PixelProbe phong_probe(const PhongProbeOptions& options, const PhongAssets& asse
         }
         const vec3 normal = interpolate(surface.normals_world, on_surface.here);
         SurfacePoint<float> point =
-            surface_point(surface, on_surface.here, normal, camera.position_world, uncounted);
+            surface_point(surface, on_surface.here, normal, camera.position_world);
         scale_normal(shading, normal, point);
         report_point(report, point, scene.origin);
         const VariantHighlight highlight = highlight_of(shading, surface);

@@ -27,7 +27,6 @@ struct SeenSurface {
 /// Says which colours a surface has in a fragment.
 inline SeenSurface report_surface(PixelReport& report, const SeenFragment& seen,
                                   const TriangleSurface& surface, Filter filter) {
-    NoCounters uncounted;
     const FragmentBarycentrics at =
         perspective_correct(perspective_setup(*seen.projected), seen.on_screen);
     report_perspective(report, *seen.projected, at);
@@ -41,7 +40,7 @@ inline SeenSurface report_surface(PixelReport& report, const SeenFragment& seen,
     if (surface.effects[Effect::emission_map])
         report_sample(report, "emission texture", *surface.emission_texture, filter,
                       fragment_uv(surface.emission_uvs, at));
-    const SurfaceColor color = surface_color(surface, at, filter, uncounted);
+    const SurfaceColor color = surface_color(surface, at, filter);
     report.line("diffuse colour", color.diffuse);
     if (surface.effects[Effect::highlight]) report.line("specular colour", color.specular);
     if (color.emission != vec3(0)) report.line("emission", color.emission);

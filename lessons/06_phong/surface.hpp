@@ -63,33 +63,41 @@ inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTexture
     return surface;
 }
 
-/// The sample of a fragment's colour texture: linear colour and alpha, 0 to 1; without one, white.
+/// What a surface's colour texture holds at a point: linear colour and alpha, 0 to 1; without one,
+/// white.
 ///
 /// @tparam G  F, or float where all of them are of one triangle.
-template <typename F, typename G, typename CounterPolicy>
-glm::vec<4, F> texture_sample(const SurfaceInputs<G>& surface, const PerspectiveBarycentrics<F>& at,
-                              Filter filter, CounterPolicy& counters) {
+template <typename F, typename G>
+glm::vec<4, F> texture_color(const SurfaceInputs<G>& surface, const PerspectiveBarycentrics<F>& at,
+                             Filter filter) {
     if (!surface.effects[Effect::texture]) return glm::vec<4, F>(F(1.0f));
-    counters.add(Counter::texture_samples);
     return sample(*surface.texture, filter, fragment_uv(surface.uvs, at));
+}
+
+/// texture_color() of a fragment, counted.
+template <typename F, typename G>
+glm::vec<4, F> texture_sample(const SurfaceInputs<G>& surface, const PerspectiveBarycentrics<F>& at,
+                              Filter filter) {
+    if (surface.effects[Effect::texture]) count_each<F>(Counter::texture_samples);
+    return texture_color(surface, at, filter);
 }
 
 /// The colours of a fragment: the material's own, times its textures.
 ///
 /// @param in_texture  Of texture_sample().
-template <typename F, typename G, typename CounterPolicy>
+template <typename F, typename G>
 FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
                                const PerspectiveBarycentrics<F>& at, const Vec3<F>& in_texture,
-                               Filter filter, CounterPolicy& counters) {
+                               Filter filter) {
     FragmentColor<F> color(surface.own_color);
     if (surface.effects[Effect::texture]) color.tint(in_texture);
     if (surface.effects[Effect::specular_map]) {
-        counters.add(Counter::texture_samples);
+        count_each<F>(Counter::texture_samples);
         color.specular *= Vec3<F>(
             sample(*surface.specular_texture, filter, fragment_uv(surface.specular_uvs, at)));
     }
     if (surface.effects[Effect::emission_map]) {
-        counters.add(Counter::texture_samples);
+        count_each<F>(Counter::texture_samples);
         color.emission *= Vec3<F>(
             sample(*surface.emission_texture, filter, fragment_uv(surface.emission_uvs, at)));
     }
@@ -97,26 +105,25 @@ FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
 }
 
 /// The colours of a fragment whose colour texture has not been sampled yet.
-template <typename F, typename G, typename CounterPolicy>
+template <typename F, typename G>
 FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
-                               const PerspectiveBarycentrics<F>& at, Filter filter,
-                               CounterPolicy& counters) {
-    const Vec3<F> in_texture(texture_sample(surface, at, filter, counters));
-    return surface_color(surface, at, in_texture, filter, counters);
+                               const PerspectiveBarycentrics<F>& at, Filter filter) {
+    const Vec3<F> in_texture(texture_sample(surface, at, filter));
+    return surface_color(surface, at, in_texture, filter);
 }
 
 /// A point of a surface as light falls on it.
 ///
 /// @param normal_world  Of any length (Eq. 6.8); the first vertex's where it is zero or not finite.
-template <typename F, typename G, typename CounterPolicy>
+template <typename F, typename G>
 SurfacePoint<F> surface_point(const SurfaceInputs<G>& surface, Vec3<F> at, Vec3<F> normal_world,
-                              vec3 eye_world, CounterPolicy& counters) {
-    counters.add(Counter::fragments_lit);
+                              vec3 eye_world) {
+    count_each<F>(Counter::fragments_lit);
     SurfacePoint<F> point{interpolate(surface.positions_world, at),
                           unit_or(normal_world, Vec3<F>(surface.normals_world[0])),
                           Vec3<F>(F(0.0f))};
     if (surface.effects[Effect::highlight]) {
-        counters.add(Counter::highlights);
+        count_each<F>(Counter::highlights);
         point.toward_eye = unit_or(Vec3<F>(eye_world) - point.position_world, point.normal_world);
     }
     return point;

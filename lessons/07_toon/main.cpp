@@ -25,9 +25,7 @@ struct Options : LessonOptions {
     void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
 };
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const ToonAssets& assets,
-                          CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const ToonAssets& assets) {
     const auto& [scene, textures, effects, hull_normals] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -44,20 +42,20 @@ static Image<vec3> render(const Options& options, const ToonAssets& assets,
         const auto light_at = [&](Barycentrics at) {
             const vec3 normal = interpolate(surface.normals_world, at);
             const SurfacePoint<float> point =
-                surface_point(surface, at, normal, camera.position_world, counters);
+                surface_point(surface, at, normal, camera.position_world);
             return reflected_light(lights, point, highlight_of(surface));
         };
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_tested);
+            count(Counter::fragments_tested);
             if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-            counters.add(Counter::fragments_shaded);
+            count(Counter::fragments_shaded);
             const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
             const SurfaceColor base_color =
-                surface_color(surface, on_surface, options.texture.filter, counters);
+                surface_color(surface, on_surface, options.texture.filter);
             color[pixel] = unlit(base_color);
             if (surface.effects[Effect::light]) {
-                counters.add(Counter::toon_fragments);
+                count(Counter::toon_fragments);
                 const int tones = options.shading.tones;
                 color[pixel] =
                     options.shading.smooth
@@ -67,20 +65,19 @@ static Image<vec3> render(const Options& options, const ToonAssets& assets,
                         : toon(base_color, toon_ambient_light, light_at(on_surface.here), tones);
             }
             add_to_outline(options.shading, surface, on_surface.here, camera.position_world, pixel,
-                           normals, color, counters);
+                           normals, color);
         });
     };
     for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
-                              counters, draw);
+                              draw);
     draw_outlines(options.shading, scene, hull_normals, camera, options.samples_per_side, normals,
-                  depth, color, counters);
+                  depth, color);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "07_toon", "Draws a scene as a comic does.", make_toon_assets<Options>,
-        [](auto&... arguments) { return render(arguments...); },
-        [](auto&... of) { return toon_probe(of...); });
+    return run_lesson<Options>(argc, argv, "07_toon", "Draws a scene as a comic does.",
+                               make_toon_assets<Options>, render,
+                               [](auto&... of) { return toon_probe(of...); });
 }

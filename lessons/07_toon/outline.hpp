@@ -85,14 +85,13 @@ inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3
 /// The body occludes all of them but a rim of `width_px` pixels (Eq. 7.9).
 ///
 /// The rim has that width wherever the body is round; at the sides of a cube it is 0.577 to 1 times
-/// as wide. A sheet that is not closed has no rim where it shows its front.
+/// as wide. A sheet that is not closed has no rim where it shows its front. Counts each fragment of
+/// the hull as one of outline_tests, and each one inked as one of outline_pixels.
 ///
 /// @param normals  hull_normals() of the mesh.
 /// @param depth    All bodies are drawn already. Takes the hull's depths where it is visible.
-/// @param counters outline_tests: each fragment of the hull; outline_pixels: each one inked.
-template <typename CounterPolicy>
-void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
-               float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
+inline void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
+                      float width_px, DepthBuffer& depth, Image<vec3>& color) {
     const ivec2 size = color.size();
     const mat4 clip_from_world = camera.clip_from_world(size);
     // No test of the bounds: of a body just outside of the picture, the rim may reach into it.
@@ -107,9 +106,9 @@ void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera&
              clip_triangle(vertices_of(triangle, positions_clip))) {
             const ProjectedTriangle back = project(mesh, triangle, clipped, size);
             fill_triangle(back.on_screen, size, [&](ivec2 pixel, Barycentrics barycentrics) {
-                counters.add(Counter::outline_tests);
+                count(Counter::outline_tests);
                 if (!depth.test_and_write(pixel, back.depth.at(barycentrics))) return;
-                counters.add(Counter::outline_pixels);
+                count(Counter::outline_pixels);
                 color[pixel] = ink;
             });
         }
@@ -161,17 +160,15 @@ vec3 sobel(At&& at, ivec2 along) {
 ///                  thinner, or up to 1.41 times as wide. 0: each pixel is asked, none inked. In a
 ///                  picture that is at most that even number of pixels wide or high, none is
 ///                  asked.
-template <typename CounterPolicy>
-void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
-                float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,
-                CounterPolicy& counters) {
+inline void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
+                       float width_px, const EdgeThresholds& thresholds, Image<vec3>& color) {
     const int reach = static_cast<int>(std::ceil(width_px / 2));
     const ivec2 size = color.size();
     if (std::min(size.x, size.y) <= 2 * reach) return;
     const ivec2 x(1, 0), y(0, 1);
     for (ivec2 pixel(0); pixel.y < size.y; ++pixel.y)
         for (pixel.x = 0; pixel.x < size.x; ++pixel.x) {
-            counters.add(Counter::outline_tests);
+            count(Counter::outline_tests);
             // At the border, those of the next pixel that has neighbours on all sides.
             const ivec2 center = glm::clamp(pixel, ivec2(reach), size - 1 - reach);
             const auto inverse_w_at = [&](ivec2 offset) {
@@ -183,7 +180,7 @@ void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Came
             const vec3 turn_x = sobel(normal_at, x), turn_y = sobel(normal_at, y);
             const float turn = std::sqrt(glm::dot(turn_x, turn_x) + glm::dot(turn_y, turn_y));
             if (bend > thresholds.depth * inverse_w_at(ivec2(0)) || turn > thresholds.normals) {
-                counters.add(Counter::outline_pixels);
+                count(Counter::outline_pixels);
                 color[pixel] = ink;
             }
         }

@@ -77,8 +77,7 @@ void report_edges(PixelReport& report, const Camera& camera, float width_px, ive
                     words(glm::length(sobel(normal_beside, {0, 1}))) + "; an edge from " +
                     words(thresholds.normals),
                 "Eq. 7.13");
-    NoCounters uncounted;
-    draw_edges(depth, normals, camera, width_px, thresholds, window, uncounted);
+    draw_edges(depth, normals, camera, width_px, thresholds, window);
     const vec3 drawn = window[pixel - center + reach];
     report.line("edge", drawn == ink ? "yes: inked" : "none", "Eq. 7.14");
     color = drawn;
@@ -118,11 +117,10 @@ void report_hulls(PixelReport& report, const Scene& scene, const HullNormals& hu
 /// Says how the light of a fragment becomes paint.
 vec3 report_paint(PixelReport& report, const ToonProbeOptions& options, const Scene& scene,
                   vec3 eye_world, const SeenSurface& seen) {
-    NoCounters uncounted;
     const auto& [surface, on_surface, base_color] = seen;
     const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
     const auto point_at = [&, &of = surface](Barycentrics at) {
-        return surface_point(of, at, interpolate(of.normals_world, at), eye_world, uncounted);
+        return surface_point(of, at, interpolate(of.normals_world, at), eye_world);
     };
     const auto light_at = [&, &of = surface](Barycentrics at) {
         return reflected_light(lights, point_at(at), highlight_of(of));
@@ -145,7 +143,6 @@ vec3 report_paint(PixelReport& report, const ToonProbeOptions& options, const Sc
 /// Says whether the facing ratio makes an outline.
 void report_facing(PixelReport& report, const ToonVariant& variant, vec3 eye_world,
                    const SeenSurface& seen, vec3& color) {
-    NoCounters uncounted;
     const auto& [surface, on_surface, base_color] = seen;
     const vec3 normal = unit_or(interpolate(surface.normals_world, on_surface.here), vec3(0));
     const vec3 position = interpolate(surface.positions_world, on_surface.here);
@@ -154,8 +151,7 @@ void report_facing(PixelReport& report, const ToonVariant& variant, vec3 eye_wor
                     "; ink below " + words(variant.min_facing),
                 "Eq. 7.6");
     Image<vec3> one(ivec2(1), color), no_normals;
-    add_to_outline(variant, surface, on_surface.here, eye_world, ivec2(0), no_normals, one,
-                   uncounted);
+    add_to_outline(variant, surface, on_surface.here, eye_world, ivec2(0), no_normals, one);
     color = one[ivec2(0)];
 }
 
@@ -175,14 +171,13 @@ PixelProbe toon_probe(const ToonProbeOptions& options, const ToonAssets& assets)
         };
         const auto edge_inputs = [&](ivec2 at) {
             PixelHistory unused;
-            NoCounters uncounted;
             const auto there = seen_in(triangles, shading.culling(), scene, at, unused);
             if (!there) return EdgeInputs();
             Image<vec3> normal(ivec2(1)), no_color;
             const FragmentBarycentrics on_surface =
                 perspective_correct(perspective_setup(*there->projected), there->on_screen);
             add_to_outline(shading, surface_of(*there), on_surface.here, eye_world, ivec2(0),
-                           normal, no_color, uncounted);
+                           normal, no_color);
             return EdgeInputs{there->depth, normal[ivec2(0)]};
         };
         const auto seen = report_triangles(report, triangles, shading.culling(), scene, pixel);

@@ -105,21 +105,20 @@ inline HullNormals make_hull_normals(const Scene& scene, Outline outline) {
 /// the facing ratio, the outline itself.
 ///
 /// @param normals  Takes the normal; only with Outline::edges.
-template <typename CounterPolicy>
-void add_to_outline(const ToonVariant& variant, const TriangleSurface& surface, Barycentrics at,
-                    vec3 eye_world, ivec2 pixel, Image<vec3>& normals, Image<vec3>& color,
-                    CounterPolicy& counters) {
+inline void add_to_outline(const ToonVariant& variant, const TriangleSurface& surface,
+                           Barycentrics at, vec3 eye_world, ivec2 pixel, Image<vec3>& normals,
+                           Image<vec3>& color) {
     if (variant.outline != Outline::facing && variant.outline != Outline::edges) return;
     const vec3 normal = unit_or(interpolate(surface.normals_world, at), vec3(0));
     if (variant.outline == Outline::edges) {
         normals[pixel] = normal;
         return;
     }
-    counters.add(Counter::outline_tests);
+    count(Counter::outline_tests);
     const vec3 position = interpolate(surface.positions_world, at);
     const vec3 toward_eye = unit_or(eye_world - position, normal);
     if (!is_facing_outline(facing_ratio(normal, toward_eye), variant.min_facing)) return;
-    counters.add(Counter::outline_pixels);
+    count(Counter::outline_pixels);
     color[pixel] = ink;
 }
 
@@ -127,16 +126,15 @@ void add_to_outline(const ToonVariant& variant, const TriangleSurface& surface, 
 ///
 /// @param normals           Of what is visible, from add_to_outline().
 /// @param samples_per_side  So many of this picture's pixels are in a row of a written pixel.
-template <typename CounterPolicy>
-void draw_outlines(const ToonVariant& variant, const Scene& scene, const HullNormals& hull_normals,
-                   const Camera& camera, int samples_per_side, const Image<vec3>& normals,
-                   DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
+inline void draw_outlines(const ToonVariant& variant, const Scene& scene,
+                          const HullNormals& hull_normals, const Camera& camera,
+                          int samples_per_side, const Image<vec3>& normals, DepthBuffer& depth,
+                          Image<vec3>& color) {
     const float width_px = variant.outline_width_px * static_cast<float>(samples_per_side);
     if (variant.outline == Outline::hull)
         for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-            draw_hull(scene.meshes[i], hull_normals[i], camera, width_px, depth, color, counters);
-    if (variant.outline == Outline::edges)
-        draw_edges(depth, normals, camera, width_px, {}, color, counters);
+            draw_hull(scene.meshes[i], hull_normals[i], camera, width_px, depth, color);
+    if (variant.outline == Outline::edges) draw_edges(depth, normals, camera, width_px, {}, color);
 }
 
 }  // namespace rasterbook

@@ -27,9 +27,7 @@ struct Options : LessonOptions {
     void declare(Knobs& knobs) { declare_all(knobs, texture, shading, normal_map); }
 };
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const NormalMapAssets& assets,
-                          CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const NormalMapAssets& assets) {
     const auto& [scene, textures, normal_maps, effects] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -45,34 +43,33 @@ static Image<vec3> render(const Options& options, const NormalMapAssets& assets,
             triangle_normal_map(options.normal_map, scene, normal_maps, projected);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_tested);
+            count(Counter::fragments_tested);
             if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-            counters.add(Counter::fragments_shaded);
+            count(Counter::fragments_shaded);
             const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
             const SurfaceColor base_color =
-                surface_color(surface, on_surface, options.texture.filter, counters);
+                surface_color(surface, on_surface, options.texture.filter);
             if (!surface.effects[Effect::light]) {
                 color[pixel] = unlit(base_color);
                 return;
             }
             const vec3 normal = normal_mapped(normal_map, options.normal_map, on_surface,
                                               interpolate(surface.normals_world, on_surface.here),
-                                              options.texture.filter, counters);
+                                              options.texture.filter);
             const SurfacePoint<float> point =
-                surface_point(surface, on_surface.here, normal, camera.position_world, counters);
+                surface_point(surface, on_surface.here, normal, camera.position_world);
             const ReflectedLight reflected = reflected_light(lights, point, highlight_of(surface));
             color[pixel] = phong(base_color, ambient_light, reflected);
         });
     };
     for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
-                              counters, draw);
+                              draw);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "08_normal_maps", "Draws a scene with normal maps.",
-        make_normal_map_assets<Options>, [](auto&... arguments) { return render(arguments...); },
-        [](auto&... of) { return normal_map_probe(of...); });
+    return run_lesson<Options>(argc, argv, "08_normal_maps", "Draws a scene with normal maps.",
+                               make_normal_map_assets<Options>, render,
+                               [](auto&... of) { return normal_map_probe(of...); });
 }

@@ -108,12 +108,11 @@ TangentBasis<F> frame_at(const NormalMapInputs<G>& map, const NormalMapVariant& 
 ///
 /// @param normal  Interpolated, not yet scaled.
 /// @return        Of any length.
-template <typename F, typename G, typename CounterPolicy>
+template <typename F, typename G>
 Vec3<F> normal_mapped(const NormalMapInputs<G>& map, const NormalMapVariant& variant,
-                      const PerspectiveBarycentrics<F>& at, Vec3<F> normal, Filter filter,
-                      CounterPolicy& counters) {
+                      const PerspectiveBarycentrics<F>& at, Vec3<F> normal, Filter filter) {
     if (map.texture == nullptr) return normal;
-    counters.add(Counter::normal_map_samples);
+    count_each<F>(Counter::normal_map_samples);
     Vec3<F> in_map = sample_normal(*map.texture, filter, fragment_uv(map.uvs, at));
     if (variant.channels == Channels::xy) in_map = with_z(glm::vec<2, F>(in_map));
     if (map.space == MapSpace::object) return F(map.side) * in_map;

@@ -27,13 +27,12 @@ PixelProbe normal_map_probe(const NormalMapProbeOptions& options, const NormalMa
         const auto [surface, on_surface, base_color] = report_surface(
             report, *seen, triangle_surface(scene, assets.textures, effects, projected), filter);
         if (!effects[Effect::light]) return report_unlit(report, base_color);
-        NoCounters uncounted;
         const vec3 normal = report_normal(
             report, triangle_normal_map(options.normal_map, scene, assets.normal_maps, projected),
             options.normal_map, on_surface, interpolate(surface.normals_world, on_surface.here),
             filter);
         const SurfacePoint<float> point =
-            surface_point(surface, on_surface.here, normal, camera.position_world, uncounted);
+            surface_point(surface, on_surface.here, normal, camera.position_world);
         report_point(report, point, scene.origin);
         const std::array lights = studio_lights(options.shading.key_light, scene.bounds(), low_key);
         report_lights(report, lights, point, highlight_of(surface),

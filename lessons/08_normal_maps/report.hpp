@@ -19,7 +19,6 @@ inline vec3 report_normal(PixelReport& report, const TriangleNormalMap& map,
                           const NormalMapVariant& variant, const FragmentBarycentrics& at,
                           vec3 normal, Filter filter) {
     if (map.texture == nullptr) return normal;
-    NoCounters uncounted;
     report.line("normal, interpolated", normal, "Eq. 5.1");
     const FragmentUv uv = fragment_uv(map.uvs, at);
     report_sample(report, "normal map", *map.texture, filter, uv);
@@ -29,7 +28,7 @@ inline vec3 report_normal(PixelReport& report, const TriangleNormalMap& map,
         report.line("  tangent", frame.tangent, "Eq. 8.5");
         report.line("  bitangent", frame.bitangent, "Eq. 8.5");
     }
-    const vec3 mapped = normal_mapped(map, variant, at, normal, filter, uncounted);
+    const vec3 mapped = normal_mapped(map, variant, at, normal, filter);
     report.line("  normal, perturbed", mapped, "Eq. 8.7");
     return mapped;
 }

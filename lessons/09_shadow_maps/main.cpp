@@ -29,15 +29,13 @@ struct Options : LessonOptions {
     void declare(Knobs& knobs) { declare_all(knobs, texture, shading, normal_map, shadow); }
 };
 
-template <typename CounterPolicy>
-static Image<vec3> render(const Options& options, const ShadowAssets& assets,
-                          CounterPolicy& counters) {
+static Image<vec3> render(const Options& options, const ShadowAssets& assets) {
     const auto& [scene, textures, normal_maps, effects, shadow_bounds] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::array lights = raking_lights(options.shading.key_light, scene.bounds());
-    const ShadowMaps shadow_maps = draw_shadow_maps(options.shadow, options.shading.all_effects,
-                                                    scene, shadow_bounds, lights, counters);
+    const ShadowMaps shadow_maps =
+        draw_shadow_maps(options.shadow, options.shading.all_effects, scene, shadow_bounds, lights);
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
@@ -50,24 +48,24 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets,
         TriangleReceiver receiver = triangle_receiver(surface.positions_world);  // keeps biases
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_tested);
+            count(Counter::fragments_tested);
             if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-            counters.add(Counter::fragments_shaded);
+            count(Counter::fragments_shaded);
             const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
             const SurfaceColor base_color =
-                surface_color(surface, on_surface, options.texture.filter, counters);
+                surface_color(surface, on_surface, options.texture.filter);
             if (!surface.effects[Effect::light]) {
                 color[pixel] = unlit(base_color);
                 return;
             }
             const vec3 smooth_normal = interpolate(surface.normals_world, on_surface.here);
             const vec3 normal = normal_mapped(normal_map, options.normal_map, on_surface,
-                                              smooth_normal, options.texture.filter, counters);
+                                              smooth_normal, options.texture.filter);
             const SurfacePoint<float> point =
-                surface_point(surface, on_surface.here, normal, camera.position_world, counters);
+                surface_point(surface, on_surface.here, normal, camera.position_world);
             const auto visibility = [&](std::size_t light) {
                 return light_visibility(shadow_maps, light, receiver, point.position_world,
-                                        smooth_normal, counters);
+                                        smooth_normal);
             };
             const ReflectedLight reflected =
                 reflected_light(lights, point, highlight_of(surface), visibility);
@@ -75,14 +73,13 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets,
         });
     };
     for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
-                              counters, draw);
+                              draw);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
-        argc, argv, "09_shadow_maps", "Draws a scene with shadow maps.",
-        make_shadow_assets<Options>, [](auto&... arguments) { return render(arguments...); },
-        [](auto&... of) { return shadow_probe(of...); });
+    return run_lesson<Options>(argc, argv, "09_shadow_maps", "Draws a scene with shadow maps.",
+                               make_shadow_assets<Options>, render,
+                               [](auto&... of) { return shadow_probe(of...); });
 }

@@ -17,13 +17,12 @@ namespace rasterbook {
 PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& assets) {
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
     const std::array lights = raking_lights(options.shading.key_light, assets.scene.bounds());
-    NoCounters unused;
     return [options, &assets, camera, lights,
             triangles = projected_triangles(assets.scene, camera.clip_from_world(options.size),
                                             options.size),
-            shadow_maps = std::make_shared<const ShadowMaps>(draw_shadow_maps(
-                options.shadow, options.shading.all_effects, assets.scene, assets.shadow_bounds,
-                lights, unused))](ivec2 pixel, PixelReport& report) {
+            shadow_maps = std::make_shared<const ShadowMaps>(
+                draw_shadow_maps(options.shadow, options.shading.all_effects, assets.scene,
+                                 assets.shadow_bounds, lights))](ivec2 pixel, PixelReport& report) {
         const Scene& scene = assets.scene;
         const Filter filter = options.texture.filter;
         const auto seen =
@@ -34,13 +33,12 @@ PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& a
         const auto [surface, on_surface, base_color] = report_surface(
             report, *seen, triangle_surface(scene, assets.textures, effects, projected), filter);
         if (!effects[Effect::light]) return report_unlit(report, base_color);
-        NoCounters uncounted;
         const vec3 smooth_normal = interpolate(surface.normals_world, on_surface.here);
         const vec3 normal = report_normal(
             report, triangle_normal_map(options.normal_map, scene, assets.normal_maps, projected),
             options.normal_map, on_surface, smooth_normal, filter);
         const SurfacePoint<float> point =
-            surface_point(surface, on_surface.here, normal, camera.position_world, uncounted);
+            surface_point(surface, on_surface.here, normal, camera.position_world);
         report_point(report, point, scene.origin);
         TriangleReceiver receiver = triangle_receiver(surface.positions_world);
         report_lights(report, lights, point, highlight_of(surface), [&](std::size_t l) {
@@ -48,8 +46,7 @@ PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& a
                                      smooth_normal);
         });
         const auto visibility = [&](std::size_t l) {
-            return light_visibility(*shadow_maps, l, receiver, point.position_world, smooth_normal,
-                                    uncounted);
+            return light_visibility(*shadow_maps, l, receiver, point.position_world, smooth_normal);
         };
         return report_phong(report, base_color, ambient_light,
                             reflected_light(lights, point, highlight_of(surface), visibility));

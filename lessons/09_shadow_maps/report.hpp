@@ -46,14 +46,12 @@ inline void report_shadow_test(PixelReport& report, const ShadowMaps& shadow_map
 /// Says how much of a light reaches a point of a triangle, and why.
 inline float report_visibility(PixelReport& report, const ShadowMaps& shadow_maps, std::size_t l,
                                TriangleReceiver& receiver, vec3 position, vec3 normal) {
-    NoCounters uncounted;
     bool is_tested = false;
-    const float visibility =
-        light_visibility(shadow_maps, l, receiver, position, normal, uncounted,
-                         [&](std::size_t map, const PcfKernel& kernel) {
-                             is_tested = true;
-                             report_shadow_test(report, shadow_maps, l, map, receiver, kernel);
-                         });
+    const float visibility = light_visibility(
+        shadow_maps, l, receiver, position, normal, [&](std::size_t map, const PcfKernel& kernel) {
+            is_tested = true;
+            report_shadow_test(report, shadow_maps, l, map, receiver, kernel);
+        });
     if (is_tested)
         report.line("  visibility", visibility, "Eq. 9.16");
     else

@@ -100,8 +100,8 @@ struct ShadowMap {
 ///
 /// @param casts  Called as casts(material), an index into Scene::materials: whether triangles of it
 ///               cast shadows.
-template <typename Casts, typename CounterPolicy>
-void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
+template <typename Casts>
+void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts) {
     if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
     const ivec2 size(map.size);
     const std::vector<vec4> positions_clip = transform(map.clip_from_world, mesh.positions);
@@ -111,7 +111,7 @@ void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy
              clip_triangle(vertices_of(triangle, positions_clip))) {
             const ProjectedTriangle caster = project(mesh, triangle, clipped, size);
             fill_triangle(caster.on_screen, size, [&](ivec2 texel, Barycentrics barycentrics) {
-                counters.add(Counter::shadow_fragments);
+                count(Counter::shadow_fragments);
                 map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(barycentrics));
             });
         }

@@ -132,27 +132,27 @@ inline LightShadowMaps make_shadow_maps(const Light& light, int size, const Shad
 /// @param casts        For each light, whether it casts shadows.
 /// @param draw         Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths,
 ///                     and draws the scene's casters, or nothing where a map stays empty.
-template <typename CounterPolicy, typename Draw>
+template <typename Draw>
 ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, const Scene& scene,
                             const ShadowBounds& bounds, std::span<const Light> lights,
-                            std::span<const bool> casts, CounterPolicy& counters, Draw&& draw) {
+                            std::span<const bool> casts, Draw&& draw) {
     assert(lights.size() <= max_lights && casts.size() >= lights.size());
     ShadowMaps shadow_maps{variant.radius(), variant.bias,
                            std::vector<LightShadowMaps>(lights.size())};
     const Bounds all = scene.bounds();
-    std::size_t count = 0;
+    std::size_t maps = 0;
     for (std::size_t l = 0; l < lights.size(); ++l) {
         LightShadowMaps& of_light = shadow_maps.of_light[l];
         if (casts[l]) of_light = make_shadow_maps(lights[l], variant.size, bounds, all);
         of_light.is_drawn = !of_light.maps.empty();
         if (!of_light.is_drawn && all_effects)
             of_light = make_shadow_maps(lights[l], variant.size, {all, all}, all);
-        if (count + of_light.maps.size() > max_shadow_maps) of_light = {};
+        if (maps + of_light.maps.size() > max_shadow_maps) of_light = {};
         of_light.light = lights[l];
-        of_light.first_map = count;
-        count += of_light.maps.size();
+        of_light.first_map = maps;
+        maps += of_light.maps.size();
         for (ShadowMap& map : of_light.maps) {
-            counters.add(Counter::shadow_passes);
+            count(Counter::shadow_passes);
             draw(map, of_light.is_drawn);
         }
     }
@@ -160,19 +160,18 @@ ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, cons
 }
 
 /// The same, drawn one mesh after the other, for the lights of this lesson.
-template <typename CounterPolicy>
-ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, const Scene& scene,
-                            const ShadowBounds& bounds, std::span<const Light> lights,
-                            CounterPolicy& counters) {
+inline ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects,
+                                   const Scene& scene, const ShadowBounds& bounds,
+                                   std::span<const Light> lights) {
     const auto casts = [&](std::size_t material) {
         return casts_shadows(scene.materials[material]);
     };
-    return draw_shadow_maps(variant, all_effects, scene, bounds, lights, light_casts, counters,
+    return draw_shadow_maps(variant, all_effects, scene, bounds, lights, light_casts,
                             [&](ShadowMap& map, bool is_drawn) {
                                 map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
                                 if (is_drawn)
                                     for (const Mesh& mesh : scene.meshes)
-                                        draw_casters(map, mesh, casts, counters);
+                                        draw_casters(map, mesh, casts);
                             });
 }
 
@@ -205,9 +204,9 @@ constexpr float full_cosine = 0.1f;
 /// @param normal  The surface's own, not a normal map's; of any length.
 /// @param before  Called as before(map, kernel) before the taps are read: the map's number, counted
 ///                through all lights, and a kernel that is in the map.
-template <typename CounterPolicy, typename Before>
+template <typename Before>
 float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleReceiver& triangle,
-                       vec3 position, vec3 normal, CounterPolicy& counters, const Before& before) {
+                       vec3 position, vec3 normal, const Before& before) {
     const LightShadowMaps& of_light = shadow_maps.of_light[l];
     if (of_light.maps.empty()) return 1;
     const vec3 from_light = position - of_light.light.position_world;
@@ -219,7 +218,7 @@ float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleRec
     const std::size_t i = of_light.map_of_view[of_light.has_faces ? cube_face(from_light) : 0];
     const float faded = of_light.is_drawn ? min(cosine / full_cosine, 1.0f) : 1.0f;
     if (i == LightShadowMaps::no_map) return faded;
-    counters.add(Counter::shadow_tests);
+    count(Counter::shadow_tests);
     const ShadowMap& map = of_light.maps[i];
     const bool is_back = glm::dot(triangle.front, dvec3(normal)) < 0;
     std::optional<Receiver>& bias = triangle.biases[of_light.first_map + i][is_back];
@@ -232,10 +231,9 @@ float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleRec
 }
 
 /// The same with maps that are drawn.
-template <typename CounterPolicy>
-float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleReceiver& triangle,
-                       vec3 position, vec3 normal, CounterPolicy& counters) {
-    return light_visibility(shadow_maps, l, triangle, position, normal, counters,
+inline float light_visibility(const ShadowMaps& shadow_maps, std::size_t l,
+                              TriangleReceiver& triangle, vec3 position, vec3 normal) {
+    return light_visibility(shadow_maps, l, triangle, position, normal,
                             [](std::size_t, const PcfKernel&) {});
 }
 

@@ -31,22 +31,18 @@ struct Options : LessonOptions {
     }
 };
 
-template <typename Pool, typename CounterPolicy>
-static Image<vec3> render(const Options& options, const ShadowAssets& assets, Pool& pool,
-                          CounterPolicy& total) {
+static Image<vec3> render(const Options& options, const ShadowAssets& assets, Workers& pool) {
     const auto& [scene, textures, normal_maps, effects, shadow_bounds] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::array lights = raking_lights(options.shading.key_light, scene.bounds());
-    WorkerCounters<CounterPolicy> counters_of(pool.size());
     const ShadowMaps shadow_maps =
         draw_shadow_maps(pool, options.threads, options.shadow, options.shading.all_effects, scene,
-                         shadow_bounds, lights, counters_of);
+                         shadow_bounds, lights);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
 
-    const auto draw = [&](const ProjectedTriangle& projected, const Tile& tile,
-                          CounterPolicy& counters) {
+    const auto draw = [&](const ProjectedTriangle& projected, const Tile& tile) {
         const TriangleSurface surface =
             triangle_surface(scene, textures, effects[projected.triangle.material], projected);
         const PerspectiveSetup setup = perspective_setup(projected);
@@ -55,24 +51,24 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Po
         TriangleReceiver receiver = triangle_receiver(surface.positions_world);  // keeps biases
 
         fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_tested);
+            count(Counter::fragments_tested);
             if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-            counters.add(Counter::fragments_shaded);
+            count(Counter::fragments_shaded);
             const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
             const SurfaceColor base_color =
-                surface_color(surface, on_surface, options.texture.filter, counters);
+                surface_color(surface, on_surface, options.texture.filter);
             if (!surface.effects[Effect::light]) {
                 color[pixel] = unlit(base_color);
                 return;
             }
             const vec3 smooth_normal = interpolate(surface.normals_world, on_surface.here);
             const vec3 normal = normal_mapped(normal_map, options.normal_map, on_surface,
-                                              smooth_normal, options.texture.filter, counters);
+                                              smooth_normal, options.texture.filter);
             const SurfacePoint<float> point =
-                surface_point(surface, on_surface.here, normal, camera.position_world, counters);
+                surface_point(surface, on_surface.here, normal, camera.position_world);
             const auto visibility = [&](std::size_t light) {
                 return light_visibility(shadow_maps, light, receiver, point.position_world,
-                                        smooth_normal, counters);
+                                        smooth_normal);
             };
             const ReflectedLight reflected =
                 reflected_light(lights, point, highlight_of(surface), visibility);
@@ -80,18 +76,15 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Po
         });
     };
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    const BinnedTriangles triangles(pool, scene, meshes_in_view(scene, clip_from_world, total),
-                                    clip_from_world, tiling, options.shading.culling(),
-                                    counters_of);
+    const BinnedTriangles triangles(pool, scene, meshes_in_view(scene, clip_from_world),
+                                    clip_from_world, tiling, options.shading.culling());
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
         clear_tile(color, depth, tile);
-        triangles.for_each_in(i, [&](const ProjectedTriangle& projected) {
-            draw(projected, tile, counters_of[worker]);
-        });
+        triangles.for_each_in(i,
+                              [&](const ProjectedTriangle& projected) { draw(projected, tile); });
         if (options.threads.show) tint(color, tile, worker);
     });
-    counters_of.add_to(total);
     if (options.show_depth) return depth_picture(depth);
     return color;
 }
@@ -100,10 +93,10 @@ int main(int argc, char** argv) {
     return run_lesson<Options>(
         argc, argv, "10_threading", "Draws the same picture with several threads.",
         make_shadow_assets<Options>,
-        [](const auto& options, const auto& assets, auto& counters) {
+        [](const auto& options, const auto& assets) {
             thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
-            return render(options, assets, *pool, counters);
+            return render(options, assets, *pool);
         },
         [](auto&... of) { return shadow_probe(of...); });
 }

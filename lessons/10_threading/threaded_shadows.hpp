@@ -12,8 +12,8 @@
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/split.hpp"
 #include "10_threading/thread_options.hpp"
-#include "10_threading/thread_pool.hpp"
 #include "common/app/counters.hpp"
+#include "common/app/workers.hpp"
 #include "common/image/backdrop.hpp"
 
 namespace rasterbook {
@@ -42,29 +42,25 @@ inline void clear_tile(ShadowMap& map, const Tile& tile) {
 
 /// The triangles that cast shadows into a map, binned.
 ///
-/// @param pool    Has size() and run() as ThreadPool does.
 /// @param tiling  Of a picture of map.size * map.size.
 /// @param set_up  Does what project_triangles() does.
-template <typename Pool>
-BinnedTriangles casters_of(Pool& pool, const ShadowMap& map, const Scene& scene,
-                           const Tiling& tiling, ProjectTriangles* set_up = project_triangles) {
+inline BinnedTriangles casters_of(Workers& pool, const ShadowMap& map, const Scene& scene,
+                                  const Tiling& tiling,
+                                  ProjectTriangles* set_up = project_triangles) {
     std::vector<const Mesh*> meshes;
     for (const Mesh& mesh : scene.meshes)
         if (!is_outside_frustum(mesh.bounds, map.clip_from_world)) meshes.push_back(&mesh);
-    WorkerCounters<NoCounters> uncounted(pool.size());
     const auto casts = [&](std::size_t material) {
         return casts_shadows(scene.materials[material]);
     };
-    return {pool,  scene,     meshes, map.clip_from_world, tiling, Culling::none,
-            casts, uncounted, set_up};
+    const Uncounted casters_are;
+    return {pool, scene, meshes, map.clip_from_world, tiling, Culling::none, casts, set_up};
 }
 
 /// Draws a caster's depths into a tile of a map.
-template <typename CounterPolicy>
-void draw_caster(ShadowMap& map, const ProjectedTriangle& caster, const Tile& tile,
-                 CounterPolicy& counters) {
+inline void draw_caster(ShadowMap& map, const ProjectedTriangle& caster, const Tile& tile) {
     fill_tile(caster.on_screen, tile, [&](ivec2 texel, Barycentrics at) {
-        counters.add(Counter::shadow_fragments);
+        count(Counter::shadow_fragments);
         map.depths.test_and_write(texel + max_pcf_radius, caster.depth.at(at));
     });
 }
@@ -72,61 +68,41 @@ void draw_caster(ShadowMap& map, const ProjectedTriangle& caster, const Tile& ti
 /// Clears a tile of a map's texels and draws the depths of the casters into it.
 ///
 /// @param i  The tile's number in the tiling.
-template <typename CounterPolicy>
-void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& tiling, std::size_t i,
-               CounterPolicy& counters) {
+inline void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& tiling,
+                      std::size_t i) {
     const Tile tile = tiling[i];
     clear_tile(map, tile);
-    casters.for_each_in(
-        i, [&](const ProjectedTriangle& caster) { draw_caster(map, caster, tile, counters); });
+    casters.for_each_in(i,
+                        [&](const ProjectedTriangle& caster) { draw_caster(map, caster, tile); });
 }
 
 /// Draws all tiles of a map.
 ///
 /// @param casters   What there is a draw_tile() for.
-/// @param counters  One for each worker of the pool.
-template <typename Pool, typename Casters, typename CounterPolicy>
-void draw_tiles(Pool& pool, ShadowMap& map, const Casters& casters, const Tiling& tiling,
-                WorkerCounters<CounterPolicy>& counters) {
-    pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
-        draw_tile(map, casters, tiling, i, counters[worker]);
-    });
+template <typename Casters>
+void draw_tiles(Workers& pool, ShadowMap& map, const Casters& casters, const Tiling& tiling) {
+    pool.run(tiling.count(),
+             [&](std::size_t i, std::size_t) { draw_tile(map, casters, tiling, i); });
 }
 
 /// Clears a map and draws the depths of a scene's casters into it: the same bits, and the same
 /// count of fragments, as by draw_casters().
 ///
-/// @param pool      Has size() and run() as ThreadPool does.
 /// @param tiling    Of a picture of map.size * map.size.
 /// @param is_drawn  Else the map is cleared only.
-/// @param counters  One for each worker of the pool.
-template <typename Pool, typename CounterPolicy>
-void draw_map(Pool& pool, ShadowMap& map, const Scene& scene, const Tiling& tiling, bool is_drawn,
-              WorkerCounters<CounterPolicy>& counters) {
+inline void draw_map(Workers& pool, ShadowMap& map, const Scene& scene, const Tiling& tiling,
+                     bool is_drawn) {
     BinnedTriangles casters;
     if (is_drawn) casters = casters_of(pool, map, scene, tiling);
-    draw_tiles(pool, map, casters, tiling, counters);
+    draw_tiles(pool, map, casters, tiling);
 }
 
 /// The shadow maps of all lights, as lesson 09 draws them.
 ///
-/// @param counters  One for each worker of the pool.
 /// @param casts     For each light, whether it casts shadows.
-template <typename Pool, typename CounterPolicy>
-ShadowMaps draw_shadow_maps(Pool& pool, const ThreadOptions& threads, const ShadowVariant& variant,
-                            bool all_effects, const Scene& scene, const ShadowBounds& bounds,
-                            std::span<const Light> lights, WorkerCounters<CounterPolicy>& counters,
-                            std::span<const bool> casts = light_casts) {
-    const Tiling tiling = threads.tiling_of(ivec2(variant.size), pool.size());
-    return draw_shadow_maps(variant, all_effects, scene, bounds, lights, casts, counters[0],
-                            [&](ShadowMap& map, bool is_drawn) {
-                                draw_map(pool, map, scene, tiling, is_drawn, counters);
-                            });
-}
-// In threaded_shadows.cpp, so that main.cpp takes less time.
-extern template ShadowMaps draw_shadow_maps(ThreadPool&, const ThreadOptions&, const ShadowVariant&,
-                                            bool, const Scene&, const ShadowBounds&,
-                                            std::span<const Light>, WorkerCounters<Counters>&,
-                                            std::span<const bool>);
+ShadowMaps draw_shadow_maps(Workers& pool, const ThreadOptions& threads,
+                            const ShadowVariant& variant, bool all_effects, const Scene& scene,
+                            const ShadowBounds& bounds, std::span<const Light> lights,
+                            std::span<const bool> casts = light_casts);
 
 }  // namespace rasterbook

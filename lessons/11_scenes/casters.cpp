@@ -3,7 +3,17 @@
 
 namespace rasterbook {
 
-template ShadowMaps draw_shadow_maps(ThreadPool&, const SceneRendererOptions&, const SceneAssets&,
-                                     WorkerCounters<Counters>&);
+ShadowMaps draw_shadow_maps(Workers& pool, const SceneRendererOptions& options,
+                            const SceneAssets& assets) {
+    const Tiling tiling = options.threads.tiling_of(ivec2(options.shadow.size), pool.size());
+    return draw_shadow_maps(options.shadow, options.shading.all_effects, assets.scene,
+                            assets.shadow_bounds, assets.lit_by.lights, assets.lit_by.casts,
+                            [&](ShadowMap& map, bool is_drawn) {
+                                Casters casters({}, &assets, options.texture.filter);
+                                if (is_drawn)
+                                    casters.triangles = casters_of(pool, map, assets.scene, tiling);
+                                draw_tiles(pool, map, casters, tiling);
+                            });
+}
 
 }  // namespace rasterbook

@@ -33,18 +33,16 @@ struct Casters {
 };
 
 /// Draws a caster's depths into a tile of a map, but for its holes (Eq. 11.7).
-template <typename CounterPolicy>
-void draw_caster_with_holes(ShadowMap& map, const Casters& casters, const ProjectedTriangle& caster,
-                            const Tile& tile, CounterPolicy& counters) {
+inline void draw_caster_with_holes(ShadowMap& map, const Casters& casters,
+                                   const ProjectedTriangle& caster, const Tile& tile) {
     const auto& [surface, setup, colors] = alpha_inputs(*casters.assets, caster);
     fill_tile(caster.on_screen, tile, [&](ivec2 texel, Barycentrics on_screen) {
-        counters.add(Counter::shadow_fragments);
+        count(Counter::shadow_fragments);
         const float depth = caster.depth.at(on_screen);
         if (!(depth > map.depths.depths()[texel + max_pcf_radius])) return;
-        counters.add(Counter::alpha_tested_texels);
-        NoCounters uncounted;
+        count(Counter::alpha_tested_texels);
         const FragmentBarycentrics at = perspective_correct(setup, on_screen);
-        const vec4 in_texture = texture_sample(surface, at, casters.filter, uncounted);
+        const vec4 in_texture = texture_color(surface, at, casters.filter);
         if (passes_alpha_test(opacity_at(surface, colors, at.here, in_texture),
                               surface.material.alpha_cutoff))
             map.depths.test_and_write(texel + max_pcf_radius, depth);
@@ -52,37 +50,19 @@ void draw_caster_with_holes(ShadowMap& map, const Casters& casters, const Projec
 }
 
 /// Clears a tile of a map, and draws the casters that are binned there.
-template <typename CounterPolicy>
-void draw_tile(ShadowMap& map, const Casters& casters, const Tiling& tiling, std::size_t i,
-               CounterPolicy& counters) {
+inline void draw_tile(ShadowMap& map, const Casters& casters, const Tiling& tiling, std::size_t i) {
     const Tile tile = tiling[i];
     clear_tile(map, tile);
     casters.triangles.for_each_in(i, [&](const ProjectedTriangle& caster) {
         if (casters.has_holes(caster))
-            draw_caster_with_holes(map, casters, caster, tile, counters);
+            draw_caster_with_holes(map, casters, caster, tile);
         else
-            draw_caster(map, caster, tile, counters);
+            draw_caster(map, caster, tile);
     });
 }
 
 /// The shadow maps of all lights of a scene.
-///
-/// @param counters  One for each worker of the pool.
-template <typename Pool, typename CounterPolicy>
-ShadowMaps draw_shadow_maps(Pool& pool, const SceneRendererOptions& options,
-                            const SceneAssets& assets, WorkerCounters<CounterPolicy>& counters) {
-    const Tiling tiling = options.threads.tiling_of(ivec2(options.shadow.size), pool.size());
-    return draw_shadow_maps(options.shadow, options.shading.all_effects, assets.scene,
-                            assets.shadow_bounds, assets.lit_by.lights, assets.lit_by.casts,
-                            counters[0], [&](ShadowMap& map, bool is_drawn) {
-                                Casters casters({}, &assets, options.texture.filter);
-                                if (is_drawn)
-                                    casters.triangles = casters_of(pool, map, assets.scene, tiling);
-                                draw_tiles(pool, map, casters, tiling, counters);
-                            });
-}
-extern template ShadowMaps draw_shadow_maps(ThreadPool&, const SceneRendererOptions&,
-                                            const SceneAssets&,
-                                            WorkerCounters<Counters>&);  // casters.cpp
+ShadowMaps draw_shadow_maps(Workers& pool, const SceneRendererOptions& options,
+                            const SceneAssets& assets);
 
 }  // namespace rasterbook

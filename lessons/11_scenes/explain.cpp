@@ -23,7 +23,7 @@ void add_word(std::string& words, std::string_view word) {
 }  // namespace
 
 void explain(const Scene& scene, const ScenePlan& plan, const std::string& camera,
-             const std::vector<std::string>& lights, const Counters& counters, StepClock& clock) {
+             const std::vector<std::string>& lights, StepClock& clock) {
     clock.end();
     std::ostringstream out;
     std::size_t triangles = 0;
@@ -57,7 +57,7 @@ void explain(const Scene& scene, const ScenePlan& plan, const std::string& camer
     }
     out << "\ncounters\n";
     for (std::size_t i = 0; i < counter_names.size(); ++i)
-        out << "  " << counter_names[i] << ": " << counters.values[i] << '\n';
+        out << "  " << counter_names[i] << ": " << thread_counters.values[i] << '\n';
     out << "\nmilliseconds\n";
     for (const auto& [step, ms] : clock.steps()) {
         std::ostringstream number;

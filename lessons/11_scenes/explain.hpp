@@ -40,14 +40,13 @@ class StepClock {
     bool is_over_ = true;
 };
 
-/// Writes on standard output what of a scene is drawn and what is not. Several threads may do so at
-/// once.
+/// Writes on standard output what of a scene is drawn and what is not, and what this thread has
+/// counted. Several threads may do so at once.
 ///
 /// @param camera    Its name.
 /// @param lights    As lights_in_words() has them.
-/// @param counters  Of the picture.
 /// @param clock     Its last step ends now.
 void explain(const Scene& scene, const ScenePlan& plan, const std::string& camera,
-             const std::vector<std::string>& lights, const Counters& counters, StepClock& clock);
+             const std::vector<std::string>& lights, StepClock& clock);
 
 }  // namespace rasterbook

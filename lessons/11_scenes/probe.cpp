@@ -56,7 +56,6 @@ void report_toon(PixelReport& report, std::span<const Light> lights,
 void report_stages(PixelReport& report, const Frame<>& frame, const SeenFragment& seen) {
     const Permutation& with = all_permutations[permutation_of(plan_of(frame, seen))];
     TriangleInputs inputs = triangle_inputs(with, frame, *seen.projected);
-    NoCounters uncounted;
     auto [surface, at, color] = report_surface(report, seen, inputs.surface, frame.filter);
     if (inputs.colors.are_there) {
         const vec3 of_vertices(inputs.colors.at(at.here));
@@ -70,8 +69,7 @@ void report_stages(PixelReport& report, const Frame<>& frame, const SeenFragment
     const vec3 own_normal = interpolate(surface.normals_world, at.here);
     const vec3 normal =
         report_normal(report, inputs.normal_map, frame.normal_map, at, own_normal, frame.filter);
-    const SurfacePoint<float> point =
-        surface_point(surface, at.here, normal, frame.eye_world, uncounted);
+    const SurfacePoint<float> point = surface_point(surface, at.here, normal, frame.eye_world);
     report_point(report, point, frame.assets.scene.origin);
     const std::span<const Light> lights = frame.assets.lit_by.lights;
     const auto said_visibility = [&](std::size_t l) {
@@ -81,7 +79,7 @@ void report_stages(PixelReport& report, const Frame<>& frame, const SeenFragment
     };
     const auto visibility = [&](std::size_t l) {
         return with.shadow ? light_visibility(frame.shadow_maps, l, inputs.receiver,
-                                              point.position_world, own_normal, uncounted)
+                                              point.position_world, own_normal)
                            : 1.0f;
     };
     if (with.model == ShadingModel::phong) {
@@ -100,14 +98,12 @@ void report_stages(PixelReport& report, const Frame<>& frame, const SeenFragment
 /// What a shader makes of a triangle in a pixel where nothing else is.
 ///
 /// @return  None in a hole.
-std::optional<TransparentFragment> draw_alone(const Frame<>& frame,
-                                              const Shaders<Counters>& shaders, ivec2 pixel,
-                                              const SeenFragment& of) {
+std::optional<TransparentFragment> draw_alone(const Frame<>& frame, const Shaders& shaders,
+                                              ivec2 pixel, const SeenFragment& of) {
     TransparentFragments transparent;
-    Counters uncounted;
     frame.depth.clear(pixel, pixel);
     shaders[of.projected->triangle.material](frame, *of.projected, Tile{{pixel, pixel}},
-                                             transparent, uncounted);
+                                             transparent);
     if (!transparent.empty()) return transparent.fragments().front();
     if (frame.depth.depths()[pixel] == frame.depth.farthest()) return {};
     return TransparentFragment{pixel, of.depth, 1, frame.color[pixel]};
@@ -115,11 +111,10 @@ std::optional<TransparentFragment> draw_alone(const Frame<>& frame,
 
 /// The alpha of a fragment, which decides whether there is a hole.
 float alpha_of(const Frame<>& frame, const SeenFragment& of) {
-    NoCounters uncounted;
     const AlphaInputs inputs = alpha_inputs(frame.assets, *of.projected);
     const FragmentBarycentrics at = perspective_correct(inputs.setup, of.on_screen);
     return opacity_at(inputs.surface, inputs.colors, at.here,
-                      texture_sample(inputs.surface, at, frame.filter, uncounted));
+                      texture_sample(inputs.surface, at, frame.filter));
 }
 
 class SceneProbe {
@@ -132,12 +127,9 @@ class SceneProbe {
           shaders_(assets.plan) {
         const Scene& scene = assets.scene;
         ThreadPool pool(1);
-        WorkerCounters<Counters> counters(pool.size());
-        shadow_maps_ = draw_shadow_maps(pool, options, assets, counters);
-        NoCounters uncounted;
+        shadow_maps_ = draw_shadow_maps(pool, options, assets);
         const mat4 clip_from_world = camera_.clip_from_world(options.size);
-        const std::vector<const Mesh*> meshes =
-            seen_meshes(scene, outlines_, clip_from_world, uncounted);
+        const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines_, clip_from_world);
         for (const Pass& pass : passes_of(assets.plan, meshes))
             for (const Mesh* mesh : pass.meshes) {
                 const std::vector<vec4> positions = transform(clip_from_world, mesh->positions);
@@ -248,7 +240,7 @@ class SceneProbe {
     const SceneAssets& assets_;
     Camera camera_;
     std::vector<Mesh> outlines_;
-    Shaders<Counters> shaders_;
+    Shaders shaders_;
     ShadowMaps shadow_maps_{};
     std::vector<ProjectedTriangle> opaque_, blended_;  ///< In drawing order.
 };

@@ -94,10 +94,9 @@ inline void draw_paper(Image<vec3>& color, const Tile& part) {
 std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera);
 
 /// What may be seen of a scene and its outlines. Only the scene's own meshes are counted.
-template <typename CounterPolicy>
-std::vector<const Mesh*> seen_meshes(const Scene& scene, const std::vector<Mesh>& outlines,
-                                     const mat4& clip_from_world, CounterPolicy& counters) {
-    std::vector<const Mesh*> meshes = meshes_in_view(scene, clip_from_world, counters);
+inline std::vector<const Mesh*> seen_meshes(const Scene& scene, const std::vector<Mesh>& outlines,
+                                            const mat4& clip_from_world) {
+    std::vector<const Mesh*> meshes = meshes_in_view(scene, clip_from_world);
     for (const Mesh& mesh : outlines)
         if (!is_outside_frustum(mesh.bounds, clip_from_world)) meshes.push_back(&mesh);
     return meshes;
@@ -131,20 +130,17 @@ struct BinnedPasses {
 /// Transforms, clips and bins the triangles of each pass.
 ///
 /// @param meshes    Those in the camera's view.
-/// @param counters  One for each worker of the pool.
 /// @param set_up    Does what project_triangles() does.
-template <typename Pool, typename CounterPolicy>
-BinnedPasses bin_passes(Pool& pool, const SceneAssets& assets,
-                        const std::vector<const Mesh*>& meshes, const mat4& clip_from_world,
-                        const Tiling& tiling, WorkerCounters<CounterPolicy>& counters,
-                        ProjectTriangles* set_up = project_triangles) {
+inline BinnedPasses bin_passes(Workers& pool, const SceneAssets& assets,
+                               const std::vector<const Mesh*>& meshes, const mat4& clip_from_world,
+                               const Tiling& tiling, ProjectTriangles* set_up = project_triangles) {
     BinnedPasses binned;
     for (const Pass& pass : passes_of(assets.plan, meshes))
         (pass.is_blended ? binned.blended : binned.opaque)
             .emplace_back(
                 pool, assets.scene, pass.meshes, clip_from_world, tiling, pass.culling,
                 [&](std::size_t material) { return pass.takes(assets.plan.materials[material]); },
-                counters, set_up);
+                set_up);
     return binned;
 }
 

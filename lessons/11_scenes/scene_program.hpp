@@ -20,20 +20,20 @@ namespace rasterbook {
 /// As run_lesson().
 ///
 /// @tparam Options  Derived from SceneRendererOptions.
-/// @param render    Called as render(const Options&, const SceneAssets&, ThreadPool&, Counters&,
+/// @param render    Called as render(const Options&, const SceneAssets&, ThreadPool&,
 ///                  StepClock&).
 template <typename Options, typename Render>
 int run_scene_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
     return run_lesson<Options>(
         argc, argv, std::move(name), std::move(title), make_scene_assets<Options>,
-        [render](const Options& options, const SceneAssets& assets, Counters& counters) {
+        [render](const Options& options, const SceneAssets& assets) {
             thread_local std::optional<ThreadPool> pool;
             if (!pool) pool.emplace(options.threads.threads);  // once for all frames
             StepClock clock;
-            Image<vec3> picture = render(options, assets, *pool, counters, clock);
+            Image<vec3> picture = render(options, assets, *pool, clock);
             if (options.scene.explain)
                 explain(assets.scene, assets.plan, camera_of_picture(options, assets.scene).name,
-                        lights_in_words(assets.lit_by, assets.plan), counters, clock);
+                        lights_in_words(assets.lit_by, assets.plan), clock);
             return picture;
         },
         [](const auto&... of) { return scene_probe(of...); });

@@ -133,14 +133,14 @@ TriangleInputs triangle_inputs(const Permutation& with, const Frame<Maps>& frame
 ///
 /// @param inputs      TriangleInputs; or those of several triangles, one in each number of F.
 /// @param in_texture  The colour of texture_sample().
-template <Permutation with, typename F, typename Maps, typename Inputs, typename CounterPolicy>
+template <Permutation with, typename F, typename Maps, typename Inputs>
 Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBarycentrics<F>& at,
-               const Vec3<F>& in_texture, CounterPolicy& counters) {
+               const Vec3<F>& in_texture) {
     const auto& surface = inputs.surface;
     const std::span<const Light> lights = frame.assets.lit_by.lights;
-    FragmentColor<F> own = surface_color(surface, at, in_texture, frame.filter, counters);
+    FragmentColor<F> own = surface_color(surface, at, in_texture, frame.filter);
     if (inputs.colors.are_there) {  // Eq. 11.10
-        counters.add(Counter::colored_fragments);
+        count_each<F>(Counter::colored_fragments);
         own.tint(Vec3<F>(inputs.colors.at(at.here)));
     }
     if constexpr (with.model == ShadingModel::unlit) {
@@ -149,14 +149,13 @@ Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBaryce
         const Vec3<F> own_normal = interpolate(surface.normals_world, at.here);
         Vec3<F> normal = own_normal;
         if constexpr (with.normal_map)
-            normal = normal_mapped(inputs.normal_map, frame.normal_map, at, own_normal,
-                                   frame.filter, counters);
-        const SurfacePoint<F> point =
-            surface_point(surface, at.here, normal, frame.eye_world, counters);
+            normal =
+                normal_mapped(inputs.normal_map, frame.normal_map, at, own_normal, frame.filter);
+        const SurfacePoint<F> point = surface_point(surface, at.here, normal, frame.eye_world);
         const auto visibility = [&](std::size_t l, auto... mask) {
             if constexpr (with.shadow)
                 return light_visibility(frame.shadow_maps, l, inputs.receiver, point.position_world,
-                                        own_normal, mask..., counters);
+                                        own_normal, mask...);
             else
                 return F(1.0f);
         };
@@ -164,7 +163,7 @@ Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBaryce
             return phong(own, ambient_light,
                          reflected_light(lights, point, highlight_of(surface), visibility));
         } else {
-            counters.add(Counter::toon_fragments);
+            count_each<F>(Counter::toon_fragments);
             const F level = toon_level(lights, point.position_world, normal, *surface.material.toon,
                                        visibility);
             return own.emission + toon_paint(own.ambient, own.diffuse, level);
@@ -175,30 +174,30 @@ Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBaryce
 /// Draws what of a triangle lies in a tile.
 ///
 /// @param transparent  Takes the transparent fragments.
-template <Permutation with, typename CounterPolicy>
+template <Permutation with>
 void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, const Tile& tile,
-                   TransparentFragments& transparent, CounterPolicy& counters) {
+                   TransparentFragments& transparent) {
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
     TriangleInputs triangle = triangle_inputs(with, frame, projected);
     const bool is_masked = plan[Effect::mask], is_blended = plan[Effect::blend];
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
-        counters.add(Counter::fragments_tested);
+        count(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
         if (!(depth > frame.depth.depths()[pixel])) return;
         const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
-        const vec4 in_texture = texture_sample(triangle.surface, at, frame.filter, counters);
+        const vec4 in_texture = texture_sample(triangle.surface, at, frame.filter);
         float opacity = 1;  // of all that is neither glass nor has holes
         if (is_masked || plan.is_glass)
             opacity = opacity_at(triangle.surface, triangle.colors, at.here, in_texture);
         if (is_masked) {
-            counters.add(Counter::alpha_tested_fragments);
+            count(Counter::alpha_tested_fragments);
             if (!passes_alpha_test(opacity, triangle.surface.material.alpha_cutoff)) return;
             opacity = 1;
         }
-        counters.add(Counter::fragments_shaded);
-        const vec3 color = shaded<with>(frame, triangle, at, vec3(in_texture), counters);
+        count(Counter::fragments_shaded);
+        const vec3 color = shaded<with>(frame, triangle, at, vec3(in_texture));
         if (is_blended) {  // what lies behind stays visible: no depth is written
-            counters.add(Counter::blended_fragments);
+            count(Counter::blended_fragments);
             transparent.add({pixel, depth, opacity, color});
         } else {
             frame.depth.test_and_write(pixel, depth);
@@ -208,31 +207,17 @@ void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, con
 }
 
 /// For each material its shader.
-template <typename CounterPolicy>
 class Shaders {
   public:
     using Shader = void (*)(const Frame<>&, const ProjectedTriangle&, const Tile&,
-                            TransparentFragments&, CounterPolicy&);
+                            TransparentFragments&);
 
     explicit Shaders(const ScenePlan& plan);
 
     Shader operator[](std::size_t material) const { return of_material_[material]; }
 
   private:
-    template <std::size_t... i>
-    static constexpr std::array<Shader, sizeof...(i)> compiled(std::index_sequence<i...>) {
-        return {&draw_triangle<all_permutations[i], CounterPolicy>...};
-    }
-
     std::vector<Shader> of_material_;
 };
-
-template <typename CounterPolicy>
-Shaders<CounterPolicy>::Shaders(const ScenePlan& plan) {
-    constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
-    for (const MaterialPlan& material : plan.materials)
-        of_material_.push_back(table[permutation_of(material)]);
-}
-extern template class Shaders<Counters>;  // shaders.cpp, so that main.cpp takes less time
 
 }  // namespace rasterbook

@@ -22,16 +22,13 @@ struct Options : SceneRendererOptions {
     }
 };
 
-template <typename Pool, typename CounterPolicy>
-static Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool,
-                          CounterPolicy& total, StepClock& clock) {
+static Image<vec3> render(const Options& options, const SceneAssets& assets, Workers& pool,
+                          StepClock& clock) {
     const auto& [scene, textures, normal_maps, bounds, lit_by, plan, hulls, is_on_paper] = assets;
     const Camera camera = camera_of_picture(options, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
-    WorkerCounters<CounterPolicy> counters_of(pool.size());
     clock.begin("casters");
-    const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets,
-                                         counters_of);
+    const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset, camera.farthest_depth());
     std::vector<TileVisibility> visible_of(pool.size(),
@@ -40,41 +37,38 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 
     clock.begin("triangles");
     const std::vector<Mesh> outlines = outlines_of(assets, camera);
-    const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world, total);
+    const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world);
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    const BinnedPasses passes =
-        bin_passes(pool, assets, meshes, clip_from_world, tiling, counters_of);
+    const BinnedPasses passes = bin_passes(pool, assets, meshes, clip_from_world, tiling);
 
     clock.begin("picture");
-    const VisibleShaders<ShadowMapsOnDemand, CounterPolicy> shaders(plan);
+    const VisibleShaders<ShadowMapsOnDemand> shaders(plan);
     const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
-        CounterPolicy& counters = counters_of[worker];
         clear_tile(color, depth, tile);
         if (is_on_paper) draw_paper(color, tile);
         TileVisibility& visible = visible_of[worker];
         visible.begin(tile);
         const auto shade = [&] {
-            shade_visible(frame, shaders, visible, options.visibility.show, heat, counters);
+            shade_visible(frame, shaders, visible, options.visibility.show, heat);
         };
         for (const BinnedTriangles& pass : passes.opaque)
             pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
                 if (visible.is_full()) shade();
-                draw_id(frame, projected, tile, visible, counters);
+                draw_id(frame, projected, tile, visible);
             });
         shade();
         TransparentFragments transparent;
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)
                 pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                    draw_transparent(frame, projected, part, shaders, transparent, heat, counters);
+                    draw_transparent(frame, projected, part, shaders, transparent, heat);
                 });
             transparent.blend_over(color);
         });
         if (options.threads.show) tint(color, tile, worker);
     });
-    counters_of.add_to(total);
     if (options.show_depth) return depth_picture(depth);
     if (options.visibility.show == Show::shading) return heat.picture();
     if (options.visibility.show == Show::shadow_map) return picture_of(shadow_maps, options.size);
@@ -83,6 +77,5 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 
 int main(int argc, char** argv) {
     return run_scene_lesson<Options>(argc, argv, "12_visibility_buffer",
-                                     "Draws a scene of any file, and shades what is seen.",
-                                     [](auto&... with) { return render(with...); });
+                                     "Draws a scene of any file, and shades what is seen.", render);
 }

@@ -14,7 +14,6 @@
 #include "09_shadow_maps/shadows.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/split.hpp"
-#include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
 #include "11_scenes/casters.hpp"
 #include "common/app/counters.hpp"
@@ -39,19 +38,18 @@ class ShadowMapParts {
     ///
     /// @param middle  A texel of the map.
     /// @param radius  Of the PCF kernel.
-    template <typename CounterPolicy>
-    void draw_around(ivec2 middle, int radius, CounterPolicy& counters) const {
-        draw_in(PixelBox{middle - radius, middle + radius}, counters,
+    void draw_around(ivec2 middle, int radius) const {
+        draw_in(PixelBox{middle - radius, middle + radius},
                 [](auto&... what) { draw_tile(what...); });
     }
 
     /// The same of a box of texels.
     ///
     /// @param fill  Draws a part, as draw_tile() of lesson 11.
-    template <typename CounterPolicy, typename Fill>
-    void draw_in(const PixelBox& texels, CounterPolicy& counters, const Fill& fill) const {
+    template <typename Fill>
+    void draw_in(const PixelBox& texels, const Fill& fill) const {
         tiling_.for_each_in(texels, [&](std::size_t part) {
-            while (!is_drawn(part)) draw(part, counters, fill);
+            while (!is_drawn(part)) draw(part, fill);
         });
     }
 
@@ -64,13 +62,13 @@ class ShadowMapParts {
   private:
     enum State { not_asked, being_drawn, drawn };
 
-    template <typename CounterPolicy, typename Fill>
-    void draw(std::size_t part, CounterPolicy& counters, const Fill& fill) const {
+    template <typename Fill>
+    void draw(std::size_t part, const Fill& fill) const {
         State before = not_asked;
         if (states_[part].compare_exchange_strong(before, being_drawn)) {
             try {
-                counters.add(Counter::shadow_parts);
-                fill(*map_, casters_, tiling_, part, counters);
+                count(Counter::shadow_parts);
+                fill(*map_, casters_, tiling_, part);
             } catch (...) {
                 change(part, not_asked);  // else the others would wait for ever
                 throw;
@@ -100,30 +98,25 @@ class ShadowMapsOnDemand {
     /// @param part_size  Texels along a part's side, at least 1.
     /// @param set_up     Does what project_triangles() of lesson 10 does.
     /// @param with_holes,filter  Of Casters.
-    template <typename Pool, typename CounterPolicy>
-    ShadowMapsOnDemand(Pool& pool, int part_size, const ShadowVariant& variant, bool all_effects,
+    ShadowMapsOnDemand(Workers& pool, int part_size, const ShadowVariant& variant, bool all_effects,
                        const Scene& scene, const ShadowBounds& bounds,
-                       std::span<const Light> lights, WorkerCounters<CounterPolicy>& counters,
-                       std::span<const bool> casts, ProjectTriangles* set_up = project_triangles,
+                       std::span<const Light> lights, std::span<const bool> casts,
+                       ProjectTriangles* set_up = project_triangles,
                        const SceneAssets* with_holes = nullptr, Filter filter = {}) {
         const Tiling tiling(Split::tiles, ivec2(variant.size), 1, part_size);
-        maps_ = draw_shadow_maps(variant, all_effects, scene, bounds, lights, casts, counters[0],
-                                 [&](ShadowMap& map, bool is_drawn) {
-                                     Casters casters({}, with_holes, filter);
-                                     if (is_drawn)
-                                         casters.triangles =
-                                             casters_of(pool, map, scene, tiling, set_up);
-                                     parts_.emplace_back(map, tiling, std::move(casters));
-                                 });
+        maps_ = draw_shadow_maps(
+            variant, all_effects, scene, bounds, lights, casts, [&](ShadowMap& map, bool is_drawn) {
+                Casters casters({}, with_holes, filter);
+                if (is_drawn) casters.triangles = casters_of(pool, map, scene, tiling, set_up);
+                parts_.emplace_back(map, tiling, std::move(casters));
+            });
     }
 
     /// Makes the maps of a scene's lights, and bins the casters; light falls through their holes.
-    template <typename Pool, typename CounterPolicy>
-    ShadowMapsOnDemand(Pool& pool, int part_size, const SceneRendererOptions& options,
-                       const SceneAssets& assets, WorkerCounters<CounterPolicy>& counters,
-                       ProjectTriangles* set_up = project_triangles)
+    ShadowMapsOnDemand(Workers& pool, int part_size, const SceneRendererOptions& options,
+                       const SceneAssets& assets, ProjectTriangles* set_up = project_triangles)
         : ShadowMapsOnDemand(pool, part_size, options.shadow, options.shading.all_effects,
-                             assets.scene, assets.shadow_bounds, assets.lit_by.lights, counters,
+                             assets.scene, assets.shadow_bounds, assets.lit_by.lights,
                              assets.lit_by.casts, set_up, &assets, options.texture.filter) {}
 
     const ShadowMaps& maps() const { return maps_; }
@@ -138,14 +131,12 @@ class ShadowMapsOnDemand {
 
 /// How much of a light reaches a point of a triangle, as in lesson 09. The parts of a map that it
 /// reads are drawn first.
-template <typename CounterPolicy>
-float light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
-                       TriangleReceiver& triangle, vec3 position, vec3 normal,
-                       CounterPolicy& counters) {
+inline float light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
+                              TriangleReceiver& triangle, vec3 position, vec3 normal) {
     const int radius = on_demand.maps().radius;
-    return light_visibility(on_demand.maps(), l, triangle, position, normal, counters,
+    return light_visibility(on_demand.maps(), l, triangle, position, normal,
                             [&](std::size_t map, const PcfKernel& kernel) {
-                                on_demand.parts()[map].draw_around(kernel.middle, radius, counters);
+                                on_demand.parts()[map].draw_around(kernel.middle, radius);
                             });
 }
 

@@ -3,6 +3,6 @@
 
 namespace rasterbook {
 
-template class VisibleShaders<ShadowMapsOnDemand, Counters>;
+template class VisibleShaders<ShadowMapsOnDemand>;
 
 }  // namespace rasterbook

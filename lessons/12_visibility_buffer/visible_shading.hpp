@@ -33,23 +33,23 @@ struct FragmentToShade {
 ///
 /// @param projected  Of a material that has holes or is blended.
 /// @param visit      Called as visit(FragmentToShade).
-template <typename Maps, typename CounterPolicy, typename Visit>
+template <typename Maps, typename Visit>
 void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                              const Tile& tile, CounterPolicy& counters, Visit&& visit) {
+                              const Tile& tile, Visit&& visit) {
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
     const bool is_masked = plan[Effect::mask];
     const AlphaInputs inputs = alpha_inputs(frame.assets, projected);
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
-        counters.add(Counter::fragments_tested);
+        count(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
         if (!(depth > frame.depth.depths()[pixel])) return;
         const FragmentBarycentrics at = perspective_correct(inputs.setup, on_screen);
-        const vec4 in_texture = texture_sample(inputs.surface, at, frame.filter, counters);
+        const vec4 in_texture = texture_sample(inputs.surface, at, frame.filter);
         float opacity = 1;
         if (is_masked || plan.is_glass)
             opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
         if (is_masked) {
-            counters.add(Counter::alpha_tested_fragments);
+            count(Counter::alpha_tested_fragments);
             if (!passes_alpha_test(opacity, inputs.surface.material.alpha_cutoff)) return;
             opacity = 1;
         }
@@ -59,12 +59,12 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
 
 /// Draws depth and id of an opaque triangle (Eq. 12.1). Its colour is not known yet; where it has
 /// holes, the colour buffer keeps the sample of its texture until then.
-template <typename Maps, typename CounterPolicy>
+template <typename Maps>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
-             TileVisibility& visible, CounterPolicy& counters) {
+             TileVisibility& visible) {
     const TriangleId id = visible.add(projected);
     if (frame.assets.plan.materials[projected.triangle.material][Effect::mask])
-        for_each_nearer_fragment(frame, projected, tile, counters, [&](const FragmentToShade& of) {
+        for_each_nearer_fragment(frame, projected, tile, [&](const FragmentToShade& of) {
             const auto& [pixel, depth, opacity, in_texture] = of.fragment;
             frame.depth.test_and_write(pixel, depth);
             visible.write(pixel, id);
@@ -72,7 +72,7 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
         });
     else
         fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_tested);
+            count(Counter::fragments_tested);
             if (frame.depth.test_and_write(pixel, projected.depth.at(on_screen)))
                 visible.write(pixel, id);
         });
@@ -80,46 +80,44 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
 
 /// Draws the colours of the pixels in which a triangle is visible. Of a material with holes,
 /// frame.color has the samples of its texture.
-template <Permutation with, typename Maps, typename CounterPolicy>
+template <Permutation with, typename Maps>
 void shade_pixels(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                  std::span<const PixelRun> runs, CounterPolicy& counters) {
+                  std::span<const PixelRun> runs) {
     TriangleInputs triangle = triangle_inputs(with, frame, projected);
     const BarycentricPlanes planes(projected.on_screen);
     const bool is_sampled = triangle.surface.effects[Effect::mask];
     for (const PixelRun& run : runs)
         planes.for_each_in(run, [&](ivec2 pixel, Barycentrics on_screen) {
-            counters.add(Counter::fragments_shaded);
+            count(Counter::fragments_shaded);
             const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
             vec3& color = frame.color[pixel];
-            if (!is_sampled)
-                color = vec3(texture_sample(triangle.surface, at, frame.filter, counters));
-            color = shaded<with>(frame, triangle, at, color, counters);
+            if (!is_sampled) color = vec3(texture_sample(triangle.surface, at, frame.filter));
+            color = shaded<with>(frame, triangle, at, color);
         });
 }
 
 /// Finds the colours of a triangle's transparent fragments.
-template <Permutation with, typename Maps, typename CounterPolicy>
+template <Permutation with, typename Maps>
 void shade_fragments(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                     std::span<FragmentToShade> fragments, CounterPolicy& counters) {
+                     std::span<FragmentToShade> fragments) {
     TriangleInputs triangle = triangle_inputs(with, frame, projected);
     for (auto& [fragment, on_screen] : fragments) {
-        counters.add(Counter::fragments_shaded);
-        counters.add(Counter::blended_fragments);
-        fragment.color =
-            shaded<with>(frame, triangle, perspective_correct(triangle.setup, on_screen),
-                         fragment.color, counters);
+        count(Counter::fragments_shaded);
+        count(Counter::blended_fragments);
+        fragment.color = shaded<with>(
+            frame, triangle, perspective_correct(triangle.setup, on_screen), fragment.color);
     }
 }
 
 /// For each material its shaders: shade_pixels() and shade_fragments().
-template <typename Maps, typename CounterPolicy>
+template <typename Maps>
 class VisibleShaders {
   public:
     struct Shader {
         void (*shade_pixels)(const Frame<Maps>&, const ProjectedTriangle&,
-                             std::span<const PixelRun>, CounterPolicy&);
+                             std::span<const PixelRun>);
         void (*shade_fragments)(const Frame<Maps>&, const ProjectedTriangle&,
-                                std::span<FragmentToShade>, CounterPolicy&);
+                                std::span<FragmentToShade>);
     };
 
     explicit VisibleShaders(const ScenePlan& plan);
@@ -129,28 +127,28 @@ class VisibleShaders {
   private:
     template <std::size_t... i>
     static constexpr std::array<Shader, sizeof...(i)> compiled(std::index_sequence<i...>) {
-        return {Shader{&rasterbook::shade_pixels<all_permutations[i], Maps, CounterPolicy>,
-                       &rasterbook::shade_fragments<all_permutations[i], Maps, CounterPolicy>}...};
+        return {Shader{&rasterbook::shade_pixels<all_permutations[i], Maps>,
+                       &rasterbook::shade_fragments<all_permutations[i], Maps>}...};
     }
 
     std::vector<Shader> of_material_;
 };
 
-template <typename Maps, typename CounterPolicy>
-VisibleShaders<Maps, CounterPolicy>::VisibleShaders(const ScenePlan& plan) {
+template <typename Maps>
+VisibleShaders<Maps>::VisibleShaders(const ScenePlan& plan) {
     constexpr auto table = compiled(std::make_index_sequence<all_permutations.size()>());
     for (const MaterialPlan& material : plan.materials)
         of_material_.push_back(table[permutation_of(material)]);
 }
-extern template class VisibleShaders<ShadowMapsOnDemand, Counters>;  // visible_shading.cpp
+extern template class VisibleShaders<ShadowMapsOnDemand>;  // visible_shading.cpp
 
 /// Draws the colours of all pixels in which a triangle is visible, each once: Eq. 12.5 says what
 /// that saves. Then the tile has no triangles any more.
-template <typename Maps, typename CounterPolicy>
-void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps, CounterPolicy>& shaders,
-                   TileVisibility& visible, Show show, HeatMap& heat, CounterPolicy& counters) {
+template <typename Maps>
+void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps>& shaders,
+                   TileVisibility& visible, Show show, HeatMap& heat) {
     visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelRun> runs) {
-        shaders[projected.triangle.material].shade_pixels(frame, projected, runs, counters);
+        shaders[projected.triangle.material].shade_pixels(frame, projected, runs);
         for (const PixelRun& run : runs) heat.add(run);
         if (show == Show::ids)
             for (const PixelRun& run : runs)
@@ -159,16 +157,16 @@ void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps, CounterP
 }
 
 /// Gathers the transparent fragments of a triangle.
-template <typename Maps, typename CounterPolicy>
+template <typename Maps>
 void draw_transparent(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                      const Tile& tile, const VisibleShaders<Maps, CounterPolicy>& shaders,
-                      TransparentFragments& transparent, HeatMap& heat, CounterPolicy& counters) {
+                      const Tile& tile, const VisibleShaders<Maps>& shaders,
+                      TransparentFragments& transparent, HeatMap& heat) {
     std::vector<FragmentToShade> fragments;
-    for_each_nearer_fragment(frame, projected, tile, counters, [&](const FragmentToShade& nearer) {
+    for_each_nearer_fragment(frame, projected, tile, [&](const FragmentToShade& nearer) {
         fragments.push_back(nearer);
         heat.add(nearer.fragment.pixel);
     });
-    shaders[projected.triangle.material].shade_fragments(frame, projected, fragments, counters);
+    shaders[projected.triangle.material].shade_fragments(frame, projected, fragments);
     for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
 }
 

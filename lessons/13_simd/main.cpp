@@ -26,17 +26,15 @@ struct Options : SceneRendererOptions {
     }
 };
 
-template <typename Pool, typename CounterPolicy>
-static Image<vec3> render(const Options& options, const SceneAssets& assets, Pool& pool,
-                          CounterPolicy& total, StepClock& clock) {
+static Image<vec3> render(const Options& options, const SceneAssets& assets, Workers& pool,
+                          StepClock& clock) {
     const auto& [scene, textures, normal_maps, bounds, lit_by, plan, hulls, is_on_paper] = assets;
     const Camera camera = camera_of_picture(options, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
-    WorkerCounters<CounterPolicy> counters_of(pool.size());
-    const WideDrawing<CounterPolicy> wide = drawing_of_width(options.wide.width);
+    const WideDrawing wide = drawing_of_width(options.wide.width);
     clock.begin("casters");
     const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets,
-                                         counters_of, wide.project_triangles);
+                                         wide.project_triangles);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset, camera.farthest_depth());
     std::vector<TileVisibility> visible_of(
@@ -45,26 +43,25 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 
     clock.begin("triangles");
     const std::vector<Mesh> outlines = outlines_of(assets, camera);
-    const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world, total);
+    const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world);
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    const BinnedPasses passes = bin_passes(pool, assets, meshes, clip_from_world, tiling,
-                                           counters_of, wide.project_triangles);
+    const BinnedPasses passes =
+        bin_passes(pool, assets, meshes, clip_from_world, tiling, wide.project_triangles);
 
     clock.begin("picture");
     const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
-        CounterPolicy& counters = counters_of[worker];
         TileDepths depths(tile, depth.farthest());
         TileVisibility& visible = visible_of[worker];
         visible.begin(tile);
         const auto shade = [&] {
-            wide.shade_visible(frame, visible, options.visibility.show, heat, counters);
+            wide.shade_visible(frame, visible, options.visibility.show, heat);
         };
         for (const BinnedTriangles& pass : passes.opaque)
             pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
                 if (visible.is_full()) shade();
-                wide.draw_id(frame, projected, tile, depths, visible, counters);
+                wide.draw_id(frame, projected, tile, depths, visible);
             });
         shade();
         draw_background(color, tile, depths, is_on_paper);
@@ -72,15 +69,13 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)
                 pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                    wide.draw_transparent(frame, projected, part, depths, transparent, heat,
-                                          counters);
+                    wide.draw_transparent(frame, projected, part, depths, transparent, heat);
                 });
             transparent.blend_over(color);
         });
         if (options.show_depth) depths.copy_to(depth.depths(), tile, ivec2(0));
         if (options.threads.show) tint(color, tile, worker);
     });
-    counters_of.add_to(total);
     if (options.show_depth) return depth_picture(depth);
     if (options.visibility.show == Show::shading) return heat.picture();
     if (options.visibility.show == Show::shadow_map) return picture_of(shadow_maps, options.size);
@@ -88,7 +83,6 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Poo
 }
 
 int main(int argc, char** argv) {
-    return run_scene_lesson<Options>(argc, argv, "13_simd",
-                                     "Draws a scene of any file, several pixels at a time.",
-                                     [](auto&... with) { return render(with...); });
+    return run_scene_lesson<Options>(
+        argc, argv, "13_simd", "Draws a scene of any file, several pixels at a time.", render);
 }

@@ -121,12 +121,11 @@ struct BatchTriangle {
 
 /// Pixels that are shaded together, one in each lane: of one triangle, or of several that are of
 /// one mesh and one material (Eq. 13.4).
-template <Permutation with, typename F, typename CounterPolicy>
+template <Permutation with, typename F>
 class PixelBatch {
   public:
-    PixelBatch(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& first,
-               CounterPolicy& counters)
-        : frame_(frame), counters_(counters), inputs_((begin(first), current().inputs)) {}
+    PixelBatch(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& first)
+        : frame_(frame), inputs_((begin(first), current().inputs)) {}
 
     /// The pixels that are added from now on are this triangle's.
     void begin(const ProjectedTriangle& triangle) {
@@ -185,33 +184,33 @@ class PixelBatch {
 
     Vec3<F> shade() {
         end_triangle();
-        LaneCounters<CounterPolicy> lanes{counters_, count_};
-        lanes.add(Counter::fragments_shaded);
-        const Vec3<F> colors = shaded_lanes(lanes);
+        fragments_at_once = static_cast<std::uint64_t>(count_);
+        count_each<F>(Counter::fragments_shaded);
+        const Vec3<F> colors = shaded_lanes();
         count_ = first_ = 0;
         return colors;
     }
 
-    Vec3<F> shaded_lanes(LaneCounters<CounterPolicy>& lanes) {
+    Vec3<F> shaded_lanes() {
         if constexpr (with.model == ShadingModel::unlit)
-            return unlit_colors(lanes);
+            return unlit_colors();
         else
-            return shaded<with>(frame_, inputs_, at_, samples(lanes), lanes);
+            return shaded<with>(frame_, inputs_, at_, samples());
     }
 
     /// The samples of the colour texture: of a material with holes, draw_id() has kept them in the
     /// picture.
-    Vec3<F> samples(LaneCounters<CounterPolicy>& lanes) const {
+    Vec3<F> samples() const {
         if (!inputs_.surface.effects[Effect::mask])
-            return Vec3<F>(texture_sample(inputs_.surface, at_, frame_.filter, lanes));
+            return Vec3<F>(texture_sample(inputs_.surface, at_, frame_.filter));
         Vec3<F> kept(F(0.0f));
         for (int i = 0; i < count_; ++i) set_lane(kept, i, frame_.color[{x_[i], y_[i]}]);
         return kept;
     }
 
     /// All in one function, as sample(). With lights, that would take the compiler too long.
-    [[gnu::flatten]] Vec3<F> unlit_colors(LaneCounters<CounterPolicy>& lanes) {
-        return shaded<Permutation{}>(frame_, inputs_, at_, samples(lanes), lanes);
+    [[gnu::flatten]] Vec3<F> unlit_colors() {
+        return shaded<Permutation{}>(frame_, inputs_, at_, samples());
     }
 
     void shade_and_scatter() {
@@ -223,7 +222,6 @@ class PixelBatch {
     }
 
     const Frame<ShadowMapsOnDemand>& frame_;
-    CounterPolicy& counters_;
     Ints<N> x_{0}, y_{0};        ///< Of the pixels.
     int count_ = 0, first_ = 0;  ///< So many pixels; the first one of the current triangle.
     /// The current triangle, and those that pixels of the batch are of.

@@ -36,31 +36,29 @@ namespace rasterbook {
 /// @param visit  Called as visit(first_pixel, nearer, on_screen, depth, opacity, in_texture): for
 ///               as many pixels of a row as F has numbers. Those count for which the mask `nearer`
 ///               holds.
-template <typename F, typename Maps, typename CounterPolicy, typename Visit>
+template <typename F, typename Maps, typename Visit>
 void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                              const Tile& tile, TileDepths& depths, CounterPolicy& counters,
-                              Visit&& visit) {
-    const auto count = [&](Counter counter, MaskOf<F> mask) {
-        counters.add(counter, static_cast<std::uint64_t>(count_of(mask)));
+                              const Tile& tile, TileDepths& depths, Visit&& visit) {
+    const auto count_where = [](Counter counter, MaskOf<F> mask) {
+        count(counter, static_cast<std::uint64_t>(count_of(mask)));
     };
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
     const bool is_masked = plan[Effect::mask];
     const AlphaInputs inputs = alpha_inputs(frame.assets, projected);
     fill_tile<F>(
         projected.on_screen, tile, [&](ivec2 pixel, MaskOf<F> covered, const Vec3<F>& on_screen) {
-            count(Counter::fragments_tested, covered);
+            count_where(Counter::fragments_tested, covered);
             const F depth = depth_at<F>(projected.depth, on_screen);
             MaskOf<F> nearer = covered & (depth > load<F>(depths.from(pixel)));
             if (!any_of(nearer)) return;
-            LaneCounters<CounterPolicy> lanes{counters, count_of(nearer)};
+            fragments_at_once = static_cast<std::uint64_t>(count_of(nearer));
             const PerspectiveBarycentrics<F> at = perspective_correct(inputs.setup, on_screen);
-            const glm::vec<4, F> in_texture =
-                texture_sample(inputs.surface, at, frame.filter, lanes);
+            const glm::vec<4, F> in_texture = texture_sample(inputs.surface, at, frame.filter);
             F opacity(1.0f);
             if (is_masked || plan.is_glass)
                 opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
             if (is_masked) {
-                count(Counter::alpha_tested_fragments, nearer);
+                count_where(Counter::alpha_tested_fragments, nearer);
                 nearer = nearer & passes_alpha_test(opacity, inputs.surface.material.alpha_cutoff);
                 opacity = F(1.0f);
             }
@@ -69,9 +67,9 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
 }
 
 /// As draw_id() of lesson 12 (Eq. 12.1).
-template <typename F, typename Maps, typename CounterPolicy>
+template <typename F, typename Maps>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
-             TileDepths& depths, TileVisibility& visible, CounterPolicy& counters) {
+             TileDepths& depths, TileVisibility& visible) {
     const TriangleId id = visible.add(projected);
     const auto write = [&](ivec2 pixel, MaskOf<F> covered, F depth) {
         const MaskOf<F> nearer = depths.test_and_write<F>(pixel, covered, depth);
@@ -80,7 +78,7 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
     };
     if (frame.assets.plan.materials[projected.triangle.material][Effect::mask])
         for_each_nearer_fragment<F>(
-            frame, projected, tile, depths, counters,
+            frame, projected, tile, depths,
             [&](ivec2 pixel, MaskOf<F> nearer, auto&, F depth, F, const Vec3<F>& in_texture) {
                 const MaskOf<F> written = write(pixel, nearer, depth);
                 for (int i = 0; i < width_of<F>; ++i)
@@ -94,7 +92,7 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
                          tested.add(covered);
                          write(pixel, covered, depth_at<F>(projected.depth, on_screen));
                      });
-        counters.add(Counter::fragments_tested, tested.total());
+        count(Counter::fragments_tested, tested.total());
     }
 }
 
@@ -105,14 +103,13 @@ struct VisibleTriangle {
 };
 
 /// As shade_pixels() of lesson 12, of triangles of one mesh and one material.
-template <Permutation with, typename F, typename CounterPolicy>
-void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, std::span<const VisibleTriangle> visible,
-                  CounterPolicy& counters) {
+template <Permutation with, typename F>
+void shade_pixels(const Frame<ShadowMapsOnDemand>& frame,
+                  std::span<const VisibleTriangle> visible) {
     if constexpr (width_of<F> == 1) {
-        for (const auto& [triangle, runs] : visible)
-            shade_pixels<with>(frame, *triangle, runs, counters);
+        for (const auto& [triangle, runs] : visible) shade_pixels<with>(frame, *triangle, runs);
     } else {
-        PixelBatch<with, F, CounterPolicy> batch(frame, *visible.front().triangle, counters);
+        PixelBatch<with, F> batch(frame, *visible.front().triangle);
         for (const auto& [triangle, runs] : visible) {
             if (triangle != visible.front().triangle) batch.begin(*triangle);
             for (const PixelRun& run : runs) batch.add(run);
@@ -122,11 +119,11 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame, std::span<const Visibl
 }
 
 /// As shade_fragments() of lesson 12.
-template <Permutation with, typename F, typename CounterPolicy>
+template <Permutation with, typename F>
 void shade_fragments(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected,
-                     std::span<FragmentToShade> fragments, CounterPolicy& counters) {
+                     std::span<FragmentToShade> fragments) {
     if constexpr (width_of<F> == 1) {
-        shade_fragments<with>(frame, projected, fragments, counters);
+        shade_fragments<with>(frame, projected, fragments);
     } else {
         constexpr std::size_t N = width_of<F>;
         TriangleInputs triangle = triangle_inputs(with, frame, projected);
@@ -141,46 +138,42 @@ void shade_fragments(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTria
                 set_lane(on_screen, static_cast<int>(i), of.on_screen);
                 set_lane(in_texture, static_cast<int>(i), of.fragment.color);
             }
-            LaneCounters<CounterPolicy> lanes{counters, static_cast<int>(some.size())};
-            lanes.add(Counter::fragments_shaded);
-            lanes.add(Counter::blended_fragments);
+            fragments_at_once = some.size();
+            count_each<F>(Counter::fragments_shaded);
+            count_each<F>(Counter::blended_fragments);
             std::array<vec3, N> colors;
             store(colors.data(),
                   shaded<with>(frame, inputs, perspective_correct(triangle.setup, on_screen),
-                               in_texture, lanes));
+                               in_texture));
             for (std::size_t i = 0; i < some.size(); ++i) some[i].fragment.color = colors[i];
         }
     }
 }
 
 /// A permutation's shade_pixels() and shade_fragments().
-template <typename CounterPolicy>
 struct WideShader {
-    void (*shade_pixels)(const Frame<ShadowMapsOnDemand>&, std::span<const VisibleTriangle>,
-                         CounterPolicy&);
+    void (*shade_pixels)(const Frame<ShadowMapsOnDemand>&, std::span<const VisibleTriangle>);
     void (*shade_fragments)(const Frame<ShadowMapsOnDemand>&, const ProjectedTriangle&,
-                            std::span<FragmentToShade>, CounterPolicy&);
+                            std::span<FragmentToShade>);
 };
 
-template <typename F, typename CounterPolicy>
-WideShader<CounterPolicy> shader_of(const Frame<ShadowMapsOnDemand>& frame,
-                                    const ProjectedTriangle& projected) {
+template <typename F>
+WideShader shader_of(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected) {
     constexpr auto shaders = []<std::size_t... i>(std::index_sequence<i...>) {
-        return std::array{WideShader<CounterPolicy>{
-            &rasterbook::shade_pixels<all_permutations[i], F, CounterPolicy>,
-            &rasterbook::shade_fragments<all_permutations[i], F, CounterPolicy>}...};
+        return std::array{WideShader{&rasterbook::shade_pixels<all_permutations[i], F>,
+                                     &rasterbook::shade_fragments<all_permutations[i], F>}...};
     }(std::make_index_sequence<all_permutations.size()>());
     return shaders[permutation_of(frame.assets.plan.materials[projected.triangle.material])];
 }
 
 /// As draw_transparent() of lesson 12.
-template <typename F, typename CounterPolicy>
+template <typename F>
 void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected,
                       const Tile& tile, TileDepths& depths, TransparentFragments& transparent,
-                      HeatMap& heat, CounterPolicy& counters) {
+                      HeatMap& heat) {
     std::vector<FragmentToShade> fragments;
     for_each_nearer_fragment<F>(
-        frame, projected, tile, depths, counters,
+        frame, projected, tile, depths,
         [&](ivec2 first, MaskOf<F> nearer, const Vec3<F>& on_screen, F depth, F opacity,
             const Vec3<F>& in_texture) {
             for (int i = 0; i < width_of<F>; ++i) {
@@ -192,8 +185,7 @@ void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTri
                 heat.add(pixel);
             }
         });
-    shader_of<F, CounterPolicy>(frame, projected)
-        .shade_fragments(frame, projected, fragments, counters);
+    shader_of<F>(frame, projected).shade_fragments(frame, projected, fragments);
     for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
 }
 
@@ -223,9 +215,8 @@ struct FlatTriangles {
 /// Draws the colours of a tile if each of its triangles has one: then there is nothing to compute.
 ///
 /// @return  Whether they have.
-template <typename F, typename CounterPolicy>
-bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible,
-               CounterPolicy& counters) {
+template <typename F>
+bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible) {
     std::vector<FlatTriangles> flat;
     std::vector<std::size_t> flat_of;  // by id
     for (const ProjectedTriangle* before = nullptr;
@@ -241,7 +232,7 @@ bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible,
         before = triangle;
     }
     constexpr int N = width_of<F>;
-    std::uint64_t count = 0;
+    std::uint64_t filled = 0;
     const auto [tile, row_step] = visible.tile();
     const int width = tile.last.x - tile.first.x + 1;
     for (int y = tile.first.y; !flat.empty() && y <= tile.last.y; y += row_step) {
@@ -255,30 +246,29 @@ bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible,
             const auto& [first, end, color] = flat[flat_of[ids[x]]];
             if (are_within<N>(ids + x, first, end)) {  // behind a row there is no triangle
                 fill<F>(pixels + x, N, color);
-                x += N, count += N;
+                x += N, filled += N;
             } else {
-                pixels[x++] = color, ++count;
+                pixels[x++] = color, ++filled;
             }
         }
     }
-    counters.add(Counter::fragments_shaded, count);
+    count(Counter::fragments_shaded, filled);
     return true;
 }
 
 /// As shade_visible() of lesson 12.
-template <typename F, typename CounterPolicy>
+template <typename F>
 void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible, Show show,
-                   HeatMap& heat, CounterPolicy& counters) {
+                   HeatMap& heat) {
     if constexpr (width_of<F> > 1)
-        if (show == Show::picture && fill_flat<F>(frame, visible, counters)) return visible.clear();
+        if (show == Show::picture && fill_flat<F>(frame, visible)) return visible.clear();
     std::vector<VisibleTriangle> triangles;
     visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelRun> runs) {
         triangles.push_back({&triangle, runs});
     });
     for (auto begin = triangles.begin(), end = begin; begin != triangles.end(); begin = end) {
         while (end != triangles.end() && are_alike(*begin->triangle, *end->triangle)) ++end;
-        shader_of<F, CounterPolicy>(frame, *begin->triangle)
-            .shade_pixels(frame, {begin, end}, counters);
+        shader_of<F>(frame, *begin->triangle).shade_pixels(frame, {begin, end});
     }
     for (const auto& [triangle, runs] : triangles)
         for (const PixelRun& run : runs) {
@@ -289,15 +279,15 @@ void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visib
 }
 
 /// The functions for as many pixels as F has numbers.
-template <typename F, typename CounterPolicy>
-WideDrawing<CounterPolicy> drawing_by() {
-    return {&project_triangles<F>, &draw_id<F, ShadowMapsOnDemand, CounterPolicy>,
-            &shade_visible<F, CounterPolicy>, &draw_transparent<F, CounterPolicy>};
+template <typename F>
+WideDrawing drawing_by() {
+    return {&project_triangles<F>, &draw_id<F, ShadowMapsOnDemand>, &shade_visible<F>,
+            &draw_transparent<F>};
 }
 
 template <int N>
-WideDrawing<Counters> drawing_of_width() {
-    return drawing_by<std::conditional_t<N == 1, float, Floats<N>>, Counters>();
+WideDrawing drawing_of_width() {
+    return drawing_by<std::conditional_t<N == 1, float, Floats<N>>>();
 }
 
 }  // namespace rasterbook

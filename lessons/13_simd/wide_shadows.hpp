@@ -136,9 +136,8 @@ Floats<N> pcf_visibility(const ShadowMap& map, int radius, const WidePcfKernel<N
 }
 
 /// Draws those parts of a map that the taps of some kernels lie in, unless they are drawn.
-template <int N, typename CounterPolicy>
-void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, int radius,
-                 CounterPolicy& counters) {
+template <int N>
+void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, int radius) {
     const Ints<N> outside(parts.map().size), before(-1);
     const Mask<N> in_map = kernel.is_in_map;
     if (!any_of(in_map)) return;
@@ -154,21 +153,10 @@ void draw_around(const ShadowMapParts& parts, const WidePcfKernel<N>& kernel, in
     for (int i = 0; i < N; ++i) {  // in a part of the box there may be no kernel
         const ivec2 middle(kernel.column[i], kernel.row[i]);
         if (in_map[i])
-            parts.draw_in({middle - radius, middle + radius}, counters,
+            parts.draw_in({middle - radius, middle + radius},
                           [](auto&... what) { draw_tile<Floats<N>>(what...); });
     }
 }
-
-/// Counts once for each of several pixels.
-template <typename CounterPolicy>
-struct LaneCounters {
-    CounterPolicy& total;
-    int lanes;  ///< So many are pixels; the others repeat the last one.
-
-    void add(Counter counter, std::uint64_t times = 1) {
-        total.add(counter, times * static_cast<std::uint64_t>(lanes));
-    }
-};
 
 /// In which lanes normals point to the back of a triangle.
 template <int N>
@@ -185,11 +173,10 @@ Mask<N> is_behind(dvec3 front, const Vec3<Floats<N>>& normal) {
 /// mostly that is all of them.
 ///
 /// @param asked  For which points; of the others, no map is asked.
-template <int N, typename CounterPolicy>
+template <int N>
 Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
                            const LaneReceivers<N>& triangles, const Vec3<Floats<N>>& position,
-                           const Vec3<Floats<N>>& normal, Mask<N> asked,
-                           LaneCounters<CounterPolicy>& counters) {
+                           const Vec3<Floats<N>>& normal, Mask<N> asked) {
     using F = Floats<N>;
     const ShadowMaps& shadow_maps = on_demand.maps();
     const LightShadowMaps& of_light = shadow_maps.of_light[l];
@@ -210,8 +197,8 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
                                vec3(from_light.x[i], from_light.y[i], from_light.z[i]))]));
     Mask<N> left =
         asked & faces_light & !(map_of_lane == Ints<N>(static_cast<int>(LightShadowMaps::no_map)));
-    counters.total.add(Counter::shadow_tests,
-                       static_cast<std::uint64_t>(count_of(left & first_lanes<F>(counters.lanes))));
+    count(Counter::shadow_tests, static_cast<std::uint64_t>(count_of(
+                                     left & first_lanes<F>(static_cast<int>(fragments_at_once)))));
     while (any_of(left)) {
         const int map_number = map_of_lane[first_of(left)];
         const auto i = static_cast<std::size_t>(map_number);
@@ -236,8 +223,7 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
             }
         }
         const WidePcfKernel<N> kernel = pcf_kernel(map, receivers, position, together);
-        draw_around(on_demand.parts()[of_light.first_map + i], kernel, shadow_maps.radius,
-                    counters.total);
+        draw_around(on_demand.parts()[of_light.first_map + i], kernel, shadow_maps.radius);
         visibility = select(together, visibility * pcf_visibility(map, shadow_maps.radius, kernel),
                             visibility);
     }

@@ -14,21 +14,20 @@ namespace rasterbook {
 
 /// The functions that draw so many pixels at a time. What else a frame takes stays as it is
 /// (Eq. 13.5).
-template <typename CounterPolicy>
 struct WideDrawing {
     using Maps = ShadowMapsOnDemand;
 
     ProjectTriangles* project_triangles;
     void (*draw_id)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
-                    TileVisibility&, CounterPolicy&);
-    void (*shade_visible)(const Frame<Maps>&, TileVisibility&, Show, HeatMap&, CounterPolicy&);
+                    TileVisibility&);
+    void (*shade_visible)(const Frame<Maps>&, TileVisibility&, Show, HeatMap&);
     void (*draw_transparent)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
-                             TransparentFragments&, HeatMap&, CounterPolicy&);
+                             TransparentFragments&, HeatMap&);
 };
 
 /// Compiled apart, in width_4.cpp and so on.
 template <int N>
-WideDrawing<Counters> drawing_of_width();
+WideDrawing drawing_of_width();
 
 /// Whether a program has --width. A reader's own has the native width alone, so that its picture
 /// takes less time to come; ./lessons/run builds another when it is asked for.
@@ -39,7 +38,7 @@ constexpr bool has_each_width = true;
 #endif
 
 /// @param width  1, 4, 8 or 16.
-inline WideDrawing<Counters> drawing_of_width(int width) {
+inline WideDrawing drawing_of_width(int width) {
     if constexpr (has_each_width) {
         if (width == 1) return drawing_of_width<1>();
         if (width == 4) return drawing_of_width<4>();

@@ -110,8 +110,7 @@ Image<float> drawn_levels(const ToonAssets& assets, bool smooth, int samples) {
     lesson_07::Options options = options_of(Outline::none, smooth);
     options.size = samples * size;
     options.samples_per_side = samples;
-    NoCounters counters;
-    const Image<vec3> picture = averaged(lesson_07::render(options, assets, counters), samples);
+    const Image<vec3> picture = averaged(lesson_07::render(options, assets), samples);
     Image<float> levels(size);
     for (std::size_t i = 0; i < levels.pixels().size(); ++i)
         levels.pixels()[i] = picture.pixels()[i].g;
@@ -226,8 +225,7 @@ void add_outlines() {
                                                         {"edges", Outline::edges}};
     for (const auto& [name, outline] : outlines) {
         const lesson_07::Options options = options_of(outline, false);
-        NoCounters counters;
-        const Image<vec3> picture = lesson_07::render(options, assets, counters);
+        const Image<vec3> picture = lesson_07::render(options, assets);
         const auto is_ink = [&](ivec2 p) { return picture[p] == ink; };
         double edges = 0, missing = 0, inked = 0, wrong = 0;
         for (int y = near_edge; y < size.y - near_edge - 1; ++y)
@@ -239,10 +237,7 @@ void add_outlines() {
         add_variant("outlines", name, double(size.x) * size.y,
                     {{"missing, %", 100 * missing / edges},
                      {"false, %", inked > 0 ? 100 * wrong / inked : 0}},
-                    [=] {
-                        NoCounters none;
-                        lesson_07::render(options, assets, none);
-                    });
+                    [=] { lesson_07::render(options, assets); });
     }
 }
 

@@ -30,9 +30,8 @@ constexpr double frames_in_millions = 1e6;  // so that nanoseconds become millis
 
 Image<vec3> drawn(const lesson_11::Options& options, const SceneAssets& assets) {
     static ThreadPool pool(1);
-    NoCounters none;
     StepClock clock;
-    return lesson_11::render(options, assets, pool, none, clock);
+    return lesson_11::render(options, assets, pool, clock);
 }
 
 /// Differences of codes, white being 1: as the eye weighs them.

@@ -49,15 +49,13 @@ void add_scenes() {
 /// The longest list of opaque triangles that a tile has.
 std::size_t most_triangles(const lesson_12::Options& options, const SceneAssets& assets) {
     ThreadPool& pool = one_thread();
-    WorkerCounters<NoCounters> counters(pool.size());
-    NoCounters none;
     const Camera camera = camera_of_picture(options, assets.scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::vector<Mesh> outlines = outlines_of(assets, camera);
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
     const BinnedPasses passes =
-        bin_passes(pool, assets, seen_meshes(assets.scene, outlines, clip_from_world, none),
-                   clip_from_world, tiling, counters);
+        bin_passes(pool, assets, seen_meshes(assets.scene, outlines, clip_from_world),
+                   clip_from_world, tiling);
     std::size_t most = 0;
     for (std::size_t tile = 0; tile < tiling.count(); ++tile)
         most = std::max(most, count_in(passes.opaque, tile));

@@ -49,11 +49,10 @@ void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const
     variant.power = power;
     const VariantHighlight highlight = highlight_of(variant, surface);
     const auto light_at = [&](Barycentrics at, vec3 own_normal, vec3 normal) {
-        const SurfacePoint<float> point =
-            surface_point(surface, at, normal, frame.eye_world, counters);
+        const SurfacePoint<float> point = surface_point(surface, at, normal, frame.eye_world);
         return reflected_light(lights, point, highlight, [&](std::size_t l) {
             return light_visibility(frame.shadow_maps, l, receiver, point.position_world,
-                                    own_normal, counters);
+                                    own_normal);
         });
     };
     VertexLighting at_vertices{shading};
@@ -75,13 +74,13 @@ void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         if (!frame.depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
         const FragmentBarycentrics at = perspective_correct(setup, on_screen);
-        const SurfaceColor own = surface_color(surface, at, frame.filter, counters);
+        const SurfaceColor own = surface_color(surface, at, frame.filter);
         ReflectedLight light;
         if constexpr (shading == Shading::phong) {
             const vec3 own_normal = interpolate(surface.normals_world, at.here);
-            light = light_at(at.here, own_normal,
-                             normal_mapped(normal_map, frame.normal_map, at, own_normal,
-                                           frame.filter, counters));
+            light =
+                light_at(at.here, own_normal,
+                         normal_mapped(normal_map, frame.normal_map, at, own_normal, frame.filter));
         } else {
             light = at_vertices.at(at.here);
         }
@@ -152,21 +151,20 @@ Settings of_samples(Settings settings) {
 /// All samples of a picture, as lesson 11 draws them.
 ///
 /// @param counters  NoCounters, or LitBy.
-template <typename CounterPolicy>
-Image<vec3> samples_by_11(const Settings& settings, ThreadPool& pool, CounterPolicy counters) {
+inline Image<vec3> samples_by_11(const Settings& settings, ThreadPool& pool) {
     lesson_11::Options options = of_samples(settings);
     options.threads = lesson_11::Options().threads;  // its own tiles
     StepClock clock;
-    return lesson_11::render(options, assets_of(settings), pool, counters, clock);
+    return lesson_11::render(options, assets_of(settings), pool, clock);
 }
 
 /// All samples of a picture. Lesson 11 draws all of them by the shader with choices, so that code
 /// of the same kind is timed. Light and power are never both other than the lesson's.
 Image<vec3> samples_of(const Settings& settings, ThreadPool& pool) {
     if (!settings.is_by_lesson_11) {
-        Counters counters;
+        const CountedSince counters;
         StepClock clock;
-        return lesson_13::render(of_samples(settings), assets_of(settings), pool, counters, clock);
+        return lesson_13::render(of_samples(settings), assets_of(settings), pool, clock);
     }
     if (settings.power == Power::schlick)
         return samples_by_11(settings, pool, LitBy<Shading::phong, Power::schlick>());

@@ -51,14 +51,14 @@ static test::BatchesCounted batches;
 
 /// As the course has it; each batch counts its fragments once.
 template <>
-struct LaneCounters<Counters> {
+struct LaneCounters {
     Counters& total;
     int lanes;
 
     void add(Counter counter, std::uint64_t times = 1) {
         if (counter == Counter::fragments_shaded)
             ++batches.count, batches.pixels += static_cast<std::uint64_t>(lanes);
-        total.add(counter, times * static_cast<std::uint64_t>(lanes));
+        count(counter, times * static_cast<std::uint64_t>(lanes));
     }
 };
 #endif
@@ -74,14 +74,14 @@ namespace rasterbook::test {
 EXPORTED void set_power(PowerInLanes power) { power_in_use = power; }
 #elif ARITHMETIC == COUNTED
 EXPORTED BatchesCounted& batches_counted() { return batches; }
-EXPORTED WideDrawing<Counters> drawing_counted(int width) {
+EXPORTED WideDrawing drawing_counted(int width) {
     return width == 4   ? drawing_of_width<4>()
            : width == 8 ? drawing_of_width<8>()
                         : drawing_of_width<16>();
 }
 #endif
 #if ARITHMETIC != COUNTED
-EXPORTED WideDrawing<Counters> DRAWING() { return drawing_of_width<16>(); }
+EXPORTED WideDrawing DRAWING() { return drawing_of_width<16>(); }
 #endif
 
 }  // namespace rasterbook::test

@@ -12,17 +12,17 @@
 namespace rasterbook::test {
 
 /// 1/x of perspective and 1/sqrt(x) of unit vectors from an estimate and so many Newton steps.
-WideDrawing<Counters> drawing_hardware_0();
-WideDrawing<Counters> drawing_hardware_1();
-WideDrawing<Counters> drawing_bits_1();
-WideDrawing<Counters> drawing_bits_2();
+WideDrawing drawing_hardware_0();
+WideDrawing drawing_hardware_1();
+WideDrawing drawing_bits_1();
+WideDrawing drawing_bits_2();
 
 /// Products and sums fused as the compiler likes.
-WideDrawing<Counters> drawing_contracted();
+WideDrawing drawing_contracted();
 
 /// The power of a highlight by a function of the caller's.
 using PowerInLanes = Floats<16> (*)(const Floats<16>& x, const Floats<16>& y);
-WideDrawing<Counters> drawing_powers();
+WideDrawing drawing_powers();
 void set_power(PowerInLanes power);
 
 struct BatchesCounted {
@@ -32,7 +32,7 @@ struct BatchesCounted {
 /// As the course has it, but batches of pixels are counted.
 ///
 /// @param width  4, 8 or 16.
-WideDrawing<Counters> drawing_counted(int width);
+WideDrawing drawing_counted(int width);
 BatchesCounted& batches_counted();
 
 }  // namespace rasterbook::test

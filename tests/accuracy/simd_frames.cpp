@@ -4,7 +4,7 @@
 
 namespace rasterbook::test {
 
-WideDrawing<Counters> drawing_of_arithmetic(int width_or_arithmetic) {
+WideDrawing drawing_of_arithmetic(int width_or_arithmetic) {
     switch (width_or_arithmetic) {
         case hardware_0:
             return drawing_hardware_0();
@@ -34,8 +34,8 @@ WideDrawing<Counters> drawing_of_arithmetic(int width_or_arithmetic) {
 namespace lesson_13 {
 
 Image<vec3> render(const Options& options, const SceneAssets& assets, ThreadPool& pool,
-                   Counters& counters, StepClock& clock) {
-    return render<>(options, assets, pool, counters, clock);
+                   StepClock& clock) {
+    return render<>(options, assets, pool, clock);
 }
 
 }  // namespace lesson_13

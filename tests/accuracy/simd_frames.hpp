@@ -27,7 +27,7 @@ enum Arithmetic {
     counted_16
 };
 
-WideDrawing<Counters> drawing_of_arithmetic(int width_or_arithmetic);
+WideDrawing drawing_of_arithmetic(int width_or_arithmetic);
 
 }  // namespace rasterbook::test
 
@@ -38,10 +38,9 @@ WideDrawing<Counters> drawing_of_arithmetic(int width_or_arithmetic);
 
 namespace rasterbook::test {
 
-inline Image<vec3> rendered(const lesson_13::Options& options, const SceneAssets& assets,
-                            Counters& counters) {
+inline Image<vec3> rendered(const lesson_13::Options& options, const SceneAssets& assets) {
     StepClock clock;
-    return lesson_13::render(options, assets, one_thread(), counters, clock);
+    return lesson_13::render(options, assets, one_thread(), clock);
 }
 
 /// Without it, the template would take the options for those of lesson 11, their base class.
@@ -54,8 +53,8 @@ inline Drawn counted(const lesson_13::Options& options, const SceneAssets& asset
 /// A frame that is thrown away.
 template <typename Options>
 void draw(const Options& options, const SceneAssets& assets) {
-    Counters counters;
-    rendered(options, assets, counters);
+    const CountedSince counters;
+    rendered(options, assets);
 }
 
 /// @param width  Or an Arithmetic.

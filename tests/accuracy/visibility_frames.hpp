@@ -30,25 +30,20 @@ inline ThreadPool& one_thread() {
     return pool;
 }
 
-template <typename CounterPolicy>
-Image<vec3> rendered(const lesson_11::Options& options, const SceneAssets& assets,
-                     CounterPolicy& counters) {
+inline Image<vec3> rendered(const lesson_11::Options& options, const SceneAssets& assets) {
     StepClock clock;
-    return lesson_11::render(options, assets, one_thread(), counters, clock);
+    return lesson_11::render(options, assets, one_thread(), clock);
 }
 
-template <typename CounterPolicy>
-Image<vec3> rendered(const lesson_12::Options& options, const SceneAssets& assets,
-                     CounterPolicy& counters) {
+inline Image<vec3> rendered(const lesson_12::Options& options, const SceneAssets& assets) {
     StepClock clock;
-    return lesson_12::render(options, assets, one_thread(), counters, clock);
+    return lesson_12::render(options, assets, one_thread(), clock);
 }
 
 /// A frame, without counters.
 template <typename Options>
 Image<vec3> frame(const Options& options, const SceneAssets& assets) {
-    NoCounters none;
-    return rendered(options, assets, none);
+    return rendered(options, assets);
 }
 
 /// A frame, and what was done for it.

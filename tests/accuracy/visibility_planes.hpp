@@ -31,33 +31,32 @@ inline PlaneNumbers plane_numbers{};
 inline std::vector<VisiblePart>* collected = nullptr;
 
 /// shade_pixels() with other planes.
-template <typename Planes, Permutation with, typename Maps, typename CounterPolicy>
+template <typename Planes, Permutation with, typename Maps>
 void shade_pixels_by(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                     std::span<const PixelRun> runs, CounterPolicy& counters) {
+                     std::span<const PixelRun> runs) {
     TriangleInputs triangle = triangle_inputs(with, frame, projected);
     const Planes planes(projected.on_screen);
     for (const PixelRun& run : runs)
         planes.for_each_in(run, [&](ivec2 pixel, Barycentrics on_screen) {
             const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
-            const vec3 in_texture(texture_sample(triangle.surface, at, frame.filter, counters));
-            frame.color[pixel] = shaded<with>(frame, triangle, at, in_texture, counters);
+            const vec3 in_texture(texture_sample(triangle.surface, at, frame.filter));
+            frame.color[pixel] = shaded<with>(frame, triangle, at, in_texture);
         });
 }
 
-template <typename Planes, typename Maps, typename CounterPolicy, std::size_t... i>
+template <typename Planes, typename Maps, std::size_t... i>
 void shade_permutation_by(std::index_sequence<i...>, std::size_t permutation,
                           const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                          std::span<const PixelRun> runs, CounterPolicy& counters) {
-    ((permutation == i
-          ? shade_pixels_by<Planes, all_permutations[i]>(frame, projected, runs, counters)
-          : void()),
+                          std::span<const PixelRun> runs) {
+    ((permutation == i ? shade_pixels_by<Planes, all_permutations[i]>(frame, projected, runs)
+                       : void()),
      ...);
 }
 
 /// Takes the place of shade_visible().
-template <typename Maps, typename CounterPolicy>
-void shade_visible_by_planes(const Frame<Maps>& frame, const VisibleShaders<Maps, CounterPolicy>&,
-                             TileVisibility& visible, Show, HeatMap&, CounterPolicy& counters) {
+template <typename Maps>
+void shade_visible_by_planes(const Frame<Maps>& frame, const VisibleShaders<Maps>&,
+                             TileVisibility& visible, Show, HeatMap&) {
     visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelRun> runs) {
         if (collected != nullptr)
             collected->push_back({projected.on_screen, {runs.begin(), runs.end()}});
@@ -65,7 +64,7 @@ void shade_visible_by_planes(const Frame<Maps>& frame, const VisibleShaders<Maps
             shade_permutation_by<Planes>(
                 std::make_index_sequence<all_permutations.size()>(),
                 permutation_of(frame.assets.plan.materials[projected.triangle.material]), frame,
-                projected, runs, counters);
+                projected, runs);
         };
         switch (plane_numbers) {
             case PlaneNumbers::float64:
@@ -173,10 +172,9 @@ inline void add_all_planes() {
     const auto draw_by = [](PlaneNumbers numbers) {
         return [=](const SceneAssets& assets) {
             plane_numbers = numbers;
-            NoCounters none;
             StepClock clock;
             return lesson_12_by_planes::render(lesson_12_by_planes::Options(), assets, one_thread(),
-                                               none, clock);
+                                               clock);
         };
     };
     collected = &parts;

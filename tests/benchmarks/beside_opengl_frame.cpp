@@ -19,8 +19,7 @@ DrawFrame rasterbook::frame_of<LESSON>(const SceneRendererOptions& asked,
     static_cast<SceneRendererOptions&>(options) = asked;
     options.threads.tile = tile;
     return [options, &assets, pool = std::make_shared<ThreadPool>(options.threads.threads)] {
-        Counters counters;
         StepClock clock;
-        return render(options, assets, *pool, counters, clock);
+        return render(options, assets, *pool, clock);
     };
 }

@@ -313,10 +313,8 @@ const mat4 upside_down = scaling(vec3(1, -1, 1));
 
 /// The lights' maps as the course fits them, not drawn.
 ShadowMaps fitted_maps(const SceneAssets& assets, const ShadowVariant& variant) {
-    NoCounters uncounted;
     return draw_shadow_maps(variant, false, assets.scene, assets.shadow_bounds,
-                            assets.lit_by.lights, assets.lit_by.casts, uncounted,
-                            [](ShadowMap&, bool) {});
+                            assets.lit_by.lights, assets.lit_by.casts, [](ShadowMap&, bool) {});
 }
 
 void set_material(Uniforms& uniforms, const Material& material, const MaterialPlan& plan) {

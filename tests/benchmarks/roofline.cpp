@@ -110,13 +110,12 @@ struct FrameTime {
     }
 };
 
-template <typename Pool>
-FrameTime frame_time(const lesson_13::Options& options, const SceneAssets& assets, Pool& pool) {
-    Counters counters;
+FrameTime frame_time(const lesson_13::Options& options, const SceneAssets& assets, Workers& pool) {
+    const CountedSince counters;
     StepClock clock;
     const auto start = Clock::now();
     const double start_cpu = cpu_ms();
-    const Image<vec3> picture = lesson_13::render(options, assets, pool, counters, clock);
+    const Image<vec3> picture = lesson_13::render(options, assets, pool, clock);
     return {ms_between(start, Clock::now()), cpu_ms() - start_cpu};
 }
 
@@ -143,15 +142,14 @@ struct Parts {
 ///
 /// @param again  Whether the tiles are drawn once more, when all parts of shadow maps are there.
 Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets& assets,
-                            ThreadPool& pool, Counters& total, Parts& parts, bool again = true) {
+                            ThreadPool& pool, Parts& parts, bool again = true) {
     const auto& [scene, textures, normal_maps, bounds, lit_by, plan, hulls, is_on_paper] = assets;
     const Camera camera = camera_of_picture(options, scene).camera;
     const mat4 clip_from_world = camera.clip_from_world(options.size);
-    WorkerCounters<Counters> counters_of(pool.size());
-    const WideDrawing<Counters> wide = drawing_of_width(options.wide.width);
+    const WideDrawing wide = drawing_of_width(options.wide.width);
     const double start = cpu_ms();
     const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets,
-                                         counters_of, wide.project_triangles);
+                                         wide.project_triangles);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
     TileVisibility visible(options.visibility.most_ids(), TileDepths::padding);
@@ -159,36 +157,35 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
 
     const double start_of_outlines = cpu_ms();
     const std::vector<Mesh> outlines = outlines_of(assets, camera);
-    const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world, total);
+    const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world);
     const double start_of_triangles = cpu_ms();
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    const BinnedPasses passes = bin_passes(pool, assets, meshes, clip_from_world, tiling,
-                                           counters_of, wide.project_triangles);
+    const BinnedPasses passes =
+        bin_passes(pool, assets, meshes, clip_from_world, tiling, wide.project_triangles);
     parts.casters = start_of_outlines - start;
     parts.outlines = start_of_triangles - start_of_outlines;
     parts.triangles = cpu_ms() - start_of_triangles;
 
     const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
-    const auto draw = [&](std::size_t i, Counters& counters, std::vector<double>& ids,
-                          std::vector<double>& shading, std::vector<double>& rest) {
+    const auto draw = [&](std::size_t i, std::vector<double>& ids, std::vector<double>& shading,
+                          std::vector<double>& rest) {
         const auto start_of_ids = Clock::now();
         const Tile tile = tiling[i];
         TileDepths depths(tile);
         visible.begin(tile);
         for (const BinnedTriangles& pass : passes.opaque)
             pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                wide.draw_id(frame, projected, tile, depths, visible, counters);
+                wide.draw_id(frame, projected, tile, depths, visible);
             });
         const auto start_of_shading = Clock::now();
-        wide.shade_visible(frame, visible, options.visibility.show, heat, counters);
+        wide.shade_visible(frame, visible, options.visibility.show, heat);
         const auto start_of_rest = Clock::now();
         draw_background(color, tile, depths, is_on_paper);
         TransparentFragments transparent;
         for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
             for (const BinnedTriangles& pass : passes.blended)
                 pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                    wide.draw_transparent(frame, projected, part, depths, transparent, heat,
-                                          counters);
+                    wide.draw_transparent(frame, projected, part, depths, transparent, heat);
                 });
             transparent.blend_over(color);
         });
@@ -198,15 +195,12 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
         rest.push_back(ms_between(start_of_rest, end));
     };
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
-        draw(i, counters_of[worker], parts.ids, parts.shading, parts.rest);
+        draw(i, parts.ids, parts.shading, parts.rest);
     });
-    counters_of.add_to(total);
     if (!again) return color;
     std::vector<double> others;
-    Counters uncounted;
-    pool.run(tiling.count(), [&](std::size_t i, std::size_t) {
-        draw(i, uncounted, others, parts.shading_again, others);
-    });
+    pool.run(tiling.count(),
+             [&](std::size_t i, std::size_t) { draw(i, others, parts.shading_again, others); });
     return color;
 }
 
@@ -223,15 +217,14 @@ void measure_passes(const Repetitions& repetitions) {
         Parts least;
         const Image<vec3> expected =
             lesson_13::render(options, assets, one, expected_counters, clock);
-        if (!are_the_same_bits(expected, render_in_parts(options, assets, one, counters, least)) ||
-            expected_counters.values != counters.values)
+        if (!are_the_same_bits(expected, render_in_parts(options, assets, one, least)) ||
+            expected_counters.values != counters.values())
             throw std::runtime_error(std::string(name) +
                                      ": lesson 13's render() draws another picture, or counts "
                                      "another work, than its copy in roofline.cpp");
         for (int i = 0; i < repetitions.most; ++i) {
-            Counters uncounted;
             Parts parts;
-            render_in_parts(options, assets, one, uncounted, parts);
+            render_in_parts(options, assets, one, parts);
             least.take_least(parts);
         }
         const double frame =
@@ -240,7 +233,7 @@ void measure_passes(const Repetitions& repetitions) {
             return std::accumulate(ms.begin(), ms.end(), 0.0);
         };
         const auto count = [&](Counter counter) {
-            return static_cast<double>(counters.values[static_cast<std::size_t>(counter)]);
+            return static_cast<double>(counters.values()[static_cast<std::size_t>(counter)]);
         };
         std::printf(
             R"({"scene": "%s", "frame": %.6g, "casters": %.6g, "outlines": %.6g, "triangles": %.6g, "ids": %.6g, )"
@@ -307,9 +300,8 @@ void measure_triangles(const Repetitions& repetitions) {
         measure_lessons("triangles", "hills", count, options, assets, repetitions);
         Parts parts;
         const auto draw = [&](Parts& of_frame) {
-            Counters uncounted;
             const double start = cpu_ms();
-            render_in_parts(options, assets, one, uncounted, of_frame, false);
+            render_in_parts(options, assets, one, of_frame, false);
             return cpu_ms() - start;
         };
         const double first = draw(parts);

@@ -62,8 +62,7 @@ std::vector<double> drawing_us(const lesson_10::Options& options, std::size_t wo
     std::vector<double> least;
     for (int i = 0; i < frames; ++i) {
         CpuTimedPool pool(workers);
-        NoCounters none;
-        lesson_10::render(options, assets, pool, none);
+        lesson_10::render(options, assets, pool);
         const std::vector<double>& us = pool.microseconds;
         least.resize(us.size(), std::numeric_limits<double>::infinity());
         std::transform(us.begin(), us.end(), least.begin(), least.begin(),

@@ -147,13 +147,12 @@ void triangles_through_the_camera(benchmark::State& state) {
     const Camera camera = orbit_camera({}, {vec3(-1, 0, -1), vec3(1, 0.02f, 1)});
     Image<vec3> color(size);
     DepthBuffer depth(size);
-    NoCounters uncounted;
     for (auto _ : state) {
         state.PauseTiming();
         depth = DepthBuffer(size);
         state.ResumeTiming();
         for_each_visible_triangle(
-            scene, camera.clip_from_world(size), size, Culling::back_faces, uncounted,
+            scene, camera.clip_from_world(size), size, Culling::back_faces,
             [&](const ProjectedTriangle& projected) {
                 fill_triangle(projected.on_screen, size, [&](ivec2 pixel, Barycentrics at) {
                     if (depth.test_and_write(pixel, projected.depth.at(at)))
@@ -209,7 +208,7 @@ void textured_and_lit(benchmark::State& state) {
     Image<vec3> color(size);
     DepthBuffer depth(size);
 
-    const auto draw = [&](auto& counters) {
+    const auto draw = [&]() {
         const auto draw_triangle = [&](const ProjectedTriangle& projected) {
             const TriangleSurface surface =
                 triangle_surface(scene, textures, effects[projected.triangle.material], projected);
@@ -218,7 +217,7 @@ void textured_and_lit(benchmark::State& state) {
             const PhongHighlight highlight = highlight_of(surface);
             fill_triangle(projected.on_screen, size, [&](ivec2 pixel, Barycentrics on_screen) {
                 if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
-                counters.add(Counter::fragments_shaded);
+                count(Counter::fragments_shaded);
                 const FragmentBarycentrics at = perspective_correct(setup, on_screen);
                 if (!with_light) {
                     color[pixel] = surface.own_color.diffuse;
@@ -227,28 +226,27 @@ void textured_and_lit(benchmark::State& state) {
                                                     fragment_uv(surface.uvs, at)));
                     return;
                 }
-                const SurfaceColor own = surface_color(surface, at, knobs.texture.filter, counters);
+                const SurfaceColor own = surface_color(surface, at, knobs.texture.filter);
                 const vec3 normal = interpolate(surface.normals_world, at.here);
                 const SurfacePoint<float> point =
-                    surface_point(surface, at.here, normal, camera.position_world, counters);
+                    surface_point(surface, at.here, normal, camera.position_world);
                 color[pixel] = phong(own, ambient_light, reflected_light(lights, point, highlight));
             });
         };
         for_each_visible_triangle(scene, camera.clip_from_world(size), size, Culling::back_faces,
-                                  counters, draw_triangle);
+                                  draw_triangle);
     };
 
-    Counters once;
-    draw(once);
-    NoCounters nothing;
+    const CountedSince once;
+    draw();
     for (auto _ : state) {
         state.PauseTiming();
         depth = DepthBuffer(size);
         state.ResumeTiming();
-        draw(nothing);
+        draw();
         benchmark::ClobberMemory();
     }
-    const auto fragments = once.values[static_cast<std::size_t>(Counter::fragments_shaded)];
+    const auto fragments = once.values()[static_cast<std::size_t>(Counter::fragments_shaded)];
     state.counters["fragments"] = per_second(static_cast<double>(fragments));
     state.counters["fragments_per_picture"] = static_cast<double>(fragments);
 }

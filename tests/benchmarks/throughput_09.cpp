@@ -21,8 +21,7 @@ void shadowed_frames(benchmark::State& state) {
     const ShadowAssets assets = lesson_09::make_assets(loaded(options.model), options);
     const auto render = [](auto&... arguments) { return lesson_09::render(arguments...); };
     const auto fragments = drawn(options, assets, render).count(Counter::fragments_shaded);
-    NoCounters nothing;
-    for (auto _ : state) benchmark::DoNotOptimize(render(options, assets, nothing));
+    for (auto _ : state) benchmark::DoNotOptimize(render(options, assets));
     state.counters["fragments"] = {static_cast<double>(fragments),
                                    benchmark::Counter::kIsIterationInvariantRate};
     state.counters["fragments_per_picture"] = static_cast<double>(fragments);

@@ -38,8 +38,7 @@ SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycen
                            Filter filter, NoWork<effect>&) {
     if (surface.effects[effect == Without::texture ? Effect::texture : Effect::specular_map])
         __builtin_unreachable();
-    NoCounters uncounted;
-    return surface_color(surface, at, filter, uncounted);
+    return surface_color(surface, at, filter);
 }
 
 template <Without effect>
@@ -48,8 +47,7 @@ SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycen
                            const vec3& in_texture, Filter filter, NoWork<effect>&) {
     if (surface.effects[effect == Without::texture ? Effect::texture : Effect::specular_map])
         __builtin_unreachable();
-    NoCounters uncounted;
-    return surface_color(surface, at, in_texture, filter, uncounted);
+    return surface_color(surface, at, in_texture, filter);
 }
 
 inline vec4 texture_sample(const TriangleSurface& surface, const FragmentBarycentrics&, Filter,
@@ -85,13 +83,13 @@ auto assets_of(const Scene& model, const AnyOptions& options) {
         return make_assets(model, options);
 }
 
-Image<vec3> draw(const auto& options, const auto& assets, auto& counters) {
+Image<vec3> draw(const auto& options, const auto& assets) {
     if constexpr (LESSON == 11) {
         static ThreadPool pool(1);
         StepClock clock;
-        return render(options, assets, pool, counters, clock);
+        return render(options, assets, pool, clock);
     } else {
-        return render(options, assets, counters);
+        return render(options, assets);
     }
 }
 
@@ -110,6 +108,6 @@ Draw rasterbook::draw_of<LESSON, Without::WITHOUT>(const Scene& model) {
                Counters* counters) {
         Uncounted uncounted;
         // Both, as in the lesson's program.
-        return counters ? draw(options, *assets, *counters) : draw(options, *assets, uncounted);
+        return counters ? draw(options, *assets, *counters) : draw(options, *assets);
     };
 }

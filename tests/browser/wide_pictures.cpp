@@ -24,9 +24,9 @@ Image<u8vec4> read_texture_file(const TextureMap& map, LoadBudget&) {
 void LoadBudget::check_overdraw(double, ivec2, const std::filesystem::path&) const {}
 
 // In place of the other widths, which nobody asks for.
-extern template WideDrawing<Counters> drawing_of_width<4>();
+extern template WideDrawing drawing_of_width<4>();
 template <int N>
-WideDrawing<Counters> drawing_of_width() {
+WideDrawing drawing_of_width() {
     return drawing_of_width<4>();
 }
 
@@ -39,7 +39,7 @@ static std::uint64_t hash_of(const Image<vec3>& picture, const Counters& counter
     const auto add = [&](std::uint64_t number) { hash = (hash ^ number) * 0x100000001b3; };
     for (const vec3& color : picture.pixels())
         for (int c = 0; c < 3; ++c) add(std::bit_cast<std::uint32_t>(color[c]));
-    for (const std::uint64_t count : counters.values) add(count);
+    for (const std::uint64_t count : counters.values()) add(count);
     return hash;
 }
 
@@ -60,9 +60,9 @@ int main() {
         options.wide.width = 4;
         SceneAssets assets = make_scene_assets(test::any_scene(seed), options);
         test::add_holes(assets);
-        Counters counters;
+        const CountedSince counters;
         StepClock clock;
-        const Image<vec3> picture = lesson_13::render(options, assets, pool, counters, clock);
+        const Image<vec3> picture = lesson_13::render(options, assets, pool, clock);
         std::printf("%2u %016llx\n", seed,
                     static_cast<unsigned long long>(hash_of(picture, counters)));
     }

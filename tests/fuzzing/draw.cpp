@@ -241,14 +241,12 @@ void draw_03(Numbers& numbers, const Scene& scene, ivec2 size) {
     options.depth = {numbers.one_of({DepthFormat::float32, DepthFormat::from_near, DepthFormat::ndc,
                                      DepthFormat::unorm16, DepthFormat::unorm24}),
                      numbers.one_of({1.0f, 100.0f, 10'000.0f, 1e6f})};
-    NoCounters counters;
-    expect_finite(lesson_03::render(options, scene, counters));
+    expect_finite(lesson_03::render(options, scene));
 }
 
 void draw_09(Numbers& numbers, const Scene& scene, ivec2 size) {
     const auto options = any_options<lesson_09::Options>(numbers, size, numbers.flag());
-    NoCounters counters;
-    expect_finite(lesson_09::render(options, lesson_09::make_assets(scene, options), counters));
+    expect_finite(lesson_09::render(options, lesson_09::make_assets(scene, options)));
 }
 
 void draw_11(Numbers& numbers, const Scene& scene, ivec2 size) {
@@ -258,11 +256,10 @@ void draw_11(Numbers& numbers, const Scene& scene, ivec2 size) {
     options.threads.tile = numbers.whole(8, 20);
     options.scene.camera = numbers.one_of({"", "orbit", "fit"});
     const SceneAssets assets = make_scene_assets(scene, options);
-    NoCounters counters;
     StepClock clock;
-    const Image<vec3> picture = lesson_11::render(options, assets, one, counters, clock);
+    const Image<vec3> picture = lesson_11::render(options, assets, one, clock);
     expect_finite(picture);
-    const Image<vec3> again = lesson_11::render(options, assets, three, counters, clock);
+    const Image<vec3> again = lesson_11::render(options, assets, three, clock);
     if (std::memcmp(picture.pixels().data(), again.pixels().data(), picture.pixels().size_bytes()))
         std::abort();
 }

@@ -21,6 +21,9 @@
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
+#ifdef RENDER_IS_COMPILED_APART
+#define render render_here
+#endif
 namespace lesson_06 {
 using rasterbook::test::run_lesson;
 #include "lessons/06_phong/main.cpp"
@@ -28,7 +31,8 @@ inline auto make_assets(Scene scene, const Options& options) {
     return make_phong_assets(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
-Image<vec3> render(const Options&, const PhongAssets&, Counters&);
+#undef render
+Image<vec3> render(const Options&, const PhongAssets&);
 #endif
 }  // namespace lesson_06
 #undef main

@@ -21,6 +21,9 @@
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
+#ifdef RENDER_IS_COMPILED_APART
+#define render render_here
+#endif
 namespace lesson_07 {
 using rasterbook::test::run_lesson;
 #include "lessons/07_toon/main.cpp"
@@ -28,7 +31,8 @@ inline auto make_assets(Scene scene, const Options& options) {
     return make_toon_assets(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
-Image<vec3> render(const Options&, const ToonAssets&, Counters&);
+#undef render
+Image<vec3> render(const Options&, const ToonAssets&);
 #endif
 }  // namespace lesson_07
 #undef main

@@ -22,6 +22,9 @@
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
+#ifdef RENDER_IS_COMPILED_APART
+#define render render_here
+#endif
 namespace lesson_08 {
 using rasterbook::test::run_lesson;
 #include "lessons/08_normal_maps/main.cpp"
@@ -29,7 +32,8 @@ inline auto make_assets(Scene scene, const Options& options) {
     return make_normal_map_assets(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
-Image<vec3> render(const Options&, const NormalMapAssets&, Counters&);
+#undef render
+Image<vec3> render(const Options&, const NormalMapAssets&);
 #endif
 }  // namespace lesson_08
 #undef main

@@ -23,6 +23,9 @@
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
+#ifdef RENDER_IS_COMPILED_APART
+#define render render_here
+#endif
 namespace lesson_09 {
 using rasterbook::test::run_lesson;
 #include "lessons/09_shadow_maps/main.cpp"
@@ -30,7 +33,8 @@ inline auto make_assets(Scene scene, const Options& options) {
     return make_shadow_assets(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
-Image<vec3> render(const Options&, const ShadowAssets&, Counters&);
+#undef render
+Image<vec3> render(const Options&, const ShadowAssets&);
 #endif
 }  // namespace lesson_09
 #undef main

@@ -21,6 +21,9 @@
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
+#ifdef RENDER_IS_COMPILED_APART
+#define render render_here
+#endif
 namespace lesson_10 {
 using rasterbook::test::run_lesson;
 #include "lessons/10_threading/main.cpp"
@@ -28,7 +31,10 @@ inline auto make_assets(Scene scene, const Options& options) {
     return make_shadow_assets(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
-Image<vec3> render(const Options&, const ShadowAssets&, ThreadPool&, Counters&);
+[[maybe_unused]] static constexpr auto* named_here =
+    &render_here;  // main.cpp calls it in a template
+#undef render
+Image<vec3> render(const Options&, const ShadowAssets&, Workers&);
 #endif
 }  // namespace lesson_10
 #undef main

@@ -15,11 +15,15 @@
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
+#ifdef RENDER_IS_COMPILED_APART
+#define render render_here
+#endif
 namespace lesson_11 {
 using rasterbook::test::run_scene_lesson;
 #include "lessons/11_scenes/main.cpp"
 #ifdef RENDER_IS_COMPILED_APART
-Image<vec3> render(const Options&, const SceneAssets&, ThreadPool&, Counters&, StepClock&);
+#undef render
+Image<vec3> render(const Options&, const SceneAssets&, Workers&, StepClock&);
 #endif
 }  // namespace lesson_11
 #undef main

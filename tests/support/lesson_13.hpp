@@ -17,11 +17,15 @@
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
+#ifdef RENDER_IS_COMPILED_APART
+#define render render_here
+#endif
 namespace lesson_13 {
 using rasterbook::test::run_scene_lesson;
 #include "lessons/13_simd/main.cpp"
 #ifdef RENDER_IS_COMPILED_APART
-Image<vec3> render(const Options&, const SceneAssets&, ThreadPool&, Counters&, StepClock&);
+#undef render
+Image<vec3> render(const Options&, const SceneAssets&, Workers&, StepClock&);
 #endif
 }  // namespace lesson_13
 #undef main

@@ -24,17 +24,17 @@ namespace rasterbook::test {
 
 inline Drawn drawn_by_11(const lesson_12::Options& options, const SceneAssets& assets,
                          ThreadPool& pool) {
-    return drawn(options, assets, [&](const auto& of, const auto& with, Counters& counters) {
+    return drawn(options, assets, [&](const auto& of, const auto& with) {
         StepClock clock;
-        return lesson_11::render(of, with, pool, counters, clock);
+        return lesson_11::render(of, with, pool, clock);
     });
 }
 
 inline Drawn drawn_by_12(const lesson_12::Options& options, const SceneAssets& assets,
                          ThreadPool& pool) {
-    return drawn(options, assets, [&](const auto& of, const auto& with, Counters& counters) {
+    return drawn(options, assets, [&](const auto& of, const auto& with) {
         StepClock clock;
-        return lesson_12::render(of, with, pool, counters, clock);
+        return lesson_12::render(of, with, pool, clock);
     });
 }
 

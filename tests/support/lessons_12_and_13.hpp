@@ -16,18 +16,18 @@ inline Drawn drawn_by_12(const lesson_13::Options& options, const SceneAssets& a
     lesson_12::Options without_width;
     static_cast<SceneRendererOptions&>(without_width) = options;
     without_width.visibility = options.visibility;
-    Drawn result;
-    StepClock clock;
-    result.picture = lesson_12::render(without_width, assets, pool, result.counters, clock);
-    return result;
+    return drawn(without_width, assets, [&](const auto& of, const auto& with) {
+        StepClock clock;
+        return lesson_12::render(of, with, pool, clock);
+    });
 }
 
 inline Drawn drawn_by_13(const lesson_13::Options& options, const SceneAssets& assets,
                          ThreadPool& pool) {
-    Drawn result;
-    StepClock clock;
-    result.picture = lesson_13::render(options, assets, pool, result.counters, clock);
-    return result;
+    return drawn(options, assets, [&](const auto& of, const auto& with) {
+        StepClock clock;
+        return lesson_13::render(of, with, pool, clock);
+    });
 }
 
 }  // namespace rasterbook::test

@@ -38,13 +38,12 @@ struct LightMaps {
         Bounds all = around;
         for (const Mesh& mesh : meshes) all.add(mesh.bounds.min), all.add(mesh.bounds.max);
         const LightViews views = light_views(light, all, all, size);
-        NoCounters none;
         for (std::size_t i = 0; i < views.count; ++i) {
             const bool is_empty = is_outside_frustum(all, views.clip_from_world[i]);
             maps.emplace_back(views.clip_from_world[i], views.is_perspective, is_empty ? 1 : size,
                               all);
             for (const Mesh& mesh : meshes)
-                draw_casters(maps.back(), mesh, [](std::size_t) { return true; }, none);
+                draw_casters(maps.back(), mesh, [](std::size_t) { return true; });
         }
     }
 

@@ -84,9 +84,8 @@ struct LitSphere {
     /// cover each other. Calls emit(pixel, light) for each fragment.
     template <typename Emit>
     void draw(const ShadingVariant& variant, Emit&& emit) const {
-        NoCounters uncounted;
         for_each_visible_triangle(
-            scene, camera.clip_from_world(size), size, variant.culling(), uncounted,
+            scene, camera.clip_from_world(size), size, variant.culling(),
             [&](const ProjectedTriangle& projected) {
                 const LitTriangle triangle = lit(projected, variant);
                 const PerspectiveSetup setup =

@@ -139,7 +139,6 @@ struct NormalMappedTorus {
     /// emit(pixel, normal, uv) for each fragment; the normal is of any length.
     template <typename Emit>
     void draw(Emit&& emit) const {
-        NoCounters counters;
         DepthBuffer depth(size);
         const SurfaceTextures no_textures{MaterialTextures(1), MaterialTextures(1),
                                           MaterialTextures(1)};
@@ -152,12 +151,12 @@ struct NormalMappedTorus {
                 if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
                 const FragmentBarycentrics at = perspective_correct(setup, on_screen);
                 const vec3 normal = interpolate(surface.normals_world, at.here);
-                emit(pixel, normal_mapped(map, variant, at, normal, Filter::bilinear, counters),
+                emit(pixel, normal_mapped(map, variant, at, normal, Filter::bilinear),
                      interpolate(map.uvs, at.here));
             });
         };
         for_each_visible_triangle(scene, camera.clip_from_world(size), size, Culling::back_faces,
-                                  counters, draw_triangle);
+                                  draw_triangle);
     }
 
   private:

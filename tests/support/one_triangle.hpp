@@ -58,10 +58,8 @@ class LitTriangle {
 
     ReflectedLight at(Barycentrics barycentrics) const {
         if (at_vertices_.is_used()) return at_vertices_.at(barycentrics);
-        NoCounters uncounted;
         const vec3 normal = interpolate(surface_.normals_world, barycentrics);
-        SurfacePoint<float> point =
-            surface_point(surface_, barycentrics, normal, eye_world_, uncounted);
+        SurfacePoint<float> point = surface_point(surface_, barycentrics, normal, eye_world_);
         scale_normal(variant_, normal, point);
         return reflected_light(lights_, point, highlight_);
     }

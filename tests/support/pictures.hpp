@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "common/app/counters.hpp"
 #include "common/image/image.hpp"
@@ -31,6 +32,21 @@ inline std::uint64_t count(const Counters& counters, Counter counter) {
     return counters.values[static_cast<std::size_t>(counter)];
 }
 
+/// What this thread counts from now on.
+class CountedSince {
+  public:
+    operator Counters() const {
+        Counters counted = thread_counters;
+        for (std::size_t i = 0; i < counted.values.size(); ++i)
+            counted.values[i] -= then_.values[i];
+        return counted;
+    }
+    auto values() const { return Counters(*this).values; }
+
+  private:
+    Counters then_ = thread_counters;
+};
+
 /// A picture, and what was done to make it.
 struct Drawn {
     Image<vec3> picture;
@@ -39,13 +55,12 @@ struct Drawn {
     std::uint64_t count(Counter counter) const { return test::count(counters, counter); }
 };
 
-/// @param render  Called as render(options, assets, counters): that of a lesson
-/// (support/lesson_NN.hpp).
+/// @param render  Called as render(options, assets): that of a lesson (support/lesson_NN.hpp).
 template <typename Options, typename Assets, typename Render>
 Drawn drawn(const Options& options, const Assets& assets, Render&& render) {
-    Drawn result;
-    result.picture = render(options, assets, result.counters);
-    return result;
+    const CountedSince counters;
+    Image<vec3> picture = render(options, assets);
+    return {std::move(picture), counters};
 }
 
 }  // namespace rasterbook::test

@@ -11,17 +11,18 @@
 #include <random>
 #include <vector>
 
+#include "common/app/workers.hpp"
+
 namespace rasterbook::test {
 
 /// Does the tasks in any order and gives each to any worker; the same ones each time.
-class ShuffledPool {
+class ShuffledPool : public Workers {
   public:
     ShuffledPool(std::size_t workers, std::uint32_t seed) : workers_(workers), random_(seed) {}
 
-    std::size_t size() const { return workers_; }
+    std::size_t size() const override { return workers_; }
 
-    template <typename Task>
-    void run(std::size_t tasks, const Task& task) {
+    void run_tasks(std::size_t tasks, const Task& task) override {
         std::vector<std::size_t> order(tasks);
         std::iota(order.begin(), order.end(), std::size_t{0});
         for (std::size_t i = tasks; i > 1; --i) std::swap(order[i - 1], order[random_() % i]);
@@ -34,15 +35,14 @@ class ShuffledPool {
 };
 
 /// Does the tasks in order and writes down how long each takes.
-class MeasuredPool {
+class MeasuredPool : public Workers {
   public:
     /// @param workers  As many as it pretends to have: parts are made for them.
     explicit MeasuredPool(std::size_t workers) : workers_(workers) {}
 
-    std::size_t size() const { return workers_; }
+    std::size_t size() const override { return workers_; }
 
-    template <typename Task>
-    void run(std::size_t tasks, const Task& task) {
+    void run_tasks(std::size_t tasks, const Task& task) override {
         const auto begin = Clock::now();
         std::vector<double>& job_ms = jobs_ms.emplace_back();
         job_ms.reserve(tasks);

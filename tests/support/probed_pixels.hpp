@@ -19,16 +19,15 @@ namespace rasterbook::test {
 /// Random pixels of a picture, with what a probe says of them.
 ///
 /// @param pixels   How many: those of all tests are more than 10,000.
-/// @param render   Called as render(options, assets, counters).
+/// @param render   Called as render(options, assets).
 /// @param probe_of Called as probe_of(options, assets).
 template <typename Options, typename Assets, typename Render, typename ProbeOf>
 void expect_the_pictures_pixels(Options options, const Assets& assets, int pixels,
                                 const Render& render, const ProbeOf& probe_of) {
     const ivec2 size(113, 67);
     options.size = size * options.samples_per_side;
-    Counters counters;
     const Image<u8vec3> picture =
-        srgb8_from_linear(averaged(render(options, assets, counters), options.samples_per_side));
+        srgb8_from_linear(averaged(render(options, assets), options.samples_per_side));
     const PixelProbe probe = probe_of(options, assets);
     std::mt19937 random(1);
     for (int i = 0; i < pixels; ++i) {

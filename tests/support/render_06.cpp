@@ -4,8 +4,8 @@
 
 namespace lesson_06 {
 
-Image<vec3> render(const Options& options, const PhongAssets& assets, Counters& counters) {
-    return render<>(options, assets, counters);
+Image<vec3> render(const Options& options, const PhongAssets& assets) {
+    return render_here(options, assets);
 }
 
 }  // namespace lesson_06

@@ -4,8 +4,8 @@
 
 namespace lesson_07 {
 
-Image<vec3> render(const Options& options, const ToonAssets& assets, Counters& counters) {
-    return render<>(options, assets, counters);
+Image<vec3> render(const Options& options, const ToonAssets& assets) {
+    return render_here(options, assets);
 }
 
 }  // namespace lesson_07

@@ -4,8 +4,8 @@
 
 namespace lesson_08 {
 
-Image<vec3> render(const Options& options, const NormalMapAssets& assets, Counters& counters) {
-    return render<>(options, assets, counters);
+Image<vec3> render(const Options& options, const NormalMapAssets& assets) {
+    return render_here(options, assets);
 }
 
 }  // namespace lesson_08

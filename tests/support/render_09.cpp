@@ -4,8 +4,8 @@
 
 namespace lesson_09 {
 
-Image<vec3> render(const Options& options, const ShadowAssets& assets, Counters& counters) {
-    return render<>(options, assets, counters);
+Image<vec3> render(const Options& options, const ShadowAssets& assets) {
+    return render_here(options, assets);
 }
 
 }  // namespace lesson_09

@@ -4,9 +4,8 @@
 
 namespace lesson_10 {
 
-Image<vec3> render(const Options& options, const ShadowAssets& assets, ThreadPool& pool,
-                   Counters& counters) {
-    return render<>(options, assets, pool, counters);
+Image<vec3> render(const Options& options, const ShadowAssets& assets, Workers& pool) {
+    return render_here(options, assets, pool);
 }
 
 }  // namespace lesson_10

@@ -4,9 +4,9 @@
 
 namespace lesson_11 {
 
-Image<vec3> render(const Options& options, const SceneAssets& assets, ThreadPool& pool,
-                   Counters& counters, StepClock& clock) {
-    return render<>(options, assets, pool, counters, clock);
+Image<vec3> render(const Options& options, const SceneAssets& assets, Workers& pool,
+                   StepClock& clock) {
+    return render_here(options, assets, pool, clock);
 }
 
 }  // namespace lesson_11

@@ -37,9 +37,8 @@ struct SeenPoint {
 inline std::vector<SeenPoint> seen_points(const Scene& scene, const Camera& camera, ivec2 size) {
     DepthBuffer depth(size);
     Image<std::optional<SeenPoint>> seen(size);
-    NoCounters none;
     for_each_visible_triangle(
-        scene, camera.clip_from_world(size), size, Culling::back_faces, none,
+        scene, camera.clip_from_world(size), size, Culling::back_faces,
         [&](const ProjectedTriangle& projected) {
             const auto& [mesh, triangle] = std::tie(projected.mesh, projected.triangle);
             const Vertices vertices = vertices_in(mesh, triangle);

@@ -25,8 +25,7 @@ inline Drawn drawn_toon(const Scene& scene, const lesson_07::Options& options) {
                  [](auto&... arguments) { return lesson_07::render(arguments...); });
 }
 inline Image<vec3> toon_picture(const Scene& scene, const lesson_07::Options& options) {
-    Counters ignored;
-    return lesson_07::render(options, lesson_07::make_assets(scene, options), ignored);
+    return lesson_07::render(options, lesson_07::make_assets(scene, options));
 }
 
 inline Scene scene_of_one(Mesh mesh) {

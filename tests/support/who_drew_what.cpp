@@ -7,19 +7,21 @@
 namespace {
 
 /// Four workers: tiles go to any of them, strips to each in turn.
-struct FixedPool {
-    std::size_t size() const { return 4; }
+class FixedPool : public rasterbook::Workers {
+  public:
+    explicit FixedPool(bool in_turn) : in_turn_(in_turn) {}
 
-    template <typename Task>
-    void run(std::size_t tasks, const Task& task) {
-        if (in_turn)
+    std::size_t size() const override { return 4; }
+    void run_tasks(std::size_t tasks, const Task& task) override {
+        if (in_turn_)
             for (std::size_t i = 0; i < tasks; ++i) task(i, i % size());
         else
-            shuffled.run(tasks, task);
+            shuffled_.run_tasks(tasks, task);
     }
 
-    bool in_turn;
-    rasterbook::test::ShuffledPool shuffled{4, 1};
+  private:
+    bool in_turn_;
+    rasterbook::test::ShuffledPool shuffled_{4, 1};
 };
 
 }  // namespace
@@ -27,8 +29,8 @@ struct FixedPool {
 int main(int argc, char** argv) {
     return rasterbook::run_lesson<lesson_10::Options>(
         argc, argv, "who_drew_what", "Lesson 10, the same each time.", lesson_10::make_assets,
-        [](const auto& options, const auto& assets, auto& counters) {
+        [](const auto& options, const auto& assets) {
             FixedPool pool{options.threads.split != rasterbook::Split::tiles};
-            return lesson_10::render(options, assets, pool, counters);
+            return lesson_10::render(options, assets, pool);
         });
 }

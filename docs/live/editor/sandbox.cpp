@@ -23,8 +23,7 @@ struct Options : LessonOptions {
     }
 };
 
-template <typename CounterPolicy>
-Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& counters) {
+Image<vec3> render(const Options& options, const Scene& scene) {
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
@@ -38,13 +37,10 @@ Image<vec3> render(const Options& options, const Scene& scene, CounterPolicy& co
         });
     };
     for_each_visible_triangle(scene, camera.clip_from_world(options.size), options.size,
-                              Culling::back_faces, counters, draw);
+                              Culling::back_faces, draw);
     return color;
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "sandbox", "Draws what you write.",
-                               [](const auto& options, const auto& scene, auto& counters) {
-                                   return render(options, scene, counters);
-                               });
+    return run_lesson<Options>(argc, argv, "sandbox", "Draws what you write.", render);
 }

@@ -80,8 +80,7 @@ extern "C" void draw(float elevation, int size, int bias, float factor) {
                       vec3(std::cos(elevation), std::sin(elevation), 0)};
     const LightViews views = light_views(light, mesh.bounds, mesh.bounds, size);
     ShadowMap map(views.clip_from_world[0], false, size, mesh.bounds);
-    NoCounters counters;
-    draw_casters(map, mesh, [](std::uint32_t) { return true; }, counters);
+    draw_casters(map, mesh, [](std::uint32_t) { return true; });
 
     seen_texels.clear();
     const dmat4 world_from_texels = glm::inverse(dmat4(map.texels_from_world));

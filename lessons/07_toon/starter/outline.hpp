@@ -64,14 +64,13 @@ inline bool is_seen_from_behind(const Mesh& mesh, const Triangle& triangle, vec3
 /// The body occludes all of them but a rim of `width_px` pixels (Eq. 7.9).
 ///
 /// The rim has that width wherever the body is round; at the sides of a cube it is 0.577 to 1 times
-/// as wide. A sheet that is not closed has no rim where it shows its front.
+/// as wide. A sheet that is not closed has no rim where it shows its front. Counts each fragment of
+/// the hull as one of outline_tests, and each one inked as one of outline_pixels.
 ///
 /// @param normals  hull_normals() of the mesh.
 /// @param depth    All bodies are drawn already. Takes the hull's depths where it is visible.
-/// @param counters outline_tests: each fragment of the hull; outline_pixels: each one inked.
-template <typename CounterPolicy>
-void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
-               float width_px, DepthBuffer& depth, Image<vec3>& color, CounterPolicy& counters) {
+inline void draw_hull(const Mesh& mesh, const std::vector<vec3>& normals, const Camera& camera,
+                      float width_px, DepthBuffer& depth, Image<vec3>& color) {
     // TODO: transform the positions, push each one, and then for each triangle, as in lesson 04's
     // for_each_visible_triangle: clip_triangle, project. Give the projected triangle's on_screen to
     // fill_triangle, and for each pixel its depth.at(barycentrics) to depth.test_and_write. But
@@ -128,10 +127,8 @@ vec3 sobel(At&& at, ivec2 along) {
 ///                  thinner, or up to 1.41 times as wide. 0: each pixel is asked, none inked. In a
 ///                  picture that is at most that even number of pixels wide or high, none is
 ///                  asked.
-template <typename CounterPolicy>
-void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
-                float width_px, const EdgeThresholds& thresholds, Image<vec3>& color,
-                CounterPolicy& counters) {
+inline void draw_edges(const DepthBuffer& depth, const Image<vec3>& normals, const Camera& camera,
+                       float width_px, const EdgeThresholds& thresholds, Image<vec3>& color) {
     // TODO: for each pixel Eq. 7.14, of the numbers in depth.depths(), with the neighbours `reach`
     // = width_px / 2, rounded up, pixels away; at the picture's border all of it, also the
     // threshold, for the nearest pixel that has neighbours on all sides. Take the root for depth

@@ -103,8 +103,8 @@ struct ShadowMap {
 ///
 /// @param casts  Called as casts(material), an index into Scene::materials: whether triangles of it
 ///               cast shadows.
-template <typename Casts, typename CounterPolicy>
-void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts, CounterPolicy& counters) {
+template <typename Casts>
+void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts) {
     if (is_outside_frustum(mesh.bounds, map.clip_from_world)) return;
     // TODO: step 1: as for_each_visible_triangle() of lesson 04, with transform(), clip_triangle()
     // and project(), then fill_triangle() and test_and_write(). But only what casts is drawn, front

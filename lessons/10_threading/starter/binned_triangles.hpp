@@ -15,9 +15,9 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "04_mvp/projection.hpp"
 #include "10_threading/split.hpp"
-#include "10_threading/thread_pool.hpp"
 #include "common/app/counters.hpp"
 #include "common/app/empty_picture.hpp"
+#include "common/app/workers.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
@@ -113,18 +113,16 @@ inline std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle>
 using ProjectTriangles = decltype(project_triangles);  ///< Such a function.
 
 /// The meshes of a scene that may be in view; counts them all.
-template <typename CounterPolicy>
-std::vector<const Mesh*> meshes_in_view(const Scene& scene, const mat4& clip_from_world,
-                                        CounterPolicy& counters) {
+inline std::vector<const Mesh*> meshes_in_view(const Scene& scene, const mat4& clip_from_world) {
     std::vector<const Mesh*> meshes;
     for (const Mesh& mesh : scene.meshes) {
-        counters.add(Counter::meshes_in);
-        count_undrawn_if_asked(mesh, clip_from_world, counters);
+        count(Counter::meshes_in);
+        count_undrawn_if_asked(mesh, clip_from_world);
         if (is_outside_frustum(mesh.bounds, clip_from_world)) {
-            counters.add(Counter::meshes_culled_by_frustum);
+            count(Counter::meshes_culled_by_frustum);
             continue;
         }
-        if (!mesh.tangents.empty()) counters.add(Counter::meshes_with_tangents);
+        if (!mesh.tangents.empty()) count(Counter::meshes_with_tangents);
         meshes.push_back(&mesh);
     }
     return meshes;
@@ -143,28 +141,22 @@ class BinnedTriangles {
     /// Counts as the earlier lessons do: triangles_in each one that is taken, and
     /// triangles_culled_by_facing each piece that is culled for the side that it shows.
     ///
-    /// @param pool       Has size() and run() as ThreadPool does.
     /// @param culling    Whether pieces seen from behind are left out.
-    /// @param counters   One for each worker of the pool.
     /// @throws InputError  When drawing them would take more than the scene's budget has.
-    template <typename Pool, typename CounterPolicy>
-    BinnedTriangles(Pool& pool, const Scene& scene, const std::vector<const Mesh*>& meshes,
-                    const mat4& clip_from_world, const Tiling& tiling, Culling culling,
-                    WorkerCounters<CounterPolicy>& counters)
-        : BinnedTriangles(
-              pool, scene, meshes, clip_from_world, tiling, culling,
-              [](std::size_t) { return true; }, counters) {}
+    BinnedTriangles(Workers& pool, const Scene& scene, const std::vector<const Mesh*>& meshes,
+                    const mat4& clip_from_world, const Tiling& tiling, Culling culling)
+        : BinnedTriangles(pool, scene, meshes, clip_from_world, tiling, culling,
+                          [](std::size_t) { return true; }) {}
 
     /// The same of some materials.
     ///
     /// @param takes      Called as takes(material), an index into Scene::materials: whether
     ///                   triangles of it are taken.
     /// @param set_up     Does what project_triangles() does.
-    template <typename Pool, typename Takes, typename CounterPolicy>
-    BinnedTriangles(Pool& pool, const Scene& scene, const std::vector<const Mesh*>& meshes,
+    template <typename Takes>
+    BinnedTriangles(Workers& pool, const Scene& scene, const std::vector<const Mesh*>& meshes,
                     const mat4& clip_from_world, const Tiling& tiling, Culling culling,
-                    const Takes& takes, WorkerCounters<CounterPolicy>& counters,
-                    ProjectTriangles* set_up = project_triangles) {
+                    const Takes& takes, ProjectTriangles* set_up = project_triangles) {
         std::vector<std::size_t> first_position = {0}, first_triangle = {0};
         for (const Mesh* mesh : meshes) {
             first_position.push_back(first_position.back() + mesh->positions.size());
@@ -181,7 +173,7 @@ class BinnedTriangles {
         });
         batches.resize(batches_of(first_triangle.back()));
         std::vector<double> work(batches.size(), 0.0);
-        pool.run(batches.size(), [&](std::size_t batch, std::size_t worker) {
+        pool.run(batches.size(), [&](std::size_t batch, std::size_t) {
             std::vector<ProjectedTriangle>& triangles = batches[batch].triangles;
             triangles.reserve(begin_of_batch(batch + 1, first_triangle.back()) -
                               begin_of_batch(batch, first_triangle.back()));
@@ -192,11 +184,11 @@ class BinnedTriangles {
                                  const std::size_t material = of_mesh[i].material;
                                  while (next < end && of_mesh[next].material == material) ++next;
                                  if (!takes(material)) continue;
-                                 counters[worker].add(Counter::triangles_in, next - i);
-                                 counters[worker].add(Counter::triangles_culled_by_facing,
-                                                      set_up(*meshes[mesh], {&of_mesh[i], next - i},
-                                                             &positions_clip[first_position[mesh]],
-                                                             tiling.size(), culling, triangles));
+                                 count(Counter::triangles_in, next - i);
+                                 count(Counter::triangles_culled_by_facing,
+                                       set_up(*meshes[mesh], {&of_mesh[i], next - i},
+                                              &positions_clip[first_position[mesh]], tiling.size(),
+                                              culling, triangles));
                              }
                          });
             for (const ProjectedTriangle& projected : triangles)

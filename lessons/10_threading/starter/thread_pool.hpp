@@ -9,26 +9,26 @@
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
-#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <thread>
 #include <vector>
+
+#include "common/app/workers.hpp"
 
 namespace rasterbook {
 
 /// A number of tasks, and which one comes next.
 struct Job {
     std::size_t tasks;
-    const void* task;
-    void (*call)(const void* task, std::size_t i, std::size_t worker);
+    const Workers::Task& task;
     std::atomic<std::size_t> next = 0;  ///< The first task that nobody has taken.
     std::exception_ptr error = nullptr;
 };
 
 /// Workers that wait for jobs. A job is a number of tasks, and each worker that is free takes the
 /// next one.
-class ThreadPool {
+class ThreadPool : public Workers {
   public:
     /// @param threads  The caller's among them: one less is started. At least 1.
     /// @throws std::system_error  When the system does not give that many; none is left running.
@@ -39,9 +39,9 @@ class ThreadPool {
     }
 
     /// How many work, the caller among them.
-    std::size_t size() const { return workers_.size() + 1; }
+    std::size_t size() const override { return workers_.size() + 1; }
 
-    /// Does all tasks, and comes back when all are done.
+    /// Does all tasks of run(), and comes back when all are done.
     ///
     /// What is written before is seen by the tasks, and what they write is seen after.
     ///
@@ -49,15 +49,12 @@ class ThreadPool {
     /// @param task   Called as task(i, worker) for i from 0 to tasks - 1, each once, by several
     ///               threads at once, in no fixed order. Of the calls by one worker, numbered from
     ///               0, the caller, to size() - 1, only one runs at a time. When one throws, no
-    ///               other is taken; when those taken have ended, run() throws what the first one
+    ///               other is taken; when those taken have ended, this throws what the first one
     ///               threw, and the pool can be used as before.
     ///
     /// Not to be called by two threads at once, nor by a task.
-    template <typename Task>
-    void run(std::size_t tasks, const Task& task) {
-        Job job{tasks, std::addressof(task), [](const void* of, std::size_t i, std::size_t worker) {
-                    (*static_cast<const Task*>(of))(i, worker);
-                }};
+    void run_tasks(std::size_t tasks, const Task& task) override {
+        Job job{tasks, task};
         // TODO: make the job known to all, wake them up, take tasks as worker 0, and wait until
         // nobody is in the job any more. A worker that wakes up after that must not find it. Throw
         // what was kept, if anything was.
@@ -65,7 +62,7 @@ class ThreadPool {
 
   private:
     void take_tasks(Job& job, std::size_t worker) {
-        // TODO: take tasks from job.next and call job.call(job.task, i, worker), as long as there
+        // TODO: take tasks from job.next and call job.task(i, worker), as long as there
         // are any. If one throws, keep it if it is the first, and let nobody begin another.
     }
 
@@ -83,32 +80,6 @@ class ThreadPool {
     std::size_t jobs_ = 0;               ///< So many there have been: nobody joins one twice.
     std::size_t busy_ = 0;               ///< Workers in the job, but for the caller.
     std::vector<std::jthread> workers_;  ///< Last: they end before what they use.
-};
-
-/// Bytes that cores exchange at once, at most. Two threads that write within them wait for each
-/// other: false sharing.
-constexpr std::size_t cache_line = 128;
-
-/// Counters that share no cache line with others.
-template <typename CounterPolicy>
-struct alignas(cache_line) ApartCounters {
-    CounterPolicy counters;
-};
-
-/// Counters for each worker, so that none waits for another.
-template <typename CounterPolicy>
-class WorkerCounters {
-  public:
-    explicit WorkerCounters(std::size_t workers) : of_worker_(workers) {}
-
-    CounterPolicy& operator[](std::size_t worker) { return of_worker_[worker].counters; }
-
-    void add_to(CounterPolicy& sum) const {
-        for (const ApartCounters<CounterPolicy>& one : of_worker_) sum.add(one.counters);
-    }
-
-  private:
-    std::vector<ApartCounters<CounterPolicy>> of_worker_;
 };
 
 }  // namespace rasterbook

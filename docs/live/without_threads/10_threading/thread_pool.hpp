@@ -5,30 +5,19 @@
 
 #include <cstddef>
 
+#include "common/app/workers.hpp"
+
 namespace rasterbook {
 
-class ThreadPool {
+class ThreadPool : public Workers {
   public:
     explicit ThreadPool(int) {}
 
-    std::size_t size() const { return 1; }
+    std::size_t size() const override { return 1; }
 
-    template <typename Task>
-    void run(std::size_t tasks, const Task& task) {
+    void run_tasks(std::size_t tasks, const Task& task) override {
         for (std::size_t i = 0; i < tasks; ++i) task(i, std::size_t{0});
     }
-};
-
-template <typename CounterPolicy>
-class WorkerCounters {
-  public:
-    explicit WorkerCounters(std::size_t) {}
-
-    CounterPolicy& operator[](std::size_t) { return counters_; }
-    void add_to(CounterPolicy& sum) const { sum.add(counters_); }
-
-  private:
-    CounterPolicy counters_;
 };
 
 }  // namespace rasterbook
