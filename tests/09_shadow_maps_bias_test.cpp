@@ -110,7 +110,7 @@ constexpr double beyond_ideal = 0.02;
 TEST(ShadowMaps, Eq9_8_SlopesOfAKnownPlane) {
     // 512 texels over 2: the depth rises by 1/4 of x and falls by 1/2 of y; rows run down.
     const vec2 slope =
-        receiver(map_of_cube(512), Bias::plane, 0, plane_in_cube(1, -2), to_the_light).slope;
+        shadow_bias(map_of_cube(512), Bias::plane, 0, plane_in_cube(1, -2), to_the_light).slope;
     const char* const where =
         "a plane with z = 1/2 + x / 4 - y / 2 in NDC, seen by a map of 512 texels: depth from a "
         "texel to the "
@@ -128,7 +128,7 @@ TEST(ShadowMaps, Eq9_4_SlopesOfAPlaneInAPerspective) {
         ASSERT_EQ(maps.maps.size(), 1u);
         const ShadowMap& map = maps.maps[0];
         const Vertices vertices = vertices_in(plane.mesh, plane.mesh.triangles[7]);
-        const Receiver at = receiver(map, Bias::plane, 0, vertices, maps.toward(vertices[0]));
+        const ShadowBias at = shadow_bias(map, Bias::plane, 0, vertices, maps.toward(vertices[0]));
         // In long double: the positions of the three vertices in the map, and the plane through
         // them.
         std::array<lvec3, 3> in_map;
@@ -156,8 +156,8 @@ TEST(ShadowMaps, Eq9_9_TheBiasIsHalfATexelTimesTheSlopes) {
     for (const auto& [a, b] : {std::pair{1.0f, 0.0f}, {1.0f, 2.0f}, {-1.0f, 0.5f}}) {
         const double of_a_texel = (std::abs(a) + std::abs(b)) / 2 / size;
         for (const int radius : {0, 1, 2, 3}) {
-            const Receiver at =
-                receiver(map, Bias::slope, radius, plane_in_cube(a, b), to_the_light);
+            const ShadowBias at =
+                shadow_bias(map, Bias::slope, radius, plane_in_cube(a, b), to_the_light);
             const double bias = at.bias + at.bias_per_w;
             const std::string where =
                 "the bias of a plane with |dz/dx| + |dz/dy| = " + std::to_string(of_a_texel) +
@@ -171,7 +171,7 @@ TEST(ShadowMaps, Eq9_9_TheBiasIsHalfATexelTimesTheSlopes) {
             ASSERT_EQ(at.offset, vec3(0)) << "of " << name_of(Bias::slope);
         }
     }
-    const Receiver flat = receiver(map, Bias::slope, 3, plane_in_cube(0, 0), to_the_light);
+    const ShadowBias flat = shadow_bias(map, Bias::slope, 3, plane_in_cube(0, 0), to_the_light);
     EXPECT_LE(flat.bias + flat.bias_per_w, 3e-5f);  // roundings are left
     EXPECT_GT(flat.bias + flat.bias_per_w, 0);
 }
@@ -214,7 +214,7 @@ void less_than_the_derived_bias_is_too_little(LightKind kind, int radius) {
     int dark_with_less = 0, dark_without = 0;
     for (const PointOn& p : points_on(plane.mesh, random, 400)) {
         const ShadowMap& map = maps.map_for(p.point);
-        Receiver at = receiver(map, Bias::slope, radius, p.vertices, maps.toward(p.point));
+        ShadowBias at = shadow_bias(map, Bias::slope, radius, p.vertices, maps.toward(p.point));
         ASSERT_EQ(pcf_visibility(map, radius, pcf_kernel(map, at, p.point)), 1)
             << "at " << testing::PrintToString(p.point) << " with a bias of "
             << at.bias + at.bias_per_w << ": " << where;
@@ -243,13 +243,13 @@ TEST(ShadowMaps, Eq9_10_LessThanTheDerivedBiasIsTooLittleForPcf) {
 TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
     constexpr int size = 512;
     const ShadowMap map = map_of_cube(size);
-    const Receiver at = receiver(map, Bias::plane, 3, plane_in_cube(1, -2), to_the_light);
+    const ShadowBias at = shadow_bias(map, Bias::plane, 3, plane_in_cube(1, -2), to_the_light);
     EXPECT_NEAR(at.slope.x, 0.5 / size, 1e-9)
         << "of z = 1/2 + x / 4 - y / 2 in NDC, a texel to the right";
     EXPECT_NEAR(at.slope.y, 1.0 / size, 1e-9) << "a texel down; down is -y";
     // Snapping and roundings are left, whatever the radius.
     EXPECT_LT(at.bias + at.bias_per_w, (1.0 / 512 + beyond_ideal) * 1.5 / size);
-    EXPECT_EQ(receiver(map, Bias::plane, 0, plane_in_cube(1, -2), to_the_light).bias, at.bias);
+    EXPECT_EQ(shadow_bias(map, Bias::plane, 0, plane_in_cube(1, -2), to_the_light).bias, at.bias);
 
     // A plate this little in front of a tilted plane shadows it; half a texel's slope would not.
     ShadowMap with_plate = map_of_cube(size);
@@ -268,7 +268,8 @@ TEST(ShadowMaps, Eq9_11_ThePlaneIsComparedAtEachTexelsCentre) {
         EXPECT_EQ(pcf_visibility<3>(with_plate, at, point), 0)
             << "a plate a tenth of a texel's slope in front of a tilted plane shadows it: at "
             << testing::PrintToString(point);
-        const Receiver sloped = receiver(map, Bias::slope, 0, plane_in_cube(1, -2), to_the_light);
+        const ShadowBias sloped =
+            shadow_bias(map, Bias::slope, 0, plane_in_cube(1, -2), to_the_light);
         EXPECT_EQ(pcf_visibility<0>(with_plate, sloped, point), 1)
             << "a plate a tenth of a texel's slope in front of a tilted plane is lost in the bias "
                "of half a texel's: at "
@@ -281,7 +282,7 @@ TEST(ShadowMaps, Eq9_12_TheOffsetAlongTheNormal) {
     // (r + 1/2) 2/512 3/5, and nothing is added to its depth.
     constexpr int size = 512;
     const ShadowMap map = map_of_cube(size);
-    const Receiver at = receiver(map, Bias::normal, 1, plane_in_cube(3, 0), to_the_light);
+    const ShadowBias at = shadow_bias(map, Bias::normal, 1, plane_in_cube(3, 0), to_the_light);
     EXPECT_EQ(at.bias, 0);
     const dvec3 offset = dvec3(at.offset) + dvec3(at.offset_times_w);
     const std::string where = "the offset is " + testing::PrintToString(vec3(offset)) +
@@ -292,7 +293,7 @@ TEST(ShadowMaps, Eq9_12_TheOffsetAlongTheNormal) {
     EXPECT_LE(glm::length(offset), (1.5 + beyond_ideal) * 2 / size * 0.6) << where;
     // Even edge-on it is no longer than that of two sides of a texel.
     const Vertices edge_on = {vec3(0), vec3(1, 1, 0), vec3(0, 0, 1)};
-    const Receiver steep = receiver(map, Bias::normal, 1, edge_on, {1, -1, 1e-3f});
+    const ShadowBias steep = shadow_bias(map, Bias::normal, 1, edge_on, {1, -1, 1e-3f});
     EXPECT_LE(glm::length(steep.offset + steep.offset_times_w), 1.51 * std::sqrt(2) * 2 / size);
 }
 
@@ -305,10 +306,10 @@ TEST(ShadowMaps, Eq9_12_ThePointMovedInAPerspectiveIsNearerByTheBias) {
         const ShadowMap& map = maps.maps[0];
         const PointOn p = points_on(plane.mesh, random, 1)[7];
         const vec3 toward = maps.toward(p.point);
-        const Receiver moved = receiver(map, Bias::normal, 1, p.vertices, toward);
-        const Receiver sloped = receiver(map, Bias::slope, 1, p.vertices, toward);
+        const ShadowBias moved = shadow_bias(map, Bias::normal, 1, p.vertices, toward);
+        const ShadowBias sloped = shadow_bias(map, Bias::slope, 1, p.vertices, toward);
         if (sloped.bias > 1) continue;  // edge-on
-        const Receiver at = receiver(map, Bias::plane, 1, p.vertices, toward);
+        const ShadowBias at = shadow_bias(map, Bias::plane, 1, p.vertices, toward);
         const dmat4 m(map.texels_from_world);
         const dvec4 here = m * dvec4(p.point, 1);
         const dvec3 offset = dvec3(moved.offset) + here.w * dvec3(moved.offset_times_w);
@@ -380,8 +381,8 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
                                     (normal.x * real(m[0].w) + normal.y * real(m[1].w) +
                                      normal.z * real(m[2].w));
                     if (std::abs(kg - 1) < 1e-4L) continue;  // normals in float
-                    const Receiver at =
-                        receiver(map, Bias::normal, 3, p.vertices, maps.toward(p.point));
+                    const ShadowBias at =
+                        shadow_bias(map, Bias::normal, 3, p.vertices, maps.toward(p.point));
                     ASSERT_EQ(at.bias > 1, kg > 1) << "seed 6: size " << size << ", K g " << kg;
                     beyond += kg > 1, close += kg > 0.8L && kg < 1;
                 }
@@ -414,7 +415,7 @@ TEST(ShadowMaps, HardCase_EdgeOnSlopesStayFinite) {
     for (const auto& [vertices, is_edge_on] : triangles)
         for (const Bias bias : {Bias::none, Bias::constant, Bias::slope, Bias::plane, Bias::normal})
             for (const vec3 outward : {to_the_light, vec3(0, 1, 1), vec3(0)}) {
-                const Receiver at = receiver(map, bias, 3, vertices, outward);
+                const ShadowBias at = shadow_bias(map, bias, 3, vertices, outward);
                 for (const float number :
                      {at.slope.x, at.slope.y, at.bias, at.bias_per_w, at.offset.x, at.offset.y,
                       at.offset.z, at.offset_times_w.x, at.offset_times_w.y, at.offset_times_w.z})
@@ -443,7 +444,7 @@ TEST(ShadowMaps, HardCase_ATriangleTurnedAwayIsLeftToItsNormals) {
     const vec3 point(0.1f, 0.1f, 0.5f);
     for (const Bias bias : fitted) {
         const auto visibility = [&](vec3 outward) {
-            return pcf_visibility<1>(map, receiver(map, bias, 1, plane_in_cube(1, 1), outward),
+            return pcf_visibility<1>(map, shadow_bias(map, bias, 1, plane_in_cube(1, 1), outward),
                                      point);
         };
         ASSERT_EQ(visibility(to_the_light), 0) << name_of(bias) << ", turned to the light";
@@ -471,7 +472,7 @@ TEST(ShadowMaps, Eq9_14_AThinWallLeaksAtItsFootNoMoreThanTheBias) {
                 const double texel =
                     1 / std::min(glm::length(dvec3(rows[0])), glm::length(dvec3(rows[1])));
                 for (const Bias bias : fitted) {
-                    const Receiver at = receiver(map, bias, radius, vertices, {0, 1, 0});
+                    const ShadowBias at = shadow_bias(map, bias, radius, vertices, {0, 1, 0});
                     // In world: what is taken off along the ray; a shift along the floor's normal
                     // lifts the point by as much as it is.
                     const double along_ray =
@@ -512,7 +513,7 @@ TEST(ShadowMaps, HardCase_AThinSlabOnTheFloorHasItsShadowFromTwiceTheBiasOn) {
             const Light light = sun(vec3(-std::cos(e), std::sin(e), 0));
             const Vertices vertices = vertices_in(floor, floor.triangles[0]);
             const LightMaps low(light, with_slab(0.01f), size);  // its map is much the same
-            const Receiver at = receiver(low.maps[0], bias, radius, vertices, {0, 1, 0});
+            const ShadowBias at = shadow_bias(low.maps[0], bias, radius, vertices, {0, 1, 0});
             const dmat4 rows = glm::transpose(dmat4(low.maps[0].texels_from_world));
             const double height =
                 (at.bias + at.bias_per_w) / glm::length(dvec3(rows[2])) * std::sin(e) +

@@ -89,10 +89,9 @@ Mesh closed_box(vec3 low, vec3 high) {
 class FirstTriangle {
   public:
     FirstTriangle(const Scene& scene, const Light& light, const ShadowVariant& variant)
-        : shadow_maps_(draw_shadow_maps(variant, false, scene, shadow_bounds(scene),
-                                        std::array{light, sun({0, 1, 0})})),
-          receiver_(triangle_receiver(vertices_in(scene.meshes[0], scene.meshes[0].triangles[0]))) {
-    }
+        : shadow_maps_(draw_shadow_maps(
+              variant, {scene, shadow_bounds(scene), std::array{light, sun({0, 1, 0})}})),
+          receiver_(ShadowBiasCache(vertices_in(scene.meshes[0], scene.meshes[0].triangles[0]))) {}
 
     float visibility(std::size_t light, vec3 position, vec3 normal) {
         return light_visibility(shadow_maps_, light, receiver_, position, normal);
@@ -104,7 +103,7 @@ class FirstTriangle {
   private:
     const CountedSince counters_;
     ShadowMaps shadow_maps_;
-    TriangleReceiver receiver_;
+    ShadowBiasCache receiver_;
 };
 
 }  // namespace

@@ -519,7 +519,7 @@ TEST(ShadowMaps, Eq9_6_TheNearestCasterIsDrawn) {
 TEST(ShadowMaps, Eq9_7_LitIsWhatIsNotBehindTheMap) {
     ShadowMap map = small_map();
     put(map, {1, 2}, 0.5f);
-    Receiver none;
+    ShadowBias none;
     // A point 0 or some of a texel's side from the centre of a texel.
     const auto has_light = [&](float column, float row, float depth, int expected) {
         const float found = pcf_visibility<0>(map, none, at_texel(column, row, depth));
@@ -627,7 +627,7 @@ TEST(ShadowMaps, Eq9_9_TheConstantBiasIsThatOfASlopeOf2InTheMiddle) {
                           ndc(map.texels_from_world, dvec3(middle) - step);
         const double slope = std::abs(way.z) / (std::abs(way.x) + std::abs(way.y));
         for (const int radius : {0, 2})
-            EXPECT_NEAR(receiver(map, Bias::constant, radius, {}, {0, 1, 0}).bias,
+            EXPECT_NEAR(shadow_bias(map, Bias::constant, radius, {}, {0, 1, 0}).bias,
                         (radius + 0.5) * slope, 1e-3 * slope)
                 << "half a texel and " << radius << " of a surface that goes down by 2 a unit; "
                 << name_of(light.kind);

@@ -503,16 +503,15 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
                                     .bias = all_biases[seed % all_biases.size()],
                                     .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
         const int side = 4 + static_cast<int>(dice.below(30));
-        const ShadowMapsOnDemand on_demand(pool, side, variant, false, scene, bounds, lights,
-                                           light_casts);
+        const ShadowMapsOnDemand on_demand(pool, side, variant, {scene, bounds, lights});
         std::uint64_t serial = 0, asking = 0;
-        const ShadowMaps whole = draw_shadow_maps(variant, false, scene, bounds, lights);
+        const ShadowMaps whole = draw_shadow_maps(variant, {scene, bounds, lights});
         std::vector<std::set<std::size_t>> asked(on_demand.parts().size());
         for (int i = 0; i < 12; ++i) {
             const Mesh& mesh = scene.meshes[0];
             std::array<vec3, 3> vertices;
             for (std::size_t v = 0; v < 3; ++v) vertices[v] = mesh.positions[3 * dice.below(8) + v];
-            TriangleReceiver receiver = triangle_receiver(vertices), same = receiver;
+            ShadowBiasCache receiver(vertices), same = receiver;
             const vec3 at(dice.between(0, 0.5f), dice.between(0, 0.5f), 0);
             const vec3 point =
                 at.x * vertices[0] + at.y * vertices[1] + (1 - at.x - at.y) * vertices[2];

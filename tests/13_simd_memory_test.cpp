@@ -68,8 +68,8 @@ vec2 any_change(Dice& dice, bool is_special) {
     return {u, v};
 }
 
-Receiver any_receiver(Dice& dice) {
-    Receiver receiver;
+ShadowBias any_receiver(Dice& dice) {
+    ShadowBias receiver;
     if (dice.one_in(2)) receiver.slope = vec2(dice.in_cube(0.05f));
     if (dice.one_in(2)) receiver.bias = dice.one_in(5) ? 2 : dice.between(0, 0.1f);
     if (dice.one_in(2)) receiver.bias_per_w = dice.between(0, 0.1f);
@@ -308,8 +308,8 @@ TEST(Simd, ShadowTestsFollowTheReceiversPlane) {
                                           0.25f * static_cast<float>(y - 2));
     for_each_width([&]<int N>() {
         const Mask<N> all = first_lanes<Floats<N>>(N);
-        WideReceiver<N> receiver{};
-        receiver.set(all, Receiver{.slope = {0.125f, 0.25f}});
+        WideShadowBias<N> receiver{};
+        receiver.set(all, ShadowBias{.slope = {0.125f, 0.25f}});
         for (const float below : {0.0f, 1.0f / 64}) {
             const Vec3<Floats<N>> point(vec3(-0.375f, -0.375f, 0.5f - below));
             const WidePcfKernel<N> kernel = pcf_kernel(map, receiver, point, all);
@@ -331,8 +331,8 @@ TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
         int outside = 0, inside = 0, partly_lit = 0;
         for (int k = 0; k < 6000 / N; ++k) {
             const ShadowMap map = any_map(dice, k % 2);
-            std::array<Receiver, std::size_t(N)> receivers;
-            WideReceiver<N> of_lanes{};
+            std::array<ShadowBias, std::size_t(N)> receivers;
+            WideShadowBias<N> of_lanes{};
             for (int i = 0; i < N; ++i) {
                 receivers.at(std::size_t(i)) = i == 0 || dice.one_in(3)
                                                    ? any_receiver(dice)
@@ -436,23 +436,22 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                                         .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
             const int side = 4 + static_cast<int>(dice.below(30));
             const bool all_effects = seed % 5 == 0;
-            const ShadowMapsOnDemand before(pool, side, variant, all_effects, scene, bounds, lights,
-                                            light_casts);
-            const ShadowMapsOnDemand now(pool, side, variant, all_effects, scene, bounds, lights,
-                                         light_casts);
+            const ShadowMapsOnDemand before(pool, side, variant,
+                                            {scene, bounds, lights, all_effects});
+            const ShadowMapsOnDemand now(pool, side, variant, {scene, bounds, lights, all_effects});
             Counters expected_counts, counts;
             for (int batch = 0; batch < 8; ++batch) {
                 const Mesh& mesh = scene.meshes[0];
-                std::vector<TriangleReceiver> receivers;
+                std::vector<ShadowBiasCache> receivers;
                 for (int t = 0; t < 3; ++t) {
                     std::array<vec3, 3> vertices;
                     for (std::size_t v = 0; v < 3; ++v)
                         vertices.at(v) = mesh.positions[3 * dice.below(8) + v];
-                    receivers.push_back(triangle_receiver(vertices));
+                    receivers.push_back(ShadowBiasCache(vertices));
                 }
-                std::vector<TriangleReceiver> same = receivers;
+                std::vector<ShadowBiasCache> same = receivers;
                 const std::uint32_t triangle_count = dice.one_in(2) ? 1 : 3;
-                LaneReceivers<N> in_slots;
+                LaneBiasCaches<N> in_slots;
                 std::array<std::size_t, std::size_t(N)> triangle_of;
                 // Few of the lanes may be pixels; the others repeat the last one.
                 const int pixels = dice.one_in(2) ? N : 1 + static_cast<int>(dice.below(N));
@@ -471,7 +470,7 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                         normals.at(lane) = normals.at(lane - 1);
                         continue;
                     }
-                    const auto& vertices = receivers.at(t).vertices;
+                    const auto& vertices = receivers.at(t).vertices();
                     const float reach = is_small ? 0.05f : 0.5f;
                     const vec2 at(dice.between(0, reach), dice.between(0, reach));
                     points.at(lane) =
@@ -510,7 +509,7 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                             << ", a map of " << variant.size << " texels (seed " << seed
                             << ", batch " << batch << ")";
                         half_lit += expected > 0 && expected < 1;
-                        sides[glm::dot(receivers.at(triangle_of.at(std::size_t(i))).front,
+                        sides[glm::dot(receivers.at(triangle_of.at(std::size_t(i))).front(),
                                        dvec3(normal)) < 0] = true;
                         faces.at(cube_face(point - lights[l].position_world)) = true;
                     }

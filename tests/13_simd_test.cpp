@@ -978,8 +978,8 @@ TEST(Simd, Eq13_4_BatchesOfTheWorkedExample) {
     const ColoredTriangles triangles;
     const ivec2 size(20, 20);
     ThreadPool pool(1);
-    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{}, false, triangles.assets.scene,
-                                  ShadowBounds(), {}, {});
+    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{},
+                                  {triangles.assets.scene, ShadowBounds(), {}});
     Image<vec3> color(size);
     DepthBuffer depth(size);
     const Frame<ShadowMapsOnDemand> frame{
@@ -1012,8 +1012,8 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
     const ColoredTriangles triangles;
     const ivec2 size(80, 40);
     ThreadPool pool(1);
-    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{}, false, triangles.assets.scene,
-                                  ShadowBounds(), {}, {});
+    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{},
+                                  {triangles.assets.scene, ShadowBounds(), {}});
     const std::array projected = {triangles.projected(size, 0), triangles.projected(size, 1),
                                   triangles.projected(size, 2)};
     for_each_width([&]<int N>() {

@@ -125,7 +125,7 @@ TEST_F(OpenGlTest, Lesson09sFragmentShaderDrawsTheSamePicture) {
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
     const std::array lights = raking_lights(options.shading.key_light, assets.scene.bounds());
     const ShadowMaps shadow_maps =
-        draw_shadow_maps(options.shadow, false, assets.scene, assets.shadow_bounds, lights);
+        draw_shadow_maps(options.shadow, {assets.scene, assets.shadow_bounds, lights});
     const auto normal_maps = unorm_normal_maps(assets.normal_maps);
     std::vector<OpenGlPart> parts = parts_of(assets.scene);
     for (OpenGlPart& part : parts)

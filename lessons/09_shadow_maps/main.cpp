@@ -34,8 +34,8 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets) {
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::array lights = raking_lights(options.shading.key_light, scene.bounds());
-    const ShadowMaps shadow_maps =
-        draw_shadow_maps(options.shadow, options.shading.all_effects, scene, shadow_bounds, lights);
+    const ShadowMaps shadow_maps = draw_shadow_maps(
+        options.shadow, {scene, shadow_bounds, lights, options.shading.all_effects});
     Image<vec3> color = backdrop(options.size);
     DepthBuffer depth(options.size);
 
@@ -45,7 +45,7 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets) {
         const PerspectiveSetup setup = perspective_setup(projected);
         const TriangleNormalMap normal_map =
             triangle_normal_map(options.normal_map, scene, normal_maps, projected);
-        TriangleReceiver receiver = triangle_receiver(surface.positions_world);  // keeps biases
+        ShadowBiasCache shadow_biases(surface.positions_world);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
             count(Counter::fragments_tested);
@@ -64,7 +64,7 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets) {
             const SurfacePoint<float> point =
                 surface_point(surface, on_surface.here, normal, camera.position_world);
             const auto visibility = [&](std::size_t light) {
-                return light_visibility(shadow_maps, light, receiver, point.position_world,
+                return light_visibility(shadow_maps, light, shadow_biases, point.position_world,
                                         smooth_normal);
             };
             const ReflectedLight reflected =

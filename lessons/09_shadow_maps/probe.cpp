@@ -20,9 +20,9 @@ PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& a
     return [options, &assets, camera, lights,
             triangles = projected_triangles(assets.scene, camera.clip_from_world(options.size),
                                             options.size),
-            shadow_maps = std::make_shared<const ShadowMaps>(
-                draw_shadow_maps(options.shadow, options.shading.all_effects, assets.scene,
-                                 assets.shadow_bounds, lights))](ivec2 pixel, PixelReport& report) {
+            shadow_maps = std::make_shared<const ShadowMaps>(draw_shadow_maps(
+                options.shadow, {assets.scene, assets.shadow_bounds, lights,
+                                 options.shading.all_effects}))](ivec2 pixel, PixelReport& report) {
         const Scene& scene = assets.scene;
         const Filter filter = options.texture.filter;
         const auto seen =
@@ -40,13 +40,14 @@ PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& a
         const SurfacePoint<float> point =
             surface_point(surface, on_surface.here, normal, camera.position_world);
         report_point(report, point, scene.origin);
-        TriangleReceiver receiver = triangle_receiver(surface.positions_world);
+        ShadowBiasCache shadow_biases(surface.positions_world);
         report_lights(report, lights, point, highlight_of(surface), [&](std::size_t l) {
-            return report_visibility(report, *shadow_maps, l, receiver, point.position_world,
+            return report_visibility(report, *shadow_maps, l, shadow_biases, point.position_world,
                                      smooth_normal);
         });
         const auto visibility = [&](std::size_t l) {
-            return light_visibility(*shadow_maps, l, receiver, point.position_world, smooth_normal);
+            return light_visibility(*shadow_maps, l, shadow_biases, point.position_world,
+                                    smooth_normal);
         };
         return report_phong(report, base_color, ambient_light,
                             reflected_light(lights, point, highlight_of(surface), visibility));

@@ -17,9 +17,9 @@ namespace rasterbook {
 /// Says which depths a shadow test compares.
 ///
 /// @param map       The map's number, counted through all lights.
-/// @param receiver  With the bias that has been fitted to it for this map.
+/// @param triangle  With the bias that has been fitted to it for this map.
 inline void report_shadow_test(PixelReport& report, const ShadowMaps& shadow_maps, std::size_t l,
-                               std::size_t map, const TriangleReceiver& receiver,
+                               std::size_t map, const ShadowBiasCache& triangle,
                                const PcfKernel& kernel) {
     const LightShadowMaps& of_light = shadow_maps.of_light[l];
     const ShadowMap& asked = of_light.maps[map - of_light.first_map];
@@ -28,8 +28,9 @@ inline void report_shadow_test(PixelReport& report, const ShadowMaps& shadow_map
                 "texel " + words(kernel.middle) + " of " + std::to_string(asked.size) + "x" +
                     std::to_string(asked.size),
                 "Eq. 9.6");
-    for (const auto& bias : receiver.biases[map])
-        if (bias) report.line("  bias", bias->bias, "Eq. 9.10");
+    for (const bool is_back : {false, true})
+        if (const ShadowBias* const bias = triangle.known_bias(map, is_back))
+            report.line("  bias", bias->bias, "Eq. 9.10");
     const float depth = std::max(kernel.depth, DepthBuffer::cleared);
     report.line(
         "  depths compared",
@@ -45,12 +46,12 @@ inline void report_shadow_test(PixelReport& report, const ShadowMaps& shadow_map
 
 /// Says how much of a light reaches a point of a triangle, and why.
 inline float report_visibility(PixelReport& report, const ShadowMaps& shadow_maps, std::size_t l,
-                               TriangleReceiver& receiver, vec3 position, vec3 normal) {
+                               ShadowBiasCache& triangle, vec3 position, vec3 normal) {
     bool is_tested = false;
     const float visibility = light_visibility(
-        shadow_maps, l, receiver, position, normal, [&](std::size_t map, const PcfKernel& kernel) {
+        shadow_maps, l, triangle, position, normal, [&](std::size_t map, const PcfKernel& kernel) {
             is_tested = true;
-            report_shadow_test(report, shadow_maps, l, map, receiver, kernel);
+            report_shadow_test(report, shadow_maps, l, map, triangle, kernel);
         });
     if (is_tested)
         report.line("  visibility", visibility, "Eq. 9.16");

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -121,74 +122,109 @@ void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts) {
 /// What keeps a lit surface from shadowing itself.
 enum class Bias { none, constant, slope, plane, normal };
 
-/// What a shadow test has to know of the triangle on which a shadow falls. A table in Robust, "Five
+/// What a shadow test adds to a point of a triangle, or moves it by. A table in Robust, "Five
 /// biases and what they return", says which Bias sets which field.
-struct Receiver {
+struct ShadowBias {
     vec2 slope{0};           ///< Change of depth to the right and to the lower texel (Eq. 9.11).
-    float bias = 0;          ///< Added to the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
+    float bias = 0;          ///< Added to the point's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
     float bias_per_w = 0;    ///< To be divided by the moved point's w, and added to the bias.
     vec3 offset{0};          ///< World space: moves the point (Eq. 9.12).
     vec3 offset_times_w{0};  ///< To be multiplied by w of the point not yet moved, and added.
 };
 
+/// No depth in a map is greater: with this bias, all points are lit.
+constexpr ShadowBias always_lit{.bias = 2};
+
 /// The sum of a plane's slopes beyond which its depth passes through all of the map within a texel.
 /// The light sees such a surface edge-on, and gives it hardly anything: it is called lit.
-/// Bias::normal needs no such limit.
+/// normal_offset_bias() needs no such limit.
 constexpr double max_slope = 1;
 
-/// Fits the bias to a triangle.
-///
-/// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
-/// lit of a triangle of no area, edge-on (with Bias::normal: only if it contains the light), not
-/// finite, or turned away from the light: that one gets no light anyway, or next to none where its
-/// interpolated normals still face the light.
-///
-/// @param radius   Of the PCF kernel: 0 to max_pcf_radius.
-/// @param vertices  World space.
-/// @param outward  Any vector to that side of the triangle which is seen.
-inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
-                         const std::array<vec3, 3>& vertices, dvec3 outward) {
-    Receiver result;
-    const double reach_texels = radius + 0.5;  // to the farthest tap's centre: Eq. 9.9
-    if (bias == Bias::constant)
-        result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
-    if (bias == Bias::none || bias == Bias::constant) return result;
+/// The plane of a triangle on which shadows fall, as a map sees it.
+struct ReceiverPlane {
+    dvec3 normal;       ///< World space, unit length, to the side that is seen.
+    dvec4 plane;        ///< In the map's texels and depths (Eq. 9.8).
+    double across = 0;  ///< |plane.x| + |plane.y|
+    double along = 0;   ///< |plane.z|
 
+    /// The sum of the slopes; not a number in a triangle of no area.
+    double slope() const { return across / along; }
+};
+
+/// @param vertices  World space.
+/// @param outward   Any vector to that side of the triangle which is seen.
+/// @return          None of a triangle of no area, edge-on, not finite, or turned away from the
+///                  light.
+inline std::optional<ReceiverPlane> receiver_plane(const ShadowMap& map,
+                                                   const std::array<vec3, 3>& vertices,
+                                                   dvec3 outward) {
     const dvec3 a = vertices[0], b = vertices[1], c = vertices[2];
     dvec3 normal = normalize_or(glm::cross(b - a, c - a), dvec3(0));
     dvec4 plane = map.plane_from_world * dvec4(normal, -glm::dot(normal, a));  // Eq. 9.8
     if (glm::dot(normal, outward) < 0) plane = -plane, normal = -normal;
-    if (!(plane.z > 0)) {  // Depth is greater towards the light.
-        result.bias = 2;
-        return result;
-    }
-    const double across = std::abs(plane.x) + std::abs(plane.y), along = std::abs(plane.z);
+    if (!(plane.z > 0)) return {};  // depth is greater towards the light
+    return ReceiverPlane{normal, plane, std::abs(plane.x) + std::abs(plane.y), std::abs(plane.z)};
+}
 
-    if (bias == Bias::normal) {  // Eq. 9.12
-        const dvec3 w_row(dvec4(map.texels_from_world[0].w, map.texels_from_world[1].w,
-                                map.texels_from_world[2].w, 0));
-        const double times_w = (reach_texels + snapping) * across + depth_quanta * along;
-        const double without_w = map.rounding_texels * across + map.rounding_depth * along;
-        const double growth = times_w * glm::dot(normal, w_row);  // K g
-        if (!(growth < 1)) {  // The farther the point moves, the more is missing.
-            result.bias = 2;
-            return result;
-        }
-        result.offset_times_w = vec3(normal * (times_w / (1 - growth)));
-        result.offset = vec3(normal * (without_w / (1 - growth)));
-        return result;
-    }
-    const double slope = across / along;
-    if (!(slope <= max_slope)) {  // also 0/0
-        result.bias = 2;
-        return result;
-    }
-    const bool is_plane = bias == Bias::plane;
-    if (is_plane) result.slope = vec2(-dvec2(plane) / plane.z);  // Eq. 9.11
-    result.bias = static_cast<float>(((is_plane ? 0 : reach_texels) + snapping) * slope +
-                                     depth_quanta);  // Eq. 9.10
-    result.bias_per_w = static_cast<float>(map.rounding_texels * slope + map.rounding_depth);
-    return result;
+/// How far the farthest tap's centre is from the point, in texels (Eq. 9.9).
+///
+/// @param radius  Of the PCF kernel: 0 to max_pcf_radius.
+constexpr double reach_texels(int radius) { return radius + 0.5; }
+
+/// As for a surface that is tilted by arctan 2, whatever the triangle.
+inline ShadowBias constant_bias(const ShadowMap& map, int radius) {
+    return {.bias = static_cast<float>(reach_texels(radius) * map.slope_in_middle)};
+}
+
+/// As much as the plane's depth changes within the kernel, and roundings (Eq. 9.10).
+inline ShadowBias slope_scaled_bias(const ShadowMap& map, int radius, const ReceiverPlane& plane) {
+    const double slope = plane.slope();
+    if (!(slope <= max_slope)) return always_lit;  // also 0/0
+    return {.bias = static_cast<float>((reach_texels(radius) + snapping) * slope + depth_quanta),
+            .bias_per_w = static_cast<float>(map.rounding_texels * slope + map.rounding_depth)};
+}
+
+/// Each tap is compared with the plane's depth there: only roundings are left to add (Eq. 9.11).
+inline ShadowBias receiver_plane_bias(const ShadowMap& map, const ReceiverPlane& plane) {
+    const double slope = plane.slope();
+    if (!(slope <= max_slope)) return always_lit;
+    return {.slope = vec2(-dvec2(plane.plane) / plane.plane.z),
+            .bias = static_cast<float>(snapping * slope + depth_quanta),
+            .bias_per_w = static_cast<float>(map.rounding_texels * slope + map.rounding_depth)};
+}
+
+/// Moves the point off the surface, until its depth suffices (Eq. 9.12). Where that is nowhere, the
+/// triangle's plane contains the light.
+inline ShadowBias normal_offset_bias(const ShadowMap& map, int radius, const ReceiverPlane& plane) {
+    const dvec3 w_row(dvec4(map.texels_from_world[0].w, map.texels_from_world[1].w,
+                            map.texels_from_world[2].w, 0));
+    const double times_w =
+        (reach_texels(radius) + snapping) * plane.across + depth_quanta * plane.along;
+    const double without_w = map.rounding_texels * plane.across + map.rounding_depth * plane.along;
+    const double growth = times_w * glm::dot(plane.normal, w_row);  // K g
+    if (!(growth < 1)) return always_lit;  // the farther the point moves, the more is missing
+    return {.offset = vec3(plane.normal * (without_w / (1 - growth))),
+            .offset_times_w = vec3(plane.normal * (times_w / (1 - growth)))};
+}
+
+/// Fits the bias to a triangle.
+///
+/// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. Triangles without a
+/// receiver_plane() are lit: they get no light anyway, or next to none where their interpolated
+/// normals still face the light.
+///
+/// @param radius    Of the PCF kernel: 0 to max_pcf_radius.
+/// @param vertices  World space.
+/// @param outward   Any vector to that side of the triangle which is seen.
+inline ShadowBias shadow_bias(const ShadowMap& map, Bias bias, int radius,
+                              const std::array<vec3, 3>& vertices, dvec3 outward) {
+    if (bias == Bias::none) return {};
+    if (bias == Bias::constant) return constant_bias(map, radius);
+    const std::optional<ReceiverPlane> plane = receiver_plane(map, vertices, outward);
+    if (!plane) return always_lit;
+    if (bias == Bias::slope) return slope_scaled_bias(map, radius, *plane);
+    if (bias == Bias::plane) return receiver_plane_bias(map, *plane);
+    return normal_offset_bias(map, radius, *plane);
 }
 
 /// Where the taps of a shadow test lie, and the depth that they are compared with.
@@ -196,18 +232,18 @@ struct PcfKernel {
     bool is_in_map = false;  ///< Else the point is lit.
     ivec2 middle{0};         ///< The texel in which the point lies.
     float depth = 0;         ///< Compared with the middle texel: the surface's, plus the bias.
-    vec2 slope{0};           ///< As in Receiver.
+    vec2 slope{0};           ///< As in ShadowBias.
 };
 
 /// The kernel around a point's position in the map (Eq. 9.6).
 ///
 /// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
 ///                        not in the map.
-inline PcfKernel pcf_kernel(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+inline PcfKernel pcf_kernel(const ShadowMap& map, const ShadowBias& bias, vec3 position_world) {
     const mat4& m = map.texels_from_world;
     float w = 1, per_w = 1;
     if (map.is_perspective) w = (m * vec4(position_world, 1)).w;  // Eq. 9.12
-    const vec3 moved = position_world + receiver.offset + w * receiver.offset_times_w;
+    const vec3 moved = position_world + bias.offset + w * bias.offset_times_w;
     const vec4 place_times_w = m * vec4(moved, 1);  // Eq. 9.6
     if (map.is_perspective) {
         if (!(place_times_w.w > 0)) return {};
@@ -218,10 +254,10 @@ inline PcfKernel pcf_kernel(const ShadowMap& map, const Receiver& receiver, vec3
     if (!(place.x >= 0 && place.y >= 0 && place.x < end && place.y < end)) return {};
 
     const ivec2 middle(place);
-    const float depth = place.z + (receiver.bias + receiver.bias_per_w * per_w) +
-                        receiver.slope.x * (static_cast<float>(middle.x) + 0.5f - place.x) +
-                        receiver.slope.y * (static_cast<float>(middle.y) + 0.5f - place.y);
-    return {true, middle, depth, receiver.slope};
+    const float depth = place.z + (bias.bias + bias.bias_per_w * per_w) +
+                        bias.slope.x * (static_cast<float>(middle.x) + 0.5f - place.x) +
+                        bias.slope.y * (static_cast<float>(middle.y) + 0.5f - place.y);
+    return {true, middle, depth, bias.slope};
 }
 
 /// The visibility of a light at a point: the share of the kernel's taps that say lit, 0 to 1
@@ -250,8 +286,8 @@ float pcf_visibility(const ShadowMap& map, const PcfKernel& kernel) {
 
 /// The same at a point.
 template <int radius>
-float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
-    return pcf_visibility<radius>(map, pcf_kernel(map, receiver, position_world));
+float pcf_visibility(const ShadowMap& map, const ShadowBias& bias, vec3 position_world) {
+    return pcf_visibility<radius>(map, pcf_kernel(map, bias, position_world));
 }
 
 /// The same for a radius that is known only when the program runs.

@@ -9,8 +9,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -124,31 +124,37 @@ inline LightShadowMaps make_shadow_maps(const Light& light, int size, const Shad
     return made;
 }
 
-/// The shadow maps of a scene, drawn as `draw` does it.
+/// A scene as shadow maps see it.
+struct ShadowScene {
+    const Scene& scene;
+    const ShadowBounds& bounds;
+    std::span<const Light> lights;  ///< At most max_lights.
+    bool all_effects = false;  ///< Lights without shadows have maps, too, with nothing in them.
+    std::span<const bool> casts = light_casts;  ///< For each light, whether it casts shadows.
+};
+
+/// The shadow maps of a scene, drawn as `draw` does it. A light whose maps would be more than
+/// max_shadow_maps with those before it has none, and casts no shadow.
 ///
-/// @param all_effects  Lights without shadows have maps, too, with nothing in them.
-/// @param lights       At most max_lights. One whose maps would be more than max_shadow_maps with
-///                     those before it has none, and casts no shadow.
-/// @param casts        For each light, whether it casts shadows.
-/// @param draw         Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths,
-///                     and draws the scene's casters, or nothing where a map stays empty.
+/// @param draw  Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths, and
+/// draws
+///              the scene's casters, or nothing where a map stays empty.
 template <typename Draw>
-ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, const Scene& scene,
-                            const ShadowBounds& bounds, std::span<const Light> lights,
-                            std::span<const bool> casts, Draw&& draw) {
-    assert(lights.size() <= max_lights && casts.size() >= lights.size());
+ShadowMaps draw_shadow_maps(const ShadowVariant& variant, const ShadowScene& of, Draw&& draw) {
+    assert(of.lights.size() <= max_lights && of.casts.size() >= of.lights.size());
     ShadowMaps shadow_maps{variant.radius(), variant.bias,
-                           std::vector<LightShadowMaps>(lights.size())};
-    const Bounds all = scene.bounds();
+                           std::vector<LightShadowMaps>(of.lights.size())};
+    const Bounds all = of.scene.bounds();
     std::size_t maps = 0;
-    for (std::size_t l = 0; l < lights.size(); ++l) {
+    for (std::size_t l = 0; l < of.lights.size(); ++l) {
+        const Light& light = of.lights[l];
         LightShadowMaps& of_light = shadow_maps.of_light[l];
-        if (casts[l]) of_light = make_shadow_maps(lights[l], variant.size, bounds, all);
+        if (of.casts[l]) of_light = make_shadow_maps(light, variant.size, of.bounds, all);
         of_light.is_drawn = !of_light.maps.empty();
-        if (!of_light.is_drawn && all_effects)
-            of_light = make_shadow_maps(lights[l], variant.size, {all, all}, all);
+        if (!of_light.is_drawn && of.all_effects)
+            of_light = make_shadow_maps(light, variant.size, {all, all}, all);
         if (maps + of_light.maps.size() > max_shadow_maps) of_light = {};
-        of_light.light = lights[l];
+        of_light.light = light;
         of_light.first_map = maps;
         maps += of_light.maps.size();
         for (ShadowMap& map : of_light.maps) {
@@ -159,37 +165,67 @@ ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects, cons
     return shadow_maps;
 }
 
-/// The same, drawn one mesh after the other, for the lights of this lesson.
-inline ShadowMaps draw_shadow_maps(const ShadowVariant& variant, bool all_effects,
-                                   const Scene& scene, const ShadowBounds& bounds,
-                                   std::span<const Light> lights) {
+/// The shadow maps of a scene, drawn one mesh after the other.
+inline ShadowMaps draw_shadow_maps(const ShadowVariant& variant, const ShadowScene& of) {
     const auto casts = [&](std::size_t material) {
-        return casts_shadows(scene.materials[material]);
+        return casts_shadows(of.scene.materials[material]);
     };
-    return draw_shadow_maps(variant, all_effects, scene, bounds, lights, light_casts,
-                            [&](ShadowMap& map, bool is_drawn) {
-                                map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
-                                if (is_drawn)
-                                    for (const Mesh& mesh : scene.meshes)
-                                        draw_casters(map, mesh, casts);
-                            });
+    return draw_shadow_maps(variant, of, [&](ShadowMap& map, bool is_drawn) {
+        map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
+        if (is_drawn)
+            for (const Mesh& mesh : of.scene.meshes) draw_casters(map, mesh, casts);
+    });
 }
 
-/// A triangle on which shadows fall, and the biases that have been fitted to it.
+/// A triangle on which shadows fall, and the biases that were fitted to it last.
 ///
 /// A triangle has two sides. A point is on the one to which its normal points, and the bias of that
-/// side in a map is fitted at the first test there. It is the same whichever point is the first.
-struct TriangleReceiver {
-    std::array<vec3, 3> vertices;
-    dvec3 front;  ///< The flat triangle's normal, of any length.
-    /// By map and side: front, back.
-    std::array<std::array<std::optional<Receiver>, 2>, max_shadow_maps> biases{};
-};
+/// side in a map is fitted at the first test there. It does not depend on the point.
+class ShadowBiasCache {
+  public:
+    /// @param vertices  World space.
+    explicit ShadowBiasCache(const std::array<vec3, 3>& vertices)
+        : vertices_(vertices),
+          front_(glm::cross(dvec3(vertices[1]) - dvec3(vertices[0]),
+                            dvec3(vertices[2]) - dvec3(vertices[0]))) {
+        keys_.fill(no_key);
+    }
 
-inline TriangleReceiver triangle_receiver(const std::array<vec3, 3>& vertices) {
-    const dvec3 a = vertices[0], b = vertices[1], c = vertices[2];
-    return {vertices, glm::cross(b - a, c - a)};
-}
+    const std::array<vec3, 3>& vertices() const { return vertices_; }
+    dvec3 front() const { return front_; }  ///< The flat triangle's normal, of any length.
+
+    /// @param number   The map's, counted through all lights.
+    /// @param is_back  Of which side.
+    const ShadowBias& bias_in(const ShadowMap& map, std::size_t number, Bias bias, int radius,
+                              bool is_back) {
+        if (const ShadowBias* const known = known_bias(number, is_back)) return *known;
+        last_ = (last_ + 1) % size;
+        keys_[last_] = key_of(number, is_back);
+        biases_[last_] = shadow_bias(map, bias, radius, vertices_, is_back ? -front_ : front_);
+        return biases_[last_];
+    }
+
+    /// Null if it was not among the last that were asked for.
+    const ShadowBias* known_bias(std::size_t number, bool is_back) const {
+        for (std::size_t i = 0; i < size; ++i)
+            if (keys_[i] == key_of(number, is_back)) return &biases_[i];
+        return nullptr;
+    }
+
+  private:
+    static constexpr std::size_t size = 4;  // most are seen in one map of a light, from one side
+    static constexpr std::uint32_t no_key = ~std::uint32_t{0};
+
+    static std::uint32_t key_of(std::size_t number, bool is_back) {
+        return 2 * static_cast<std::uint32_t>(number) + (is_back ? 1 : 0);
+    }
+
+    std::array<vec3, 3> vertices_;
+    dvec3 front_;
+    std::array<std::uint32_t, size> keys_;
+    std::array<ShadowBias, size> biases_{};
+    std::size_t last_ = 0;
+};
 
 /// A surface gets all of a light from this cosine on; from there to 0, where it turns away, less
 /// and less (Eq. 9.16). A normal map may still tilt the normal towards the light, but the surface
@@ -205,7 +241,7 @@ constexpr float full_cosine = 0.1f;
 /// @param before  Called as before(map, kernel) before the taps are read: the map's number, counted
 ///                through all lights, and a kernel that is in the map.
 template <typename Before>
-float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleReceiver& triangle,
+float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, ShadowBiasCache& triangle,
                        vec3 position, vec3 normal, const Before& before) {
     const LightShadowMaps& of_light = shadow_maps.of_light[l];
     if (of_light.maps.empty()) return 1;
@@ -220,19 +256,17 @@ float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, TriangleRec
     if (i == LightShadowMaps::no_map) return faded;
     count(Counter::shadow_tests);
     const ShadowMap& map = of_light.maps[i];
-    const bool is_back = glm::dot(triangle.front, dvec3(normal)) < 0;
-    std::optional<Receiver>& bias = triangle.biases[of_light.first_map + i][is_back];
-    if (!bias)  // most triangles are seen in one map of a point light, and from one side
-        bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
-                        is_back ? -triangle.front : triangle.front);
-    const PcfKernel kernel = pcf_kernel(map, *bias, position);
+    const bool is_back = glm::dot(triangle.front(), dvec3(normal)) < 0;
+    const ShadowBias& bias = triangle.bias_in(map, of_light.first_map + i, shadow_maps.bias,
+                                              shadow_maps.radius, is_back);
+    const PcfKernel kernel = pcf_kernel(map, bias, position);
     if (kernel.is_in_map) before(of_light.first_map + i, kernel);
     return faded * pcf_visibility(map, shadow_maps.radius, kernel);
 }
 
-/// The same with maps that are drawn.
+/// How much of a light reaches a point of a triangle, by maps that are drawn.
 inline float light_visibility(const ShadowMaps& shadow_maps, std::size_t l,
-                              TriangleReceiver& triangle, vec3 position, vec3 normal) {
+                              ShadowBiasCache& triangle, vec3 position, vec3 normal) {
     return light_visibility(shadow_maps, l, triangle, position, normal,
                             [](std::size_t, const PcfKernel&) {});
 }

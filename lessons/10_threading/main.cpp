@@ -37,8 +37,8 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Wo
     const mat4 clip_from_world = camera.clip_from_world(options.size);
     const std::array lights = raking_lights(options.shading.key_light, scene.bounds());
     const ShadowMaps shadow_maps =
-        draw_shadow_maps(pool, options.threads, options.shadow, options.shading.all_effects, scene,
-                         shadow_bounds, lights);
+        draw_shadow_maps(pool, options.threads, options.shadow,
+                         {scene, shadow_bounds, lights, options.shading.all_effects});
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
 
@@ -48,7 +48,7 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Wo
         const PerspectiveSetup setup = perspective_setup(projected);
         const TriangleNormalMap normal_map =
             triangle_normal_map(options.normal_map, scene, normal_maps, projected);
-        TriangleReceiver receiver = triangle_receiver(surface.positions_world);  // keeps biases
+        ShadowBiasCache shadow_biases(surface.positions_world);
 
         fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
             count(Counter::fragments_tested);
@@ -67,7 +67,7 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Wo
             const SurfacePoint<float> point =
                 surface_point(surface, on_surface.here, normal, camera.position_world);
             const auto visibility = [&](std::size_t light) {
-                return light_visibility(shadow_maps, light, receiver, point.position_world,
+                return light_visibility(shadow_maps, light, shadow_biases, point.position_world,
                                         smooth_normal);
             };
             const ReflectedLight reflected =

@@ -97,12 +97,8 @@ inline void draw_map(Workers& pool, ShadowMap& map, const Scene& scene, const Ti
     draw_tiles(pool, map, casters, tiling);
 }
 
-/// The shadow maps of all lights, as lesson 09 draws them.
-///
-/// @param casts     For each light, whether it casts shadows.
+/// The shadow maps of a scene, drawn by a pool.
 ShadowMaps draw_shadow_maps(Workers& pool, const ThreadOptions& threads,
-                            const ShadowVariant& variant, bool all_effects, const Scene& scene,
-                            const ShadowBounds& bounds, std::span<const Light> lights,
-                            std::span<const bool> casts = light_casts);
+                            const ShadowVariant& variant, const ShadowScene& of);
 
 }  // namespace rasterbook

@@ -6,8 +6,7 @@ namespace rasterbook {
 ShadowMaps draw_shadow_maps(Workers& pool, const SceneRendererOptions& options,
                             const SceneAssets& assets) {
     const Tiling tiling = options.threads.tiling_of(ivec2(options.shadow.size), pool.size());
-    return draw_shadow_maps(options.shadow, options.shading.all_effects, assets.scene,
-                            assets.shadow_bounds, assets.lit_by.lights, assets.lit_by.casts,
+    return draw_shadow_maps(options.shadow, shadow_scene(assets, options.shading.all_effects),
                             [&](ShadowMap& map, bool is_drawn) {
                                 Casters casters({}, &assets, options.texture.filter);
                                 if (is_drawn)

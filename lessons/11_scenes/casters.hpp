@@ -61,6 +61,11 @@ inline void draw_tile(ShadowMap& map, const Casters& casters, const Tiling& tili
     });
 }
 
+inline ShadowScene shadow_scene(const SceneAssets& assets, bool all_effects) {
+    return {assets.scene, assets.shadow_bounds, assets.lit_by.lights, all_effects,
+            assets.lit_by.casts};
+}
+
 /// The shadow maps of all lights of a scene.
 ShadowMaps draw_shadow_maps(Workers& pool, const SceneRendererOptions& options,
                             const SceneAssets& assets);

@@ -73,12 +73,12 @@ void report_stages(PixelReport& report, const Frame<>& frame, const SeenFragment
     report_point(report, point, frame.assets.scene.origin);
     const std::span<const Light> lights = frame.assets.lit_by.lights;
     const auto said_visibility = [&](std::size_t l) {
-        return with.shadow ? report_visibility(report, frame.shadow_maps, l, inputs.receiver,
+        return with.shadow ? report_visibility(report, frame.shadow_maps, l, inputs.shadow_biases,
                                                point.position_world, own_normal)
                            : 1.0f;
     };
     const auto visibility = [&](std::size_t l) {
-        return with.shadow ? light_visibility(frame.shadow_maps, l, inputs.receiver,
+        return with.shadow ? light_visibility(frame.shadow_maps, l, inputs.shadow_biases,
                                               point.position_world, own_normal)
                            : 1.0f;
     };

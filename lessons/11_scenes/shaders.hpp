@@ -108,7 +108,7 @@ struct TriangleInputs {
     PerspectiveSetup setup;
     VertexColors colors;
     TriangleNormalMap normal_map;
-    TriangleReceiver receiver;  ///< Keeps the biases that have been fitted.
+    ShadowBiasCache shadow_biases;
 };
 
 template <typename Maps>
@@ -125,7 +125,7 @@ TriangleInputs triangle_inputs(const Permutation& with, const Frame<Maps>& frame
         normal_map =
             triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
     return {surface, perspective_setup(projected), vertex_colors(effects, projected), normal_map,
-            triangle_receiver(surface.positions_world)};
+            ShadowBiasCache(surface.positions_world)};
 }
 
 /// The colour of a fragment: the stages of lessons 05 to 11, without those that the permutation
@@ -154,8 +154,8 @@ Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBaryce
         const SurfacePoint<F> point = surface_point(surface, at.here, normal, frame.eye_world);
         const auto visibility = [&](std::size_t l, auto... mask) {
             if constexpr (with.shadow)
-                return light_visibility(frame.shadow_maps, l, inputs.receiver, point.position_world,
-                                        own_normal, mask...);
+                return light_visibility(frame.shadow_maps, l, inputs.shadow_biases,
+                                        point.position_world, own_normal, mask...);
             else
                 return F(1.0f);
         };

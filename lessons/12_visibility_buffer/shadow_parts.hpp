@@ -98,26 +98,23 @@ class ShadowMapsOnDemand {
     /// @param part_size  Texels along a part's side, at least 1.
     /// @param set_up     Does what project_triangles() of lesson 10 does.
     /// @param with_holes,filter  Of Casters.
-    ShadowMapsOnDemand(Workers& pool, int part_size, const ShadowVariant& variant, bool all_effects,
-                       const Scene& scene, const ShadowBounds& bounds,
-                       std::span<const Light> lights, std::span<const bool> casts,
-                       ProjectTriangles* set_up = project_triangles,
+    ShadowMapsOnDemand(Workers& pool, int part_size, const ShadowVariant& variant,
+                       const ShadowScene& of, ProjectTriangles* set_up = project_triangles,
                        const SceneAssets* with_holes = nullptr, Filter filter = {}) {
         const Tiling tiling(Split::tiles, ivec2(variant.size), 1, part_size);
-        maps_ = draw_shadow_maps(
-            variant, all_effects, scene, bounds, lights, casts, [&](ShadowMap& map, bool is_drawn) {
-                Casters casters({}, with_holes, filter);
-                if (is_drawn) casters.triangles = casters_of(pool, map, scene, tiling, set_up);
-                parts_.emplace_back(map, tiling, std::move(casters));
-            });
+        maps_ = draw_shadow_maps(variant, of, [&](ShadowMap& map, bool is_drawn) {
+            Casters casters({}, with_holes, filter);
+            if (is_drawn) casters.triangles = casters_of(pool, map, of.scene, tiling, set_up);
+            parts_.emplace_back(map, tiling, std::move(casters));
+        });
     }
 
     /// Makes the maps of a scene's lights, and bins the casters; light falls through their holes.
     ShadowMapsOnDemand(Workers& pool, int part_size, const SceneRendererOptions& options,
                        const SceneAssets& assets, ProjectTriangles* set_up = project_triangles)
-        : ShadowMapsOnDemand(pool, part_size, options.shadow, options.shading.all_effects,
-                             assets.scene, assets.shadow_bounds, assets.lit_by.lights,
-                             assets.lit_by.casts, set_up, &assets, options.texture.filter) {}
+        : ShadowMapsOnDemand(pool, part_size, options.shadow,
+                             shadow_scene(assets, options.shading.all_effects), set_up, &assets,
+                             options.texture.filter) {}
 
     const ShadowMaps& maps() const { return maps_; }
 
@@ -132,7 +129,7 @@ class ShadowMapsOnDemand {
 /// How much of a light reaches a point of a triangle, as in lesson 09. The parts of a map that it
 /// reads are drawn first.
 inline float light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
-                              TriangleReceiver& triangle, vec3 position, vec3 normal) {
+                              ShadowBiasCache& triangle, vec3 position, vec3 normal) {
     const int radius = on_demand.maps().radius;
     return light_visibility(on_demand.maps(), l, triangle, position, normal,
                             [&](std::size_t map, const PcfKernel& kernel) {

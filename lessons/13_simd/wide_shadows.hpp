@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "09_shadow_maps/shadow_map.hpp"
 #include "09_shadow_maps/shadows.hpp"
@@ -18,29 +17,29 @@
 
 namespace rasterbook {
 
-/// As Receiver, of several points.
+/// As ShadowBias, of several points.
 template <int N>
-struct WideReceiver {
+struct WideShadowBias {
     glm::vec<2, Floats<N>> slope;
     Floats<N> bias, bias_per_w;
     Vec3<Floats<N>> offset, offset_times_w;
 
-    void set(Mask<N> lanes, const Receiver& receiver) {
-        blend(lanes, slope, receiver.slope);
-        blend(lanes, bias, receiver.bias);
-        blend(lanes, bias_per_w, receiver.bias_per_w);
-        blend(lanes, offset, receiver.offset);
-        blend(lanes, offset_times_w, receiver.offset_times_w);
+    void set(Mask<N> lanes, const ShadowBias& of) {
+        blend(lanes, slope, of.slope);
+        blend(lanes, bias, of.bias);
+        blend(lanes, bias_per_w, of.bias_per_w);
+        blend(lanes, offset, of.offset);
+        blend(lanes, offset_times_w, of.offset_times_w);
     }
 };
 
 /// The triangles that several points are on.
 template <int N>
-struct LaneReceivers {
-    std::array<TriangleReceiver*, N + 1> of_slot{};
+struct LaneBiasCaches {
+    std::array<ShadowBiasCache*, N + 1> of_slot{};
     Ints<N> slot_of_lane{};
 
-    void set(Mask<N> lanes, TriangleReceiver& triangle, int slot) {
+    void set(Mask<N> lanes, ShadowBiasCache& triangle, int slot) {
         of_slot[static_cast<std::size_t>(slot)] = &triangle;
         slot_of_lane = select(lanes, Ints<N>(slot), slot_of_lane);
     }
@@ -59,7 +58,7 @@ struct WidePcfKernel {
 ///
 /// @param asked  Which points are asked for; the others are not in the map.
 template <int N>
-WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideReceiver<N>& receiver,
+WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideShadowBias<N>& bias,
                             const Vec3<Floats<N>>& position_world, Mask<N> asked) {
     using F = Floats<N>;
     const mat4& m = map.texels_from_world;
@@ -68,7 +67,7 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideReceiver<N>& receive
     };
     F w(1.0f), per_w(1.0f);
     if (map.is_perspective) w = row_times(3, position_world);
-    const Vec3<F> moved = position_world + receiver.offset + w * receiver.offset_times_w;
+    const Vec3<F> moved = position_world + bias.offset + w * bias.offset_times_w;
     Mask<N> is_in_map = asked;
     if (map.is_perspective) {
         const F moved_w = row_times(3, moved);
@@ -82,10 +81,10 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideReceiver<N>& receive
         is_in_map & (place.x >= first) & (place.y >= first) & (place.x < end) & (place.y < end);
     const Ints<N> column = truncated(select(is_in_map, place.x, first));
     const Ints<N> row = truncated(select(is_in_map, place.y, first));
-    const F depth = place.z + (receiver.bias + receiver.bias_per_w * per_w) +
-                    receiver.slope.x * (to_floats(column) + F(0.5f) - place.x) +
-                    receiver.slope.y * (to_floats(row) + F(0.5f) - place.y);
-    return {is_in_map, column, row, depth, receiver.slope};
+    const F depth = place.z + (bias.bias + bias.bias_per_w * per_w) +
+                    bias.slope.x * (to_floats(column) + F(0.5f) - place.x) +
+                    bias.slope.y * (to_floats(row) + F(0.5f) - place.y);
+    return {is_in_map, column, row, depth, bias.slope};
 }
 
 /// How many taps of each point's kernel say lit. Here it is the taps of a row that are compared at
@@ -175,7 +174,7 @@ Mask<N> is_behind(dvec3 front, const Vec3<Floats<N>>& normal) {
 /// @param asked  For which points; of the others, no map is asked.
 template <int N>
 Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
-                           const LaneReceivers<N>& triangles, const Vec3<Floats<N>>& position,
+                           const LaneBiasCaches<N>& triangles, const Vec3<Floats<N>>& position,
                            const Vec3<Floats<N>>& normal, Mask<N> asked) {
     using F = Floats<N>;
     const ShadowMaps& shadow_maps = on_demand.maps();
@@ -205,24 +204,21 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
         const Mask<N> together = left & (map_of_lane == Ints<N>(map_number));
         left = left & !together;
         const ShadowMap& map = of_light.maps[i];
-        WideReceiver<N> receivers{};  // no bias where no point is asked for
+        WideShadowBias<N> biases{};  // no bias where no point is asked for
         for (Mask<N> rest = together; any_of(rest);) {
             const int slot = triangles.slot_of_lane[first_of(rest)];
             const Mask<N> own = rest & (triangles.slot_of_lane == Ints<N>(slot));
             rest = rest & !own;
-            TriangleReceiver& triangle = *triangles.of_slot[static_cast<std::size_t>(slot)];
-            const Mask<N> behind = is_behind(triangle.front, normal);
+            ShadowBiasCache& triangle = *triangles.of_slot[static_cast<std::size_t>(slot)];
+            const Mask<N> behind = is_behind(triangle.front(), normal);
             for (const bool is_back : {false, true}) {
                 const Mask<N> on_side = own & (is_back ? behind : !behind);
                 if (!any_of(on_side)) continue;
-                std::optional<Receiver>& bias = triangle.biases[of_light.first_map + i][is_back];
-                if (!bias)
-                    bias = receiver(map, shadow_maps.bias, shadow_maps.radius, triangle.vertices,
-                                    is_back ? -triangle.front : triangle.front);
-                receivers.set(on_side, *bias);
+                biases.set(on_side, triangle.bias_in(map, of_light.first_map + i, shadow_maps.bias,
+                                                     shadow_maps.radius, is_back));
             }
         }
-        const WidePcfKernel<N> kernel = pcf_kernel(map, receivers, position, together);
+        const WidePcfKernel<N> kernel = pcf_kernel(map, biases, position, together);
         draw_around(on_demand.parts()[of_light.first_map + i], kernel, shadow_maps.radius);
         visibility = select(together, visibility * pcf_visibility(map, shadow_maps.radius, kernel),
                             visibility);

@@ -92,11 +92,11 @@ const LightMaps& maps_of(int size) {
 template <typename Take>
 void test_all(const Reference& of, const ShadowMap& map, Bias bias, int radius, Take&& take) {
     const auto with = [&]<int r>(std::integral_constant<int, r>) {
-        Receiver at;
+        ShadowBias at;
         const Vertices* triangle = nullptr;
         for (const SeenPoint& p : of.points) {
             if (triangle == nullptr || p.vertices != *triangle)
-                at = receiver(map, bias, r, p.vertices, p.normal);
+                at = shadow_bias(map, bias, r, p.vertices, p.normal);
             triangle = &p.vertices;
             take(pcf_visibility<r>(map, at, p.position));
         }

@@ -93,7 +93,7 @@ Frame measured_frame(const lesson_10::Options& options, std::size_t workers) {
     for (std::size_t job = 0; job < frame.jobs_ms.size(); ++job)
         for (std::size_t task = 0; task < frame.jobs_ms[job].size(); ++task) {
             std::vector<double> times;
-            for (const MeasuredWorkers& pool : pools) times.push_back(pool.jobs_ms[job][task]);
+            for (const MeasuredPool& pool : pools) times.push_back(pool.jobs_ms[job][task]);
             frame.jobs_ms[job][task] = least_of(times);
         }
     return frame;

@@ -32,7 +32,7 @@ constexpr std::array widths = {1, 4, 8, 16};
 double lanes_counted(int width, const lesson_13::Options& options, const SceneAssets& assets) {
     const int counting = width == 4 ? counted_4 : width == 8 ? counted_8 : counted_16;
     batches_counted() = {};
-    counted(of_width(counting, options), assets);
+    frame(of_width(counting, options), assets);
     return 100 * static_cast<double>(batches_counted().pixels) /
            (width * static_cast<double>(batches_counted().count));
 }
@@ -43,14 +43,13 @@ template <typename Options>
 void add_frame(const std::string& comparison, const std::string& variant, double units,
                const Options& options, const Assets& assets, const Image<vec3>& reference) {
     add_variant(comparison, variant, units,
-                {{"pixels that differ, %",
-                  differing_percent(counted(options, *assets).picture, reference)}},
-                [=] { draw(options, *assets); });
+                {{"pixels that differ, %", differing_percent(frame(options, *assets), reference)}},
+                [=] { frame(options, *assets); });
 }
 
 void add_scenes() {
     for (const auto& [name, assets] : scenes()) {
-        const Image<vec3> reference = counted(lesson_11::Options(), *assets).picture;
+        const Image<vec3> reference = frame(lesson_11::Options(), *assets);
         const auto add = [&](const std::string& variant, const auto& options) {
             add_frame("scenes", name + ": " + variant, frames_in_millions, options, assets,
                       reference);
@@ -84,8 +83,7 @@ void add_triangles() {
                             .order = LayerOrder::front_to_back,
                             .look = LayerLook::phong};
         const Assets assets = assets_of(layers);
-        const Image<vec3> reference =
-            counted(options_of<lesson_11::Options>(layers), *assets).picture;
+        const Image<vec3> reference = frame(options_of<lesson_11::Options>(layers), *assets);
         const auto options = options_of<lesson_13::Options>(layers);
         // The diagonal's pixels belong to one of a cell's two triangles; tiles have sides of 64.
         const int within_tile = std::min(side, options.threads.tile);
@@ -114,17 +112,17 @@ void add_triangles() {
 void add_arithmetic(const std::string& comparison,
                     const std::vector<std::pair<std::string, int>>& variants) {
     for (const auto& [name, assets] : scenes()) {
-        const Image<vec3> exact = counted(of_width(16), *assets).picture;
+        const Image<vec3> exact = frame(of_width(16), *assets);
         Errors errors;
         for (const auto& [variant, arithmetic] : variants) {
-            const ValueDifference values(counted(of_width(arithmetic), *assets).picture, exact);
+            const ValueDifference values(frame(of_width(arithmetic), *assets), exact);
             errors[variant + ", values"] = values.percent;
             errors[variant + ", greatest"] = values.greatest;
         }
         for (const auto& [variant, arithmetic] : variants) {
             const lesson_13::Options options = of_width(arithmetic);
             add_variant(comparison, name + ": " + variant, frames_in_millions, errors,
-                        [=] { draw(options, *assets); });
+                        [=] { frame(options, *assets); });
         }
     }
 }

@@ -236,8 +236,9 @@ void print_choices(const Choices& choices) {
 const char* other_picture() {
     const Settings plain;
     const Image<vec3> picture = samples_of(plain, all_threads());
-    if (samples_by_11(plain, all_threads(), NoCounters()) != picture) return "lesson 11";
-    if (samples_by_11(plain, all_threads(), LitBy<Shading::phong, Power::polynomial>()) != picture)
+    if (samples_by_11(plain, all_threads(), nullptr) != picture) return "lesson 11";
+    if (samples_by_11(plain, all_threads(), draw_lit_by<Shading::phong, Power::polynomial>) !=
+        picture)
         return "lesson 11's shader with choices";
     return nullptr;
 }

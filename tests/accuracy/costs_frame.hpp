@@ -18,22 +18,42 @@
 #include "11_scenes/explain.hpp"
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/shaders.hpp"
-#include "common/app/counters.hpp"
-#include "support/lesson_11.hpp"
 #include "support/lesson_13.hpp"
 #include "support/pictures.hpp"
 
-namespace rasterbook {
+namespace rasterbook::test {
 
-/// Takes the place of NoCounters, and lets lesson 11's render() draw with two choices of lesson 06.
-template <Shading shading, Power power>
-struct LitBy : NoCounters {};
+/// Lesson 11's shader for all materials, if it is not null; it lets render() draw with two choices
+/// of lesson 06.
+inline Shaders::Shader chosen_shader = nullptr;
+
+/// Takes the place of Shaders.
+class ChosenShaders {
+  public:
+    explicit ChosenShaders(const ScenePlan& plan) : own_(plan) {}
+
+    Shaders::Shader operator[](std::size_t material) const {
+        return chosen_shader != nullptr ? chosen_shader : own_[material];
+    }
+
+  private:
+    Shaders own_;
+};
+
+}  // namespace rasterbook::test
+
+// Lesson 11's render(), which takes them for its own.
+#define Shaders rasterbook::test::ChosenShaders
+#include "support/lesson_11.hpp"
+#undef Shaders
+
+namespace rasterbook::test {
 
 /// Lesson 11's shader of opaque, lit surfaces with these choices. Flat and Gouraud shading test the
 /// shadows at the face's centre or at the vertices, too, and have no place for normal maps.
 template <Shading shading, Power power>
 void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const Tile& tile,
-                 TransparentFragments&, LitBy<shading, power>& counters) {
+                 TransparentFragments&) {
     const SceneAssets& assets = frame.assets;
     const std::span<const Light> lights = assets.lit_by.lights;
     const EffectMask effects = assets.plan.materials[projected.triangle.material].effects;
@@ -44,7 +64,7 @@ void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const
     if constexpr (shading == Shading::phong)
         normal_map =
             triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
-    TriangleReceiver receiver = triangle_receiver(surface.positions_world);
+    ShadowBiasCache shadow_bias(surface.positions_world);
     ShadingVariant variant;
     variant.power = power;
     const VariantHighlight highlight = highlight_of(variant, surface);
@@ -88,17 +108,6 @@ void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const
     });
 }
 
-template <Shading shading, Power power>
-class Shaders<LitBy<shading, power>> {
-  public:
-    explicit Shaders(const ScenePlan&) {}
-
-    auto operator[](std::size_t) const { return draw_lit_by<shading, power>; }
-};
-
-}  // namespace rasterbook
-
-namespace rasterbook::test {
 namespace {  // as the lesson's options are
 
 /// A place on each knob.
@@ -150,10 +159,11 @@ Settings of_samples(Settings settings) {
 
 /// All samples of a picture, as lesson 11 draws them.
 ///
-/// @param counters  NoCounters, or LitBy.
-inline Image<vec3> samples_by_11(const Settings& settings, ThreadPool& pool) {
+/// @param shader  For all materials; null: each has its own.
+Image<vec3> samples_by_11(const Settings& settings, ThreadPool& pool, Shaders::Shader shader) {
     lesson_11::Options options = of_samples(settings);
     options.threads = lesson_11::Options().threads;  // its own tiles
+    chosen_shader = shader;
     StepClock clock;
     return lesson_11::render(options, assets_of(settings), pool, clock);
 }
@@ -162,21 +172,20 @@ inline Image<vec3> samples_by_11(const Settings& settings, ThreadPool& pool) {
 /// of the same kind is timed. Light and power are never both other than the lesson's.
 Image<vec3> samples_of(const Settings& settings, ThreadPool& pool) {
     if (!settings.is_by_lesson_11) {
-        const CountedSince counters;
         StepClock clock;
         return lesson_13::render(of_samples(settings), assets_of(settings), pool, clock);
     }
     if (settings.power == Power::schlick)
-        return samples_by_11(settings, pool, LitBy<Shading::phong, Power::schlick>());
+        return samples_by_11(settings, pool, draw_lit_by<Shading::phong, Power::schlick>);
     switch (settings.light) {
         case Shading::flat:
-            return samples_by_11(settings, pool, LitBy<Shading::flat, Power::polynomial>());
+            return samples_by_11(settings, pool, draw_lit_by<Shading::flat, Power::polynomial>);
         case Shading::gouraud:
-            return samples_by_11(settings, pool, LitBy<Shading::gouraud, Power::polynomial>());
+            return samples_by_11(settings, pool, draw_lit_by<Shading::gouraud, Power::polynomial>);
         case Shading::phong:
             break;
     }
-    return samples_by_11(settings, pool, LitBy<Shading::phong, Power::polynomial>());
+    return samples_by_11(settings, pool, draw_lit_by<Shading::phong, Power::polynomial>);
 }
 
 Image<vec3> picture_of(const Settings& settings, ThreadPool& pool) {

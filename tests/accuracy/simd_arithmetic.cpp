@@ -49,18 +49,24 @@ inline Floats<16> power(Floats<16> x, Floats<16> y) { return power_in_use(x, y);
 #elif ARITHMETIC == COUNTED
 static test::BatchesCounted batches;
 
-/// As the course has it; each batch counts its fragments once.
-template <>
-struct LaneCounters {
-    Counters& total;
-    int lanes;
+static void count_in_batch(Counter counter) {
+    if (counter == Counter::fragments_shaded) ++batches.count, batches.pixels += fragments_at_once;
+    count(counter, fragments_at_once);
+}
 
-    void add(Counter counter, std::uint64_t times = 1) {
-        if (counter == Counter::fragments_shaded)
-            ++batches.count, batches.pixels += static_cast<std::uint64_t>(lanes);
-        count(counter, times * static_cast<std::uint64_t>(lanes));
-    }
-};
+// As the course has them; and each batch counts its fragments once.
+template <>
+void count_each<Floats<4>>(Counter counter) {
+    count_in_batch(counter);
+}
+template <>
+void count_each<Floats<8>>(Counter counter) {
+    count_in_batch(counter);
+}
+template <>
+void count_each<Floats<16>>(Counter counter) {
+    count_in_batch(counter);
+}
 #endif
 
 }  // namespace rasterbook

@@ -33,9 +33,9 @@ WideDrawing drawing_of_arithmetic(int width_or_arithmetic) {
 
 namespace lesson_13 {
 
-Image<vec3> render(const Options& options, const SceneAssets& assets, ThreadPool& pool,
+Image<vec3> render(const Options& options, const SceneAssets& assets, Workers& pool,
                    StepClock& clock) {
-    return render<>(options, assets, pool, clock);
+    return render_here(options, assets, pool, clock);
 }
 
 }  // namespace lesson_13

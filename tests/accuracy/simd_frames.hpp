@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Frames of lessons 11, 12 and 13 as their programs draw them, counters included, on one thread.
+/// Frames of lessons 11, 12 and 13 as their programs draw them, on one thread.
 #pragma once
 
 #include <algorithm>
@@ -38,23 +38,9 @@ WideDrawing drawing_of_arithmetic(int width_or_arithmetic);
 
 namespace rasterbook::test {
 
-inline Image<vec3> rendered(const lesson_13::Options& options, const SceneAssets& assets) {
+inline Image<vec3> frame(const lesson_13::Options& options, const SceneAssets& assets) {
     StepClock clock;
     return lesson_13::render(options, assets, one_thread(), clock);
-}
-
-/// Without it, the template would take the options for those of lesson 11, their base class.
-inline Drawn counted(const lesson_13::Options& options, const SceneAssets& assets) {
-    Drawn drawn;
-    drawn.picture = rendered(options, assets, drawn.counters);
-    return drawn;
-}
-
-/// A frame that is thrown away.
-template <typename Options>
-void draw(const Options& options, const SceneAssets& assets) {
-    const CountedSince counters;
-    rendered(options, assets);
 }
 
 /// @param width  Or an Arithmetic.

@@ -155,8 +155,8 @@ inline void add_power(const std::string& name, PowerInLanes power) {
             wrong_values_percent(static_cast<float>(exponent), power);
     set_power(power);
     for (const auto& [scene_name, assets] : scenes()) {
-        const Image<vec3> exact = counted(of_width(16), *assets).picture;
-        const ValueDifference values(counted(of_width(powers), *assets).picture, exact);
+        const Image<vec3> exact = frame(of_width(16), *assets);
+        const ValueDifference values(frame(of_width(powers), *assets), exact);
         errors[scene_name + ", %"] = values.percent;
         errors[scene_name + ", greatest"] = values.greatest;
     }

@@ -30,28 +30,20 @@ inline ThreadPool& one_thread() {
     return pool;
 }
 
-inline Image<vec3> rendered(const lesson_11::Options& options, const SceneAssets& assets) {
+inline Image<vec3> frame(const lesson_11::Options& options, const SceneAssets& assets) {
     StepClock clock;
     return lesson_11::render(options, assets, one_thread(), clock);
 }
 
-inline Image<vec3> rendered(const lesson_12::Options& options, const SceneAssets& assets) {
+inline Image<vec3> frame(const lesson_12::Options& options, const SceneAssets& assets) {
     StepClock clock;
     return lesson_12::render(options, assets, one_thread(), clock);
-}
-
-/// A frame, without counters.
-template <typename Options>
-Image<vec3> frame(const Options& options, const SceneAssets& assets) {
-    return rendered(options, assets);
 }
 
 /// A frame, and what was done for it.
 template <typename Options>
 Drawn counted(const Options& options, const SceneAssets& assets) {
-    Drawn drawn;
-    drawn.picture = rendered(options, assets, drawn.counters);
-    return drawn;
+    return drawn(options, assets, [](const auto&... of) { return frame(of...); });
 }
 
 inline double pixels_of(const Image<vec3>& picture) {
@@ -113,8 +105,7 @@ void add_frames(const std::string& comparison, const std::string& variant, doubl
                 Errors more = {}) {
     const Drawn drawn = counted(options, *assets);
     more["shadings a pixel"] = shadings_per_pixel(drawn);
-    more["pixels that differ, %"] = std::max(differing_percent(drawn.picture, reference),
-                                             differing_percent(frame(options, *assets), reference));
+    more["pixels that differ, %"] = differing_percent(drawn.picture, reference);
     add_variant(comparison, variant, units, std::move(more), [=] { frame(options, *assets); });
 }
 

@@ -313,8 +313,7 @@ const mat4 upside_down = scaling(vec3(1, -1, 1));
 
 /// The lights' maps as the course fits them, not drawn.
 ShadowMaps fitted_maps(const SceneAssets& assets, const ShadowVariant& variant) {
-    return draw_shadow_maps(variant, false, assets.scene, assets.shadow_bounds,
-                            assets.lit_by.lights, assets.lit_by.casts, [](ShadowMap&, bool) {});
+    return draw_shadow_maps(variant, shadow_scene(assets, false), [](ShadowMap&, bool) {});
 }
 
 void set_material(Uniforms& uniforms, const Material& material, const MaterialPlan& plan) {

@@ -111,7 +111,6 @@ struct FrameTime {
 };
 
 FrameTime frame_time(const lesson_13::Options& options, const SceneAssets& assets, Workers& pool) {
-    const CountedSince counters;
     StepClock clock;
     const auto start = Clock::now();
     const double start_cpu = cpu_ms();
@@ -198,6 +197,7 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
         draw(i, parts.ids, parts.shading, parts.rest);
     });
     if (!again) return color;
+    const Uncounted once_more;
     std::vector<double> others;
     pool.run(tiling.count(),
              [&](std::size_t i, std::size_t) { draw(i, others, parts.shading_again, others); });
@@ -212,13 +212,15 @@ void measure_passes(const Repetitions& repetitions) {
     for (const char* const name : {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"}) {
         const lesson_13::Options options = options_of_size(usual_size);
         const SceneAssets assets = assets_of(loaded(name), options);
-        Counters expected_counters, counters;
-        StepClock clock;
+        const Drawn expected = drawn(options, assets, [&](const auto&... of) {
+            StepClock clock;
+            return lesson_13::render(of..., one, clock);
+        });
         Parts least;
-        const Image<vec3> expected =
-            lesson_13::render(options, assets, one, expected_counters, clock);
-        if (!are_the_same_bits(expected, render_in_parts(options, assets, one, least)) ||
-            expected_counters.values != counters.values())
+        const Drawn in_parts = drawn(
+            options, assets, [&](const auto&... of) { return render_in_parts(of..., one, least); });
+        if (!are_the_same_bits(expected.picture, in_parts.picture) ||
+            expected.counters != in_parts.counters)
             throw std::runtime_error(std::string(name) +
                                      ": lesson 13's render() draws another picture, or counts "
                                      "another work, than its copy in roofline.cpp");
@@ -233,7 +235,7 @@ void measure_passes(const Repetitions& repetitions) {
             return std::accumulate(ms.begin(), ms.end(), 0.0);
         };
         const auto count = [&](Counter counter) {
-            return static_cast<double>(counters.values()[static_cast<std::size_t>(counter)]);
+            return static_cast<double>(expected.count(counter));
         };
         std::printf(
             R"({"scene": "%s", "frame": %.6g, "casters": %.6g, "outlines": %.6g, "triangles": %.6g, "ids": %.6g, )"

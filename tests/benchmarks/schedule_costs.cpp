@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/app/memory.hpp"
+#include "common/app/workers.hpp"
 #include "support/lesson_10.hpp"
 #include "support/pictures.hpp"
 
@@ -25,15 +26,14 @@ namespace {
 
 /// Does the tasks in order and writes down how long the thread works on each of the last job's:
 /// what else runs on the machine does not count.
-class CpuTimedPool {
+class CpuTimedPool : public Workers {
   public:
     /// @param workers  As many as it pretends to have.
     explicit CpuTimedPool(std::size_t workers) : workers_(workers) {}
 
-    std::size_t size() const { return workers_; }
+    std::size_t size() const override { return workers_; }
 
-    template <typename Task>
-    void run(std::size_t tasks, const Task& task) {
+    void run_tasks(std::size_t tasks, const Task& task) override {
         microseconds.clear();
         for (std::size_t i = 0; i < tasks; ++i) {
             const double start = now();

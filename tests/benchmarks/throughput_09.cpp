@@ -19,9 +19,9 @@ void shadowed_frames(benchmark::State& state) {
     options.size = {1920, 1080};
     options.texture.filter = state.range(0) ? Filter::trilinear : Filter::bilinear;
     const ShadowAssets assets = lesson_09::make_assets(loaded(options.model), options);
-    const auto render = [](auto&... arguments) { return lesson_09::render(arguments...); };
-    const auto fragments = drawn(options, assets, render).count(Counter::fragments_shaded);
-    for (auto _ : state) benchmark::DoNotOptimize(render(options, assets));
+    const auto fragments =
+        drawn(options, assets, lesson_09::render).count(Counter::fragments_shaded);
+    for (auto _ : state) benchmark::DoNotOptimize(lesson_09::render(options, assets));
     state.counters["fragments"] = {static_cast<double>(fragments),
                                    benchmark::Counter::kIsIterationInvariantRate};
     state.counters["fragments_per_picture"] = static_cast<double>(fragments);

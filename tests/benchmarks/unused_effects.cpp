@@ -120,11 +120,10 @@ double ms_of(const Draw& draw) {
 
 /// Whether the lesson's picture takes work of the effect; then nobody may draw without it.
 bool is_called_for(const Row& row) {
-    const CountedSince counters;
+    Counters counters;
     row.draw[lesson](&counters);
-    for (std::size_t i = 0; i < counters.values().size(); ++i)
-        if (counters.values()[i] > 0 && is_work_of(row.effect, static_cast<Counter>(i)))
-            return true;
+    for (std::size_t i = 0; i < counters.values.size(); ++i)
+        if (counters.values[i] > 0 && is_work_of(row.effect, static_cast<Counter>(i))) return true;
     return false;
 }
 

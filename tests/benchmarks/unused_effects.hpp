@@ -58,7 +58,7 @@ constexpr bool is_work_of(Without effect, Counter counter) {
     }
 }
 
-/// Draws a picture, and counts where the counters are not null.
+/// Draws a picture; the counters, if they are not null, become what was done for it.
 using Draw = std::function<Image<vec3>(Counters*)>;
 
 /// The pictures of a model as a lesson draws them, lesson 07 without outlines.

@@ -59,7 +59,7 @@ struct LightMaps {
     /// @param radius  0 to max_pcf_radius.
     float visibility(Bias bias, int radius, const Vertices& vertices, vec3 point) const {
         const ShadowMap& map = map_for(point);
-        const Receiver fitted = receiver(map, bias, radius, vertices, toward(point));
+        const ShadowBias fitted = shadow_bias(map, bias, radius, vertices, toward(point));
         return pcf_visibility(map, radius, pcf_kernel(map, fitted, point));
     }
 };

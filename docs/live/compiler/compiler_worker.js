@@ -9,7 +9,7 @@ const options = ["--target=wasm32-wasi", "-std=c++20", "-ffp-contract=off", "-fn
   "-Wno-psabi", "-Wno-unused-parameter", "-Wno-missing-field-initializers", "-fno-color-diagnostics",
   "-fdiscard-value-names", "-fno-verify-intermediate-code",  // as where clang is not built with assertions
   "-D_LIBCPP_HAS_NO_EXCEPTIONS",  // its vectors then need not know how to undo what is half done
-  "-DRASTERBOOK_IN_A_PAGE", "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
+  "-DRASTERBOOK_IN_A_PAGE", "-DRASTERBOOK_PROBE", "-DGTEST_HAS_EXCEPTIONS=0", "-DGTEST_HAS_PTHREAD=0", "-DGTEST_HAS_STREAM_REDIRECTION=0",
   '-DRASTERBOOK_ASSETS=""', '-DRASTERBOOK_LESSONS=""', '-DRASTERBOOK_GOLDEN=""', '-DRASTERBOOK_TEST_DATA=""',
   "-nostdinc", "-nostdinc++", "-I/docs/live/without_threads", "-I/mine", "-I/", "-I/lessons", "-I/tests"];
 

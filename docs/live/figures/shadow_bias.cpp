@@ -40,7 +40,7 @@ struct Sample {
     float visibility;  ///< 0 or 1, or -1 on a face that is turned away from the light.
 };
 std::vector<Sample> samples;
-Receiver floor_receiver;  ///< Before it is scaled.
+ShadowBias floor_receiver;  ///< Before it is scaled.
 
 Mesh scene() {
     Mesh mesh;
@@ -58,7 +58,7 @@ Mesh scene() {
 }
 
 /// The same receiver with its bias so many times as large.
-Receiver scaled(Receiver receiver, float factor) {
+ShadowBias scaled(ShadowBias receiver, float factor) {
     receiver.bias *= factor;
     receiver.bias_per_w *= factor;
     receiver.offset *= factor;
@@ -96,7 +96,7 @@ extern "C" void draw(float elevation, int size, int bias, float factor) {
     samples.clear();
     for (std::size_t i = 0; i < cut_faces.size(); ++i) {
         const auto& [from, to, outward] = cut_faces[i];
-        const Receiver fitted = receiver(
+        const ShadowBias fitted = shadow_bias(
             map, Bias(bias), 0, {vec3(from, -1), vec3(to, -1), vec3(to, 1)}, dvec3(outward, 0));
         if (i == 0) floor_receiver = fitted;
         const bool faces_light = glm::dot(outward, vec2(light.direction_world)) > 0;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -115,59 +116,110 @@ void draw_casters(ShadowMap& map, const Mesh& mesh, Casts&& casts) {
 /// What keeps a lit surface from shadowing itself.
 enum class Bias { none, constant, slope, plane, normal };
 
-/// What a shadow test has to know of the triangle on which a shadow falls. A table in Robust, "Five
+/// What a shadow test adds to a point of a triangle, or moves it by. A table in Robust, "Five
 /// biases and what they return", says which Bias sets which field.
-struct Receiver {
+struct ShadowBias {
     vec2 slope{0};           ///< Change of depth to the right and to the lower texel (Eq. 9.11).
-    float bias = 0;          ///< Added to the receiver's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
+    float bias = 0;          ///< Added to the point's depth (Eq. 9.9 to 9.11); leaks: Eq. 9.14.
     float bias_per_w = 0;    ///< To be divided by the moved point's w, and added to the bias.
     vec3 offset{0};          ///< World space: moves the point (Eq. 9.12).
     vec3 offset_times_w{0};  ///< To be multiplied by w of the point not yet moved, and added.
 };
 
+/// No depth in a map is greater: with this bias, all points are lit.
+constexpr ShadowBias always_lit{.bias = 2};
+
 /// The sum of a plane's slopes beyond which its depth passes through all of the map within a texel.
 /// The light sees such a surface edge-on, and gives it hardly anything: it is called lit.
-/// Bias::normal needs no such limit.
+/// normal_offset_bias() needs no such limit.
 constexpr double max_slope = 1;
+
+/// The plane of a triangle on which shadows fall, as a map sees it.
+struct ReceiverPlane {
+    dvec3 normal;       ///< World space, unit length, to the side that is seen.
+    dvec4 plane;        ///< In the map's texels and depths (Eq. 9.8).
+    double across = 0;  ///< |plane.x| + |plane.y|
+    double along = 0;   ///< |plane.z|
+
+    /// The sum of the slopes; not a number in a triangle of no area.
+    double slope() const { return across / along; }
+};
+
+/// @param vertices  World space.
+/// @param outward   Any vector to that side of the triangle which is seen.
+/// @return          None of a triangle of no area, edge-on, not finite, or turned away from the
+///                  light.
+inline std::optional<ReceiverPlane> receiver_plane(const ShadowMap& map,
+                                                   const std::array<vec3, 3>& vertices,
+                                                   dvec3 outward) {
+    // TODO: step 2: the normal by normalize_or() of the cross product of two sides, in double; 0 if
+    // the triangle has no area. The plane as the map sees it, Eq. 9.8; if dot(normal, outward) < 0,
+    // change the signs of both. None unless plane.z > 0: depth is greater towards the light.
+    // across = |plane.x| + |plane.y|, along = |plane.z|.
+    return {};
+}
+
+/// How far the farthest tap's centre is from the point, in texels (Eq. 9.9).
+///
+/// @param radius  Of the PCF kernel: 0 to max_pcf_radius.
+constexpr double reach_texels(int radius) {
+    // TODO: step 2: Eq. 9.9
+    return 0;
+}
+
+/// As for a surface that is tilted by arctan 2, whatever the triangle.
+inline ShadowBias constant_bias(const ShadowMap& map, int radius) {
+    return {.bias = static_cast<float>(reach_texels(radius) * map.slope_in_middle)};
+}
+
+/// As much as the plane's depth changes within the kernel, and roundings (Eq. 9.10).
+inline ShadowBias slope_scaled_bias(const ShadowMap& map, int radius, const ReceiverPlane& plane) {
+    // TODO: step 2: always_lit unless slope() <= max_slope. (Ask it this way round: a comparison
+    // with NaN is false.) Else Eq. 9.9, and depth_quanta. Step 5, Eq. 9.10, derived in Robust from
+    // "The last two per cent of the bias" on:
+    //     bias = (reach_texels + snapping) slope + depth_quanta
+    //     bias_per_w = map.rounding_texels slope + map.rounding_depth
+    return {};
+}
+
+/// Each tap is compared with the plane's depth there: only roundings are left to add (Eq. 9.11).
+inline ShadowBias receiver_plane_bias(const ShadowMap& map, const ReceiverPlane& plane) {
+    // TODO: step 2: as slope_scaled_bias(), and z_x and z_y in `slope`. Step 5: Eq. 9.11, without
+    // reach_texels.
+    return {};
+}
+
+/// Moves the point off the surface, until its depth suffices (Eq. 9.12). Where that is nowhere, the
+/// triangle's plane contains the light.
+inline ShadowBias normal_offset_bias(const ShadowMap& map, int radius, const ReceiverPlane& plane) {
+    // TODO: step 5: Eq. 9.12, derived in Robust, "Off the surface". With `row` the first three
+    // numbers of the last row of map.texels_from_world:
+    //     K = (reach_texels + snapping) across + depth_quanta along
+    //     E = map.rounding_texels across + map.rounding_depth along
+    //     g = dot(normal, row)
+    //     offset_times_w = K / (1 - K g) normal,  offset = E / (1 - K g) normal
+    // always_lit unless K g < 1.
+    return {};
+}
 
 /// Fits the bias to a triangle.
 ///
-/// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. They leave all points
-/// lit of a triangle of no area, edge-on (with Bias::normal: only if it contains the light), not
-/// finite, or turned away from the light: that one gets no light anyway, or next to none where its
-/// interpolated normals still face the light.
+/// With Bias::slope, plane and normal, a lit plane nowhere shadows itself. Triangles without a
+/// receiver_plane() are lit: they get no light anyway, or next to none where their interpolated
+/// normals still face the light.
 ///
-/// @param radius   Of the PCF kernel: 0 to max_pcf_radius.
+/// @param radius    Of the PCF kernel: 0 to max_pcf_radius.
 /// @param vertices  World space.
-/// @param outward  Any vector to that side of the triangle which is seen.
-inline Receiver receiver(const ShadowMap& map, Bias bias, int radius,
-                         const std::array<vec3, 3>& vertices, dvec3 outward) {
-    Receiver result;
-    const double reach_texels = 0;  // TODO: step 2: to the farthest tap's centre, Eq. 9.9
-    if (bias == Bias::constant)
-        result.bias = static_cast<float>(reach_texels * map.slope_in_middle);
-    if (bias == Bias::none || bias == Bias::constant) return result;
-
-    // TODO: step 2: n by normalize_or() of the cross product of two sides, in double; 0 if the
-    // triangle has no area. The plane as the map sees it, Eq. 9.8; if dot(n, outward) < 0, change
-    // the signs of plane and n. Unless plane.z > 0, return a bias of 2 and nothing else. The same
-    // unless sum = |z_x| + |z_y| is <= max_slope. (Ask it this way round: a comparison with NaN is
-    // false.) Else Eq. 9.9 and depth_quanta for Bias::slope and Bias::plane; for Bias::plane, z_x
-    // and z_y as well, in result.slope. Leave Bias::normal for later.
-    //
-    // Step 5: Robust derives it from "The last two per cent of the bias" to "Off the surface".
-    // Bias::slope, Eq. 9.10:
-    //     bias = (reach_texels + snapping) sum + depth_quanta
-    //     bias_per_w = map.rounding_texels sum + map.rounding_depth
-    // Bias::plane, Eq. 9.11: the same without reach_texels.
-    // Bias::normal, Eq. 9.12, does not ask for `sum`. With across = |plane.x| + |plane.y|, and row
-    // the first three numbers of the last row of map.texels_from_world:
-    //     K = (reach_texels + snapping) across + depth_quanta |plane.z|
-    //     E = map.rounding_texels across + map.rounding_depth |plane.z|
-    //     g = dot(n, row)
-    //     offset_times_w = K / (1 - K g) n,  offset = E / (1 - K g) n
-    // Unless K g < 1, return a bias of 2 and nothing else.
-    return result;
+/// @param outward   Any vector to that side of the triangle which is seen.
+inline ShadowBias shadow_bias(const ShadowMap& map, Bias bias, int radius,
+                              const std::array<vec3, 3>& vertices, dvec3 outward) {
+    if (bias == Bias::none) return {};
+    if (bias == Bias::constant) return constant_bias(map, radius);
+    const std::optional<ReceiverPlane> plane = receiver_plane(map, vertices, outward);
+    if (!plane) return always_lit;
+    if (bias == Bias::slope) return slope_scaled_bias(map, radius, *plane);
+    if (bias == Bias::plane) return receiver_plane_bias(map, *plane);
+    return normal_offset_bias(map, radius, *plane);
 }
 
 /// Where the taps of a shadow test lie, and the depth that they are compared with.
@@ -175,17 +227,17 @@ struct PcfKernel {
     bool is_in_map = false;  ///< Else the point is lit.
     ivec2 middle{0};         ///< The texel in which the point lies.
     float depth = 0;         ///< Compared with the middle texel: the surface's, plus the bias.
-    vec2 slope{0};           ///< As in Receiver.
+    vec2 slope{0};           ///< As in ShadowBias.
 };
 
 /// The kernel around a point's position in the map (Eq. 9.6).
 ///
 /// @param position_world  Outside of the map, behind the light (after it is moved) or not a number:
 ///                        not in the map.
-inline PcfKernel pcf_kernel(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
+inline PcfKernel pcf_kernel(const ShadowMap& map, const ShadowBias& bias, vec3 position_world) {
     // TODO: step 1: find the point's position in the map (Eq. 9.6). It is in the map if x >= 0,
     // y >= 0, x < R and y < R; in a perspective only if w > 0, too: ask that before anything is
-    // divided. `depth` is z plus receiver.bias.
+    // divided. `depth` is z plus bias.bias.
     //
     // Step 5: first move the point by offset + w offset_times_w (Eq. 9.12), where w is that of the
     // point not yet moved, 1 for a directional light. All else is of the moved point. Add bias +
@@ -213,8 +265,8 @@ float pcf_visibility(const ShadowMap& map, const PcfKernel& kernel) {
 
 /// The same at a point.
 template <int radius>
-float pcf_visibility(const ShadowMap& map, const Receiver& receiver, vec3 position_world) {
-    return pcf_visibility<radius>(map, pcf_kernel(map, receiver, position_world));
+float pcf_visibility(const ShadowMap& map, const ShadowBias& bias, vec3 position_world) {
+    return pcf_visibility<radius>(map, pcf_kernel(map, bias, position_world));
 }
 
 /// The same for a radius that is known only when the program runs.

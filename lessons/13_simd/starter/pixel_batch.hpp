@@ -63,7 +63,7 @@ struct LaneInputs {
     SurfaceInputs<F> surface;
     ColorInputs<F> colors;
     NormalMapInputs<F> normal_map;
-    LaneReceivers<N> receiver;
+    LaneBiasCaches<N> shadow_biases;
 
     /// @param triangle  Any of them: what they have in common is taken from it.
     explicit LaneInputs(const TriangleInputs& triangle)
@@ -105,7 +105,7 @@ struct LaneInputs {
                 blend(lanes, normal_map.face.normal, map.face.normal);
             }
         }
-        if constexpr (with.shadow) receiver.set(lanes, triangle.receiver, slot);
+        if constexpr (with.shadow) shadow_biases.set(lanes, triangle.shadow_biases, slot);
     }
 };
 
