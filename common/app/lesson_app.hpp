@@ -206,7 +206,7 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, MakeA
         argc, argv);
 }
 
-/// The same of a lesson that draws the scene as it was read.
+/// Runs a lesson that draws the scene as it was read.
 template <typename Options, typename Render, typename MakeProbe = NoProbe>
 requires(!std::is_invocable_v<Render, Scene, const Options&>)
 int run_lesson(int argc, char** argv, std::string name, std::string title, Render render,

@@ -60,7 +60,7 @@ class Image {
         pixels_.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), value);
     }
 
-    /// The same with pixels of any value: each is to be written before it is read.
+    /// With pixels of any value: each is to be written before it is read.
     Image(ivec2 size, Unset) : size_(size) {
         assert(size.x >= 0 && size.y >= 0 && "an image has no negative side");
         pixels_.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));

@@ -93,7 +93,7 @@ inline void check_pixel_bytes(std::uint64_t needed, std::uint64_t there,
                                    std::to_string(needed) + " bytes of pixels are there");
 }
 
-/// The same for compressed pixels.
+/// Checks that there are as many bytes as compressed pixels take at least.
 ///
 /// @param least  The number of bytes that so many pixels take at the best compression.
 inline void check_compressed_bytes(ivec2 size, std::uint64_t least, std::uint64_t there,

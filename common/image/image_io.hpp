@@ -29,7 +29,7 @@ namespace rasterbook {
 Image<u8vec4> read_image(const std::filesystem::path& file, std::uint64_t max_pixels = any_number,
                          std::string* remark = nullptr);
 
-/// The same for a picture whose file is in memory already.
+/// Reads a picture whose file is in memory already.
 ///
 /// @param bytes       Fewer than 2^31.
 /// @param name        Named in errors.

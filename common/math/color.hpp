@@ -35,7 +35,7 @@ inline std::uint8_t srgb8_from_linear(float linear) {
     return static_cast<std::uint8_t>(255.0f * srgb_from_linear(linear) + 0.5f);
 }
 
-/// The same codes from a table, in a fourth of the time.
+/// sRGB-encoded values from a table, in a fourth of the time.
 ///
 /// Floats from 2^-13 to 1 that have their upper 16 bits in common lie so close that they have one
 /// code, or two that follow each other. For each such group, the table has the first code and the

@@ -24,7 +24,7 @@ constexpr F select(bool mask, F yes, F no) {
     return mask ? yes : no;
 }
 
-/// The same for the components of a vector.
+/// Selects each component of a vector.
 template <typename Mask, typename F>
 constexpr Vec3<F> select(Mask mask, Vec3<F> yes, Vec3<F> no) {
     return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};

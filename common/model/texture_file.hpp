@@ -21,7 +21,7 @@ namespace rasterbook {
 Image<u8vec4> read_texture_file(const TextureMap& map, const char* statement, bool keep_going,
                                 Scene& scene);
 
-/// The same without another message.
+/// Reads the image of a texture, and adds no message of its own.
 ///
 /// @param remark       If not null, takes what is wrong with a file that can be read nevertheless.
 /// @throws InputError  Names the image alone.

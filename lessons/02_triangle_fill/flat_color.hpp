@@ -33,7 +33,7 @@ inline vec3 flat_color(vec3 normal, const Material& material) {
     return material.diffuse * (sun * sunlight + sky * skylight);
 }
 
-/// The same of a triangle in the world, by the direction that it faces.
+/// The flat colour of a triangle in the world, by the direction that it faces.
 inline vec3 flat_color(const Mesh& mesh, const Triangle& triangle, const Material& material) {
     return flat_color(flat_normal(mesh, triangle), material);
 }

@@ -141,7 +141,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
     }
 }
 
-/// The same of a whole image.
+/// Visits the pixels of an image whose centres a triangle covers.
 ///
 /// @param size  Width and height in pixels, each 0 to 2^22.
 template <std::invocable<ivec2, Barycentrics> Emit>

@@ -132,7 +132,7 @@ inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& came
     return transform_double(clip_from_world_in(camera, eye, center_moved, size), positions_world);
 }
 
-/// The same of an instance: by one matrix where nothing else is asked for.
+/// An instance in clip space: by one matrix where nothing else is asked for.
 inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& camera, ivec2 size,
                                    const Instance& instance) {
     if (variant.precision == Precision::float32 && variant.offset == 0)

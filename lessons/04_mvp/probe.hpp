@@ -108,7 +108,7 @@ inline vec3 report_face(PixelReport& report, const Instance& instance, const Tri
     return color;
 }
 
-/// As render_by_pixels(), in one pixel.
+/// Explains a pixel of render_by_pixels().
 template <typename Options>
 vec3 probed_by_pixels(const Options& options, const Scene& scene,
                       std::span<const Instance> instances, const Camera& camera, ivec2 pixel,

@@ -75,7 +75,7 @@ void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, iv
     }
 }
 
-/// The same of all meshes of a scene, transformed in float and clipped by all six planes.
+/// Visits what may be visible of a scene, transformed in float and clipped by all six planes.
 template <typename Visit>
 void for_each_visible_triangle(const Scene& scene, const mat4& clip_from_world, ivec2 size,
                                Culling culling, Visit&& visit) {

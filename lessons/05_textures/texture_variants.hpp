@@ -174,7 +174,7 @@ inline EncodedLevel make_encoded_level(const Image<u8vec4>& picture, WrapModes w
     return level;
 }
 
-/// As sample_bilinear of TextureLevel (Eq. 5.6).
+/// The mean of the four texels around a position (Eq. 5.6).
 ///
 /// @param read  Called as read(u8vec4 texel): what the mean is taken of.
 template <std::invocable<u8vec4> Read>

@@ -98,7 +98,7 @@ LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>
     return sum;
 }
 
-/// The same where nothing stands between the lights and the point.
+/// The light of all lights that a point reflects, with nothing in between.
 template <typename F, typename Highlight>
 LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
                             const Highlight& highlight) {
@@ -110,7 +110,7 @@ template <typename F>
 struct FragmentColor {
     Vec3<F> ambient, diffuse, specular, emission;
 
-    /// The same colours at several pixels at once.
+    /// One colour for several pixels at once.
     template <typename G>
     explicit operator FragmentColor<G>() const {
         return {Vec3<G>(ambient), Vec3<G>(diffuse), Vec3<G>(specular), Vec3<G>(emission)};

@@ -24,7 +24,7 @@ struct PhongProbeOptions {
 /// @param options, assets  What they refer to has to outlive the probe.
 PixelProbe phong_probe(const PhongProbeOptions& options, const PhongAssets& assets);
 
-/// The same, of all options of a lesson.
+/// Explains pixels by all options of a lesson.
 template <typename Options>
 PixelProbe phong_probe(const Options& options, const PhongAssets& assets) {
     return phong_probe(

@@ -24,7 +24,7 @@ struct ToonProbeOptions {
 /// @param options, assets  What they refer to has to outlive the probe.
 PixelProbe toon_probe(const ToonProbeOptions& options, const ToonAssets& assets);
 
-/// The same, of all options of a lesson.
+/// Explains pixels by all options of a lesson.
 template <typename Options>
 PixelProbe toon_probe(const Options& options, const ToonAssets& assets) {
     return toon_probe(ToonProbeOptions{options.size, options.samples_per_side, options.orbit,

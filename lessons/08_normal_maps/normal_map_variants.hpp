@@ -57,7 +57,7 @@ inline std::uint32_t unorm_from_component(float component, int bits) {
     return static_cast<std::uint32_t>(std::floor((component + 1) / 2 * greatest + 0.5f));
 }
 
-/// The same of SNORM, with the middle value added.
+/// A component, -1 to 1, as the nearest whole number of SNORM, with the middle value added.
 inline std::uint32_t snorm_from_component(float component, int bits) {
     const float middle = static_cast<float>(1u << (bits - 1));
     return static_cast<std::uint32_t>(std::floor(middle + (middle - 1) * component + 0.5f));

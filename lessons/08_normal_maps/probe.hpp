@@ -26,7 +26,7 @@ struct NormalMapProbeOptions {
 /// @param options, assets  What they refer to has to outlive the probe.
 PixelProbe normal_map_probe(const NormalMapProbeOptions& options, const NormalMapAssets& assets);
 
-/// The same, of all options of a lesson.
+/// Explains pixels by all options of a lesson.
 template <typename Options>
 PixelProbe normal_map_probe(const Options& options, const NormalMapAssets& assets) {
     return normal_map_probe(NormalMapProbeOptions{options.size, options.orbit, options.texture,

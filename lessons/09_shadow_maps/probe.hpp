@@ -28,7 +28,7 @@ struct ShadowProbeOptions {
 /// @param options, assets  What they refer to has to outlive the probe.
 PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& assets);
 
-/// The same, of all options of a lesson.
+/// Explains pixels by all options of a lesson.
 template <typename Options>
 PixelProbe shadow_probe(const Options& options, const ShadowAssets& assets) {
     return shadow_probe(ShadowProbeOptions{options.size, options.orbit, options.texture,

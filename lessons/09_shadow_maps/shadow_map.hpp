@@ -171,7 +171,7 @@ inline std::optional<ReceiverPlane> receiver_plane(const ShadowMap& map,
 /// @param radius  Of the PCF kernel: 0 to max_pcf_radius.
 constexpr double reach_texels(int radius) { return radius + 0.5; }
 
-/// As for a surface that is tilted by arctan 2, whatever the triangle.
+/// What a surface that is tilted by arctan 2 takes, whatever the triangle.
 inline ShadowBias constant_bias(const ShadowMap& map, int radius) {
     return {.bias = static_cast<float>(reach_texels(radius) * map.slope_in_middle)};
 }
@@ -284,13 +284,13 @@ float pcf_visibility(const ShadowMap& map, const PcfKernel& kernel) {
     return lit / (side * side);
 }
 
-/// The same at a point.
+/// The visibility of a light at a point (Eq. 9.13).
 template <int radius>
 float pcf_visibility(const ShadowMap& map, const ShadowBias& bias, vec3 position_world) {
     return pcf_visibility<radius>(map, pcf_kernel(map, bias, position_world));
 }
 
-/// The same for a radius that is known only when the program runs.
+/// The visibility of a light, by a radius that is known only when the program runs.
 inline float pcf_visibility(const ShadowMap& map, int radius, const PcfKernel& kernel) {
     switch (radius) {
         case 0:

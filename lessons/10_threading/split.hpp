@@ -174,7 +174,7 @@ void for_each_strip(const Tile& tile, Visit&& visit) {
     for_each_strip(tile, tile.box, visit);
 }
 
-/// As fill_triangle, of a tile.
+/// Visits the pixels of a tile whose centres a triangle covers.
 template <typename Emit>
 void fill_tile(const ScreenTriangle& triangle, const Tile& tile, Emit&& emit) {
     for_each_strip(tile, box_around(triangle), [&](const PixelBox& strip) {

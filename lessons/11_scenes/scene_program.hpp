@@ -17,7 +17,7 @@
 
 namespace rasterbook {
 
-/// As run_lesson().
+/// Runs a lesson of scenes: reads the command line and the model, renders, writes the picture.
 ///
 /// @tparam Options  Derived from SceneRendererOptions.
 /// @param render    Called as render(const Options&, const SceneAssets&, ThreadPool&,

@@ -43,7 +43,7 @@ class ShadowMapParts {
                 [](auto&... what) { draw_tile(what...); });
     }
 
-    /// The same of a box of texels.
+    /// Draws those parts that a box of texels lies in, if they are not drawn yet.
     ///
     /// @param fill  Draws a part, as draw_tile() of lesson 11.
     template <typename Fill>

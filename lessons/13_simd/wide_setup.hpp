@@ -87,7 +87,7 @@ WideScreenTriangles<N> project_plain(std::span<const Triangle> triangles,
         for (int axis = 0; axis < 2; ++axis)  // Eq. 4.10
             is_inside = is_inside & (at.w + at[axis] >= zero) & (at.w - at[axis] >= zero);
         is_inside = is_inside & (at.w - at.z >= zero) & (at.z >= zero);
-        // As screen_from_clip() and snap_triangle().
+        // Eq. 4.9 and 2.8.
         const F x = (at.x / at.w + one) * half * width;
         const F y = (one - at.y / at.w) * half * height;
         on_screen.z[v] = at.z / at.w;
@@ -104,8 +104,8 @@ WideScreenTriangles<N> project_plain(std::span<const Triangle> triangles,
     return on_screen;
 }
 
-/// As project_triangles() of lesson 10: as many triangles at once as F has numbers. Those that have
-/// to be clipped, or are unusual, take the steps of lesson 10.
+/// Projects triangles and culls them, as many at once as F has numbers. Those that have to be
+/// clipped, or are unusual, take the steps of lesson 10.
 template <typename F>
 std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle> triangles,
                               const vec4* positions_clip, ivec2 size, Culling culling,

@@ -31,7 +31,7 @@
 
 namespace rasterbook {
 
-/// As for_each_nearer_fragment() of lesson 12.
+/// Visits the fragments of a triangle in a tile that are nearer than what is there, but for holes.
 ///
 /// @param visit  Called as visit(first_pixel, nearer, on_screen, depth, opacity, in_texture): for
 ///               as many pixels of a row as F has numbers. Those count for which the mask `nearer`
@@ -66,7 +66,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
         });
 }
 
-/// As draw_id() of lesson 12 (Eq. 12.1).
+/// Draws a triangle's depths and its id into a tile (Eq. 12.1).
 template <typename F, typename Maps>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
              TileDepths& depths, TileVisibility& visible) {
@@ -102,7 +102,7 @@ struct VisibleTriangle {
     std::span<const PixelRun> runs;
 };
 
-/// As shade_pixels() of lesson 12, of triangles of one mesh and one material.
+/// Draws the colours of pixels, of triangles of one mesh and one material.
 template <Permutation with, typename F>
 void shade_pixels(const Frame<ShadowMapsOnDemand>& frame,
                   std::span<const VisibleTriangle> visible) {
@@ -118,7 +118,7 @@ void shade_pixels(const Frame<ShadowMapsOnDemand>& frame,
     }
 }
 
-/// As shade_fragments() of lesson 12.
+/// Finds the colours of a triangle's transparent fragments.
 template <Permutation with, typename F>
 void shade_fragments(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected,
                      std::span<FragmentToShade> fragments) {
@@ -166,7 +166,7 @@ WideShader shader_of(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTria
     return shaders[permutation_of(frame.assets.plan.materials[projected.triangle.material])];
 }
 
-/// As draw_transparent() of lesson 12.
+/// Gathers the transparent fragments of a triangle.
 template <typename F>
 void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTriangle& projected,
                       const Tile& tile, TileDepths& depths, TransparentFragments& transparent,
@@ -256,7 +256,7 @@ bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible) 
     return true;
 }
 
-/// As shade_visible() of lesson 12.
+/// Draws the colours of all pixels in which a triangle is visible, each once.
 template <typename F>
 void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible, Show show,
                    HeatMap& heat) {

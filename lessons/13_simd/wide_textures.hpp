@@ -15,7 +15,7 @@
 
 namespace rasterbook {
 
-/// As interpolate() of lesson 05: a vertex attribute at several pixels of a triangle.
+/// A vertex attribute at several pixels of a triangle.
 template <int n, int N>
 glm::vec<n, Floats<N>> interpolate(const std::array<glm::vec<n, float>, 3>& of_vertices,
                                    const Vec3<Floats<N>>& barycentrics) {
@@ -24,7 +24,7 @@ glm::vec<n, Floats<N>> interpolate(const std::array<glm::vec<n, float>, 3>& of_v
            barycentrics.z * Attribute(of_vertices[2]);
 }
 
-/// As wrapped() of one coordinate (Eq. 5.4).
+/// Several texture coordinates brought into the texture (Eq. 5.4).
 template <int N>
 Floats<N> wrapped(Floats<N> coordinate, Wrap wrap) {
     using F = Floats<N>;
@@ -111,7 +111,7 @@ TexelsAround<N> texels_around(const TextureLevel& level, Floats<N> x, Floats<N> 
             from_first_y - to_floats(row)};
 }
 
-/// As sample_bilinear() (Eq. 5.6).
+/// The mean of the four texels around each of several positions (Eq. 5.6).
 ///
 /// @param x,y  Positions in the texture, 0 to 1.
 template <int N>
@@ -144,7 +144,7 @@ void prefetch_bilinear(const TextureLevel& level, Floats<N> x, Floats<N> y) {
     }
 }
 
-/// As sample_nearest().
+/// The texel in which each of several positions lies.
 template <int N>
 glm::vec<4, Floats<N>> sample_nearest(const TextureLevel& level, Floats<N> x, Floats<N> y) {
     glm::vec<4, Floats<N>> color;
@@ -155,7 +155,7 @@ glm::vec<4, Floats<N>> sample_nearest(const TextureLevel& level, Floats<N> x, Fl
     return color;
 }
 
-/// As level_of_detail() (Eq. 5.8).
+/// The mip level for each of several fragments (Eq. 5.8).
 template <int N>
 Floats<N> level_of_detail(const glm::vec<2, Floats<N>>& ddx, const glm::vec<2, Floats<N>>& ddy,
                           ivec2 size) {
@@ -183,8 +183,9 @@ template <int N>
     return color;
 }
 
-/// As sample(). Structs of vectors are passed to functions through memory, and that may take longer
-/// than the function itself. `flatten` inlines all that is called here, and all that those call.
+/// A texture's colours and alphas in several fragments. Structs of vectors are passed to functions
+/// through memory, and that may take longer than the function itself. `flatten` inlines all that is
+/// called here, and all that those call.
 template <int N>
 [[gnu::flatten]] glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
                                                const TextureCoordinates<Floats<N>>& uv) {

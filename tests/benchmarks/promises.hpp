@@ -42,7 +42,7 @@ void count_each(Counter counter) {
 
 }  // namespace rasterbook
 
-#if defined(WITHOUT_texture) || defined(WITHOUT_specular_map)
+#if defined(WITHOUT_texture) || defined(WITHOUT_specular_map) || defined(WITHOUT_emission_map)
 #include "06_phong/surface.hpp"
 
 namespace rasterbook {

@@ -69,6 +69,7 @@ void add_rows_of_lesson_11(const char* name, std::vector<Row>& rows) {
                                 left_out<Without::highlight>(Effect::highlight),
                                 left_out<Without::texture>(Effect::texture),
                                 left_out<Without::specular_map>(Effect::specular_map),
+                                left_out<Without::emission_map>(Effect::emission_map),
                                 left_out<Without::vertex_colors>(Effect::vertex_colors),
                                 left_out<Without::normal_map>(Effect::normal_map),
                                 left_out<Without::shadow>(Effect::shadow),

@@ -20,6 +20,7 @@ enum class Without {
     highlight,
     texture,
     specular_map,
+    emission_map,
     vertex_colors,
     normal_map,
     shadow,

@@ -100,7 +100,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
     // TODO, step 3: "All the steps in order" in the derivation.
 }
 
-/// The same of a whole image.
+/// Visits the pixels of an image whose centres a triangle covers.
 ///
 /// @param size  Width and height in pixels, each 0 to 2^22.
 template <std::invocable<ivec2, Barycentrics> Emit>

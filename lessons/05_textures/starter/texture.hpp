@@ -182,7 +182,7 @@ inline Image<vec4> linear_from_srgb8(const Image<u8vec4>& picture) {
     return Image<vec4>(picture.size());
 }
 
-/// The same of an image whose stored values are plain numbers (UNORM).
+/// An image whose stored values are plain numbers (UNORM), as floats.
 inline Image<vec4> plain_numbers(const Image<u8vec4>& picture) {
     Image<vec4> numbers(picture.size());
     for (std::size_t i = 0; i < numbers.pixels().size(); ++i)

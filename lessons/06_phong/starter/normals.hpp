@@ -166,7 +166,7 @@ inline void complete_normals(std::span<Mesh> meshes) {
 }
 inline void complete_normals(Mesh& mesh) { complete_normals(std::span(&mesh, 1)); }
 
-/// The same for all meshes of a scene.
+/// Gives normals to all meshes of a scene that have none.
 inline void complete_normals(Scene& scene) {
     const bool share = !scene.meshes.empty() && !scene.meshes[0].shared_positions.empty();
     if (share) return complete_normals(std::span(scene.meshes));

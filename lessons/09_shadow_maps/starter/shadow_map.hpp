@@ -167,7 +167,7 @@ constexpr double reach_texels(int radius) {
     return 0;
 }
 
-/// As for a surface that is tilted by arctan 2, whatever the triangle.
+/// What a surface that is tilted by arctan 2 takes, whatever the triangle.
 inline ShadowBias constant_bias(const ShadowMap& map, int radius) {
     return {.bias = static_cast<float>(reach_texels(radius) * map.slope_in_middle)};
 }
@@ -263,13 +263,13 @@ float pcf_visibility(const ShadowMap& map, const PcfKernel& kernel) {
     return 1;
 }
 
-/// The same at a point.
+/// The visibility of a light at a point (Eq. 9.13).
 template <int radius>
 float pcf_visibility(const ShadowMap& map, const ShadowBias& bias, vec3 position_world) {
     return pcf_visibility<radius>(map, pcf_kernel(map, bias, position_world));
 }
 
-/// The same for a radius that is known only when the program runs.
+/// The visibility of a light, by a radius that is known only when the program runs.
 inline float pcf_visibility(const ShadowMap& map, int radius, const PcfKernel& kernel) {
     switch (radius) {
         case 0:

@@ -148,7 +148,7 @@ class BinnedTriangles {
         : BinnedTriangles(pool, scene, meshes, clip_from_world, tiling, culling,
                           [](std::size_t) { return true; }) {}
 
-    /// The same of some materials.
+    /// Transforms, clips and bins the triangles of some materials.
     ///
     /// @param takes      Called as takes(material), an index into Scene::materials: whether
     ///                   triangles of it are taken.

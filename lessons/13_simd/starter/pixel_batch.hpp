@@ -23,7 +23,7 @@
 
 namespace rasterbook {
 
-/// As BarycentricPlanes of lesson 12: the same bits at several pixels, wherever they are.
+/// Barycentric coordinates at several pixels, wherever they are: the bits of lesson 12 (Eq. 12.2).
 template <int N>
 class WideBarycentricPlanes {
   public:
@@ -55,8 +55,8 @@ class WideBarycentricPlanes {
     float per_area_;
 };
 
-/// As TriangleInputs, but each lane has those of its own triangle. All triangles are of one mesh
-/// and one material.
+/// What a shader has to know of the triangles, each lane of its own one. All are of one mesh and
+/// one material.
 template <Permutation with, int N>
 struct LaneInputs {
     using F = Floats<N>;

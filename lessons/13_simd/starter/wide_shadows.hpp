@@ -18,7 +18,7 @@
 
 namespace rasterbook {
 
-/// As ShadowBias, of several points.
+/// The biases of several points.
 template <int N>
 struct WideShadowBias {
     glm::vec<2, Floats<N>> slope;
@@ -46,7 +46,7 @@ struct LaneBiasCaches {
     }
 };
 
-/// As PcfKernel, of several points.
+/// Where the taps of several points lie, and the depths that they are compared with.
 template <int N>
 struct WidePcfKernel {
     Mask<N> is_in_map;
@@ -55,7 +55,7 @@ struct WidePcfKernel {
     glm::vec<2, Floats<N>> slope;
 };
 
-/// As pcf_kernel() (Eq. 9.6).
+/// The kernels around several points' positions in a map (Eq. 9.6).
 ///
 /// @param asked  Which points are asked for; the others are not in the map.
 template <int N>
@@ -106,7 +106,7 @@ Floats<N> lit_taps(const ShadowMap& map, const WidePcfKernel<N>& kernel) {
     return lit;
 }
 
-/// As pcf_visibility() (Eq. 9.7).
+/// The visibility of a light at several points: the share of the taps that say lit (Eq. 9.7).
 template <int N>
 Floats<N> pcf_visibility(const ShadowMap& map, int radius, const WidePcfKernel<N>& kernel) {
     using F = Floats<N>;
@@ -152,8 +152,8 @@ Mask<N> is_behind(dvec3 front, const Vec3<Floats<N>>& normal) {
         __builtin_convertvector(product(0) + product(1) + product(2) < 0, Vector<std::int32_t, N>)};
 }
 
-/// As light_visibility() of lesson 12. All points that are in one map are asked for together;
-/// mostly that is all of them.
+/// How much of a light reaches several points, 0 to 1 each. All points that are in one map are
+/// asked for together; mostly that is all of them.
 ///
 /// @param asked  For which points; of the others, no map is asked.
 template <int N>

@@ -96,7 +96,7 @@ inline bool is_outside(const EdgeWalk& edge, const PixelBox& box) {
            edge.least;
 }
 
-/// As fill_triangle() of lesson 02, as many pixels of a row at a time as F has numbers.
+/// Visits the pixels whose centres a triangle covers, as many of a row at a time as F has numbers.
 ///
 /// @param triangle  Its vertices lie less than 2^17 pixels from the origin: then a double holds its
 ///                  edge functions exactly.
@@ -125,7 +125,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
     }
 }
 
-/// As fill_tile() of lesson 10.
+/// Visits the pixels of a tile that a triangle covers.
 template <typename F, typename Emit>
 void fill_tile(const ScreenTriangle& triangle, const Tile& tile, Emit&& emit) {
     for_each_strip(tile, box_around(triangle), [&](const PixelBox& strip) {
@@ -133,7 +133,7 @@ void fill_tile(const ScreenTriangle& triangle, const Tile& tile, Emit&& emit) {
     });
 }
 
-/// As TriangleDepth::at() of lesson 03.
+/// The depths inside a triangle, interpolated from the vertices' depths (Eq. 3.3).
 template <typename F>
 F depth_at(const TriangleDepth& depth, const Vec3<F>& barycentrics) {
     return F(depth.farthest()) + glm::dot(barycentrics, Vec3<F>(depth.above_farthest()));
