@@ -85,8 +85,8 @@ ExactIncoming exact_incoming(const Light& light, vec3 position) {
     const real of_share = u * share * (2 + 9 * square * share);
     if (light.kind == LightKind::point) return {toward, of_toward, share, of_share};
     const lvec3 shines = light.direction_world;
-    const real width = real{light.cos_full} - light.cos_none;
-    const real t = (-glm::dot(toward, shines) - light.cos_none) / width;
+    const real width = real{light.cos_inner} - light.cos_outer;
+    const real t = (-glm::dot(toward, shines) - light.cos_outer) / width;
     // The cosine's products, each as far off as `toward`, and 3 u of their sum; two differences, a
     // quotient.
     const real of_cosine =

@@ -38,14 +38,14 @@ class Mix : public SpecialNumbers {
     /// A light as the lesson makes them: any place, any size.
     Light light() {
         const vec3 color(up_to(10), up_to(10), up_to(10)), toward = direction(), where = place();
-        const float cos_full = std::clamp(finite(), -1 + FLT_EPSILON, 1.0f);
+        const float cos_inner = std::clamp(finite(), -1 + FLT_EPSILON, 1.0f);
         return {static_cast<LightKind>(below(3)),
                 color,
                 toward,
                 where,
                 std::max(amount(), FLT_MIN),
-                cos_full,
-                std::max(-1.0f, cos_full - std::max(up_to(1), FLT_EPSILON))};
+                cos_inner,
+                std::max(-1.0f, cos_inner - std::max(up_to(1), FLT_EPSILON))};
     }
 };
 
@@ -222,7 +222,7 @@ TEST(Phong, HardCase_StudioLightsOfAnySizeAreLights) {
                         are_within("place", light.position_world, -2 * size - 1, 2 * size + 1))
                         << what;
                     ASSERT_GE(light.half_distance, FLT_MIN) << what;
-                    ASSERT_LT(light.cos_none, light.cos_full) << what;
+                    ASSERT_LT(light.cos_outer, light.cos_inner) << what;
                 }
             }
 }

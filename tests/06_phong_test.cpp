@@ -284,13 +284,13 @@ TEST(Phong, Eq6_5_VisibilityIsAskedOnlyWhereTheLightCounts) {
         const double cosine = glm::dot(toward, dvec3(point.normal_world));
         const double from_axis = -glm::dot(toward, dvec3(light.direction_world));
         const bool is_spot = light.kind == LightKind::spot;
-        if (std::abs(cosine) < 1e-5 || std::abs(from_axis - light.cos_none) < 1e-4) continue;
+        if (std::abs(cosine) < 1e-5 || std::abs(from_axis - light.cos_outer) < 1e-4) continue;
         int times = 0;
         reflected_light(std::span(&light, 1), point, PhongHighlight{true, 8}, [&](std::size_t) {
             ++times;
             return 1.0f;
         });
-        const bool is_in_cone = !is_spot || from_axis > light.cos_none;
+        const bool is_in_cone = !is_spot || from_axis > light.cos_outer;
         ASSERT_EQ(times, cosine > 0 && is_in_cone ? 1 : 0)
             << "times that the light's visibility is asked for; N.L = " << cosine
             << (is_in_cone ? "" : ", outside of the cone") << "; seed 8, case " << i;

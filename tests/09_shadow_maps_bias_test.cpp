@@ -66,7 +66,7 @@ struct TiltedPlane {
         if (kind == LightKind::directional) return;
         light.position_world = middle + 2.5f * toward;
         light.direction_world = -toward;
-        light.cos_none = std::cos(0.9f), light.cos_full = 1;
+        light.cos_outer = std::cos(0.9f), light.cos_inner = 1;
     }
 };
 
@@ -349,14 +349,14 @@ TEST(ShadowMaps, Eq9_12_HardCase_LitPlanesHaveNoShadowInSmallMapsEither) {
                                            middle + along + across, middle - along + across},
                                           {{0, 1, 2}, {0, 2, 3}});
                 Light light{kind, vec3(1), vec3(0, 0, -1)};
-                light.cos_full = 1,
-                light.cos_none = std::cos(glm::radians(59.5f + 14.5f * any(random)));
+                light.cos_inner = 1,
+                light.cos_outer = std::cos(glm::radians(59.5f + 14.5f * any(random)));
                 // Other things around widen the map to all of the light's view.
                 const LightMaps maps(light, std::span(&mesh, 1), size, {vec3(-4), vec3(4)});
                 for (const PointOn& p : points_on(mesh, random, 15)) {
                     const vec3 from_light = glm::normalize(p.point);
                     if (kind == LightKind::spot &&
-                        glm::dot(from_light, light.direction_world) <= light.cos_none)
+                        glm::dot(from_light, light.direction_world) <= light.cos_outer)
                         continue;
                     if (!(glm::dot(normal, from_light) < 0)) continue;
                     for (const Bias bias : fitted)

@@ -384,7 +384,7 @@ TEST(ShadowMaps, HardCase_ALightInsideAMesh) {
     const Mesh room = closed_box(vec3(-4), vec3(4)), chest = closed_box(vec3(-1), vec3(1));
     const std::array meshes = {room, chest};
     Light spot = point_light({0.2f, 0.1f, -0.3f});
-    spot.kind = LightKind::spot, spot.direction_world = {0, -1, 0}, spot.cos_none = 0.6f;
+    spot.kind = LightKind::spot, spot.direction_world = {0, -1, 0}, spot.cos_outer = 0.6f;
     std::mt19937 random(6);
     std::uniform_real_distribution<float> any(-0.95f, 0.95f);
     for (const Light& light : {point_light({0.2f, 0.1f, -0.3f}), spot}) {
@@ -428,9 +428,9 @@ TEST(ShadowMaps, HardCase_SpecialNumbersAtTheEntry) {
     for (int i = 0; i < 20000; ++i) {
         Light light{light_kinds[random() % 3], vec3(1), unit_or(any_vector(finite), vec3(0, 1, 0)),
                     any_vector(finite)};
-        light.cos_full = std::clamp(any(finite), -0.9f, 1.0f);
-        light.cos_none =
-            std::clamp(light.cos_full - std::abs(any(finite)), -1.0f, light.cos_full - 1e-6f);
+        light.cos_inner = std::clamp(any(finite), -0.9f, 1.0f);
+        light.cos_outer =
+            std::clamp(light.cos_inner - std::abs(any(finite)), -1.0f, light.cos_inner - 1e-6f);
         Mesh mesh = mesh_of({any_vector(all), any_vector(all), any_vector(all)}, {{0, 1, 2}});
         const LightMaps maps(light, std::span(&mesh, 1), 16);
         with_maps += !maps.maps.empty();

@@ -32,8 +32,8 @@ Light directional_light(vec3 toward) {
 
 Light spotlight(vec3 position, vec3 target, float half_angle_degrees) {
     Light light{LightKind::spot, vec3(1), unit_or(target - position, vec3(0, -1, 0)), position};
-    light.cos_none = std::cos(glm::radians(half_angle_degrees));
-    light.cos_full = 1;
+    light.cos_outer = std::cos(glm::radians(half_angle_degrees));
+    light.cos_inner = 1;
     return light;
 }
 
@@ -94,7 +94,7 @@ testing::AssertionResult is_dark_under_a_large_roof(const Light& light, int size
             const vec3 point = vec3(x, 0, y) / 20.0f;
             const vec3 from_light = glm::normalize(point - light.position_world);
             if (light.kind == LightKind::spot &&
-                glm::dot(from_light, light.direction_world) <= light.cos_none)
+                glm::dot(from_light, light.direction_world) <= light.cos_outer)
                 continue;  // beyond its cone
             if (const float lit = pcf_visibility<radius>(map, {}, point); lit != 0)
                 return testing::AssertionFailure()
@@ -393,7 +393,7 @@ TEST(ShadowMaps, Eq9_5_WhichFacesASpotlightsConeReaches) {
     for (int i = 0; i < 60; ++i) {
         Light light = spotlight({0, 0, 0}, anywhere.direction(), anywhere.one(50, 90));
         const auto in_cone = [&](vec3 direction) {
-            return glm::dot(glm::normalize(direction), light.direction_world) > light.cos_none;
+            return glm::dot(glm::normalize(direction), light.direction_world) > light.cos_outer;
         };
         std::array<bool, 6> is_reached{};  // by any of many directions through the faces
         constexpr int n = 200;
@@ -407,10 +407,10 @@ TEST(ShadowMaps, Eq9_5_WhichFacesASpotlightsConeReaches) {
             }
         for (std::size_t f = 0; f < 6; ++f) {
             const double nearest = cosine_to_face(light.direction_world, f);
-            if (std::abs(nearest - light.cos_none) < 1e-4) continue;  // between two directions
+            if (std::abs(nearest - light.cos_outer) < 1e-4) continue;  // between two directions
             ASSERT_EQ(reaches_face(light, f), is_reached[f])
                 << "the face " << f << " of a spotlight that shines to "
-                << testing::PrintToString(light.direction_world) << ", cosine " << light.cos_none
+                << testing::PrintToString(light.direction_world) << ", cosine " << light.cos_outer
                 << " at its cone's border (seed 11, case " << i << ")";
             ++faces.at(is_reached[f]);
         }

@@ -457,12 +457,12 @@ TEST(SceneFiles, Eq11_10_HardCase_ColorsOfAnObjFileAreInterpolatedInLinearLight)
 
 TEST(SceneFiles, HardCase_OnlyTwoSidedMaterialsShowTheirBackFaces) {
     look_up("Eq. 11.9");
-    for (const bool is_glass : {false, true})
+    for (const bool is_transparent : {false, true})
         for (const bool two_sided : {false, true}) {
             Squares squares;
             Material& square = squares.add(0, vec3(1, 0, 0));
             square.two_sided = two_sided;
-            if (is_glass) square.alpha = AlphaMode::blend;
+            if (is_transparent) square.alpha = AlphaMode::blend;
             for (Triangle& triangle : squares.scene.meshes[0].triangles)
                 std::swap(triangle.vertices[1], triangle.vertices[2]);
             EXPECT_EQ(middle_of(squares) == vec3(1, 0, 0), two_sided);
@@ -492,16 +492,16 @@ TEST(SceneFiles, HardCase_EmptyScenesAreTheBackdrop) {
 
 TEST(SceneFiles, HardCase_TransparentMaterialsCastNoShadow) {
     look_up("Eq. 11.8");
-    for (const bool is_glass : {false, true}) {
+    for (const bool is_transparent : {false, true}) {
         Squares squares;
         squares.add(0, vec3(1)).illumination = 1;
         Material& above = squares.add(1, vec3(1));
         above.illumination = 1;
-        if (is_glass) above.alpha = AlphaMode::blend, above.opacity = 0.5f;
+        if (is_transparent) above.alpha = AlphaMode::blend, above.opacity = 0.5f;
         squares.scene.lights = {{"sun", SceneLight::Kind::directional, vec3(3), vec3(0),
                                  vec3(0, 0, -1), std::numeric_limits<float>::infinity()}};
         EXPECT_EQ(drawn(squares.scene, small_picture()).count(Counter::shadow_fragments) > 0, true);
-        EXPECT_EQ(casts_shadows(squares.scene.materials[2]), !is_glass);
+        EXPECT_EQ(casts_shadows(squares.scene.materials[2]), !is_transparent);
         EXPECT_TRUE(casts_shadows(squares.scene.materials[1]));
     }
 }

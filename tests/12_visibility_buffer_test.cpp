@@ -116,10 +116,10 @@ int nearest_in(ivec2 pixel, const std::vector<ProjectedTriangle>& triangles) {
             return share(u, v) > 0 || (share(u, v) == 0 && (down > 0 || (down == 0 && left > 0)));
         };
         if (!is_own(b, c) || !is_own(c, a) || !is_own(a, b)) continue;
-        const auto per_area = static_cast<float>(1.0 / static_cast<double>(winding * area));
+        const auto inv_area = static_cast<float>(1.0 / static_cast<double>(winding * area));
         const Barycentrics at(static_cast<float>(share(b, c)), static_cast<float>(share(c, a)),
                               static_cast<float>(share(a, b)));
-        const float depth = triangles[i].depth.at(at * per_area);
+        const float depth = triangles[i].depth.at(at * inv_area);
         if (depth > greatest) greatest = depth, nearest = static_cast<int>(i);
     }
     return nearest;

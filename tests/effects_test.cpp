@@ -130,7 +130,7 @@ Squares lit_square(const SceneLight& light) {
 SceneLight spotlight(vec3 position, vec3 direction, float angle_degrees) {
     const float outer = std::cos(glm::radians(angle_degrees));
     SceneLight light{"spot", SceneLight::Kind::spot, vec3(3), position, direction, 100};
-    light.cos_none = outer, light.cos_full = 0.5f * (1 + outer);
+    light.cos_outer = outer, light.cos_inner = 0.5f * (1 + outer);
     return light;
 }
 

@@ -66,7 +66,7 @@ testing::AssertionResult is_sound(const Scene& scene) {
                 return testing::AssertionFailure() << "camera " << camera.name;
     for (const SceneLight& light : scene.lights)
         if (!is_finite(light.color) || !is_finite(light.position_world) ||
-            !is_finite(light.direction_world) || !(light.cos_none < light.cos_full))
+            !is_finite(light.direction_world) || !(light.cos_outer < light.cos_inner))
             return testing::AssertionFailure() << "light " << light.name;
     return testing::AssertionSuccess();
 }
@@ -154,7 +154,7 @@ TEST(GltfFiles, BlendersCameraAndLightsKeepTheirPositions) {
     EXPECT_EQ(scene.lights[0].kind, SceneLight::Kind::directional);
     EXPECT_EQ(scene.lights[1].kind, SceneLight::Kind::spot);
     EXPECT_EQ(scene.lights[1].position_world, vec3(4, 5, 4));
-    EXPECT_NEAR(scene.lights[1].cos_none, std::cos(glm::radians(25.0f)), tolerance);
+    EXPECT_NEAR(scene.lights[1].cos_outer, std::cos(glm::radians(25.0f)), tolerance);
     // Turned by 0.7 from shining down, then by 0.8.
     EXPECT_NEAR(scene.lights[1].direction_world.y, -std::cos(0.7f), tolerance);
     EXPECT_NEAR(scene.lights[1].direction_world.x, -std::sin(0.7f) * std::sin(0.8f), tolerance);

@@ -533,8 +533,8 @@ TEST(Gltf, CamerasAndLightsMoveWithTheirNodes) {
     EXPECT_EQ(scene.lights[1].kind, SceneLight::Kind::spot);
     expect_near(scene.lights[1].position_world, vec3(0, 2, 0));
     EXPECT_EQ(scene.lights[1].range, 9);
-    EXPECT_FLOAT_EQ(scene.lights[1].cos_full, std::cos(0.25f));
-    EXPECT_FLOAT_EQ(scene.lights[1].cos_none, std::cos(0.5f));
+    EXPECT_FLOAT_EQ(scene.lights[1].cos_inner, std::cos(0.25f));
+    EXPECT_FLOAT_EQ(scene.lights[1].cos_outer, std::cos(0.5f));
     EXPECT_EQ(scene.lights[2].kind, SceneLight::Kind::point);
     EXPECT_EQ(scene.lights[2].name, "point");
     EXPECT_EQ(scene.lights[2].color, vec3(1));

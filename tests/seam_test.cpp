@@ -132,10 +132,10 @@ class Inputs {
     Common common() {
         Common common{setup(), {}, {below(8) != 0, one_of(0.0f, 1.0f, 90.0f, 1000.0f)}};
         for (std::size_t l = 0; l < 3; ++l) {
-            const float cos_none = between(-0.9f, 0.9f);
+            const float cos_outer = between(-0.9f, 0.9f);
             common.lights[l] = {
                 static_cast<LightKind>(l), glm::abs(vector()), direction(), 3.0f * vector(),
-                between(0.5f, 4),          cos_none + 0.1f,    cos_none};
+                between(0.5f, 4),          cos_outer + 0.1f,   cos_outer};
         }
         if (below(8) == 0) common.lights[1].half_distance = one_of(FLT_MIN, 1e-20f, 1e20f, FLT_MAX);
         if (below(8) == 0) common.lights[2].position_world *= one_of(0.0f, 1e-30f, 1e18f, 1e37f);

@@ -582,10 +582,10 @@ void GltfReader::add_cone(SceneLight& light, const tinygltf::SpotLight& spot) co
     const double inner = spot.innerConeAngle, outer = spot.outerConeAngle;
     if (!(inner >= 0 && inner <= outer && outer > 0 && outer < 1.5707964))
         fail(node_name_ + ": the cone of its light has no possible angles");
-    light.cos_none = static_cast<float>(std::cos(outer));
-    light.cos_full = static_cast<float>(std::cos(inner));
+    light.cos_outer = static_cast<float>(std::cos(outer));
+    light.cos_inner = static_cast<float>(std::cos(inner));
     // An edge without width would be a division by 0.
-    light.cos_full = std::max(light.cos_full, std::nextafter(light.cos_none, 2.0f));
+    light.cos_inner = std::max(light.cos_inner, std::nextafter(light.cos_outer, 2.0f));
 }
 
 void GltfReader::add_light(const tinygltf::Node& node, const dmat4& world_from_node) {

@@ -176,8 +176,8 @@ struct SceneLight {
     vec3 position_world;   ///< Of a point light or spot.
     vec3 direction_world;  ///< Length 1: where a directional light or spot shines.
     float range;           ///< Beyond it a point light or spot ends, world space; may be infinite.
-    float cos_full = 1;    ///< Cosine of the angle up to which a spot shines fully.
-    float cos_none = 0;    ///< Of the angle from which on it does not shine, < cos_full.
+    float cos_inner = 1;   ///< Cosine of the angle up to which a spot shines fully.
+    float cos_outer = 0;   ///< Of the angle from which on it does not shine, < cos_inner.
 };
 
 /// All that a model file holds. Material 0 is the default material for faces without one.

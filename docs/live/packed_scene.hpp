@@ -128,7 +128,7 @@ void transfer(Archive& archive, SceneCamera& camera) {
 template <typename Archive>
 void transfer(Archive& archive, SceneLight& light) {
     transfer_all(archive, light.name, light.kind, light.color, light.position_world,
-                 light.direction_world, light.range, light.cos_full, light.cos_none);
+                 light.direction_world, light.range, light.cos_inner, light.cos_outer);
 }
 
 template <typename Archive>

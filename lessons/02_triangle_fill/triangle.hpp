@@ -121,7 +121,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
     EdgeWalk edge_a(b, c, winding, first_pixel);
     EdgeWalk edge_b(c, a, winding, first_pixel);
     EdgeWalk edge_c(a, b, winding, first_pixel);
-    const auto per_area =
+    const auto inv_area =
         static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
 
     for (int y = first_pixel.y; y <= last_pixel.y; ++y) {
@@ -132,7 +132,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
         std::int64_t share_c = edge_c.value + left * edge_c.step_x;
         const int last_x = first_pixel.x + static_cast<int>(right);
         for (int x = first_pixel.x + static_cast<int>(left); x <= last_x; ++x) {
-            emit(ivec2(x, y), Barycentrics(share_a, share_b, share_c) * per_area);  // Eq. 2.4
+            emit(ivec2(x, y), Barycentrics(share_a, share_b, share_c) * inv_area);  // Eq. 2.4
             share_a += edge_a.step_x;
             share_b += edge_b.step_x;
             share_c += edge_c.step_x;

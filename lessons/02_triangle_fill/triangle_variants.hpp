@@ -61,7 +61,7 @@ void fill_bounding_box(const std::array<glm::vec<2, Number>, 3>& vertices, Numbe
                                   product(difference(a.x, b.x), difference(c.y, a.y)));
     if (twice_area == 0) return;
     const Number winding = twice_area > 0 ? Number{1} : Number{-1};
-    const float per_area = 1.0f / static_cast<float>(product(winding, twice_area));
+    const float inv_area = 1.0f / static_cast<float>(product(winding, twice_area));
 
     const dvec2 low = dvec2(glm::min(glm::min(a, b), c)) / static_cast<double>(scale);
     const dvec2 high = dvec2(glm::max(glm::max(a, b), c)) / static_cast<double>(scale);
@@ -93,7 +93,7 @@ void fill_bounding_box(const std::array<glm::vec<2, Number>, 3>& vertices, Numbe
                 return v > 0 || (v == 0 && s.owned);
             };
             if (is_inside(of_a, sides[0]) && is_inside(of_b, sides[1]) && is_inside(of_c, sides[2]))
-                emit(ivec2(x, y), vec3(of_a, of_b, of_c) * per_area);
+                emit(ivec2(x, y), vec3(of_a, of_b, of_c) * inv_area);
         }
     }
 }

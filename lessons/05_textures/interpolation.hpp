@@ -64,11 +64,11 @@ inline PerspectiveSetup perspective_setup(const ScreenTriangle& on_screen,
 
     // How barycentric coordinates change on the screen: Eq. 2.5 over twice the area, as in Eq. 2.4.
     const dvec2 a(on_screen.vertices[0]), b(on_screen.vertices[1]), c(on_screen.vertices[2]);
-    const double per_area = subpixels / static_cast<double>(on_screen.twice_area);
+    const double inv_area = subpixels / static_cast<double>(on_screen.twice_area);
     setup.numerators_ddx =
-        interpolate(setup.numerators, vec3(per_area * dvec3(c.y - b.y, a.y - c.y, b.y - a.y)));
+        interpolate(setup.numerators, vec3(inv_area * dvec3(c.y - b.y, a.y - c.y, b.y - a.y)));
     setup.numerators_ddy =
-        interpolate(setup.numerators, vec3(per_area * dvec3(b.x - c.x, c.x - a.x, a.x - b.x)));
+        interpolate(setup.numerators, vec3(inv_area * dvec3(b.x - c.x, c.x - a.x, a.x - b.x)));
     return setup;
 }
 

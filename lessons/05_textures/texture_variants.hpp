@@ -84,7 +84,7 @@ class MappedBarycentrics {
               on_screen, variant.mapping == affine ? without_perspective(clipped) : clipped)),
           edges_(edges_of(on_screen)),
           row_edges_(edges_),
-          per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(on_screen.twice_area)))) {
+          inv_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(on_screen.twice_area)))) {
         if (mapping_ == affine)
             begin_ = perspective_correct(exact_, vec3(1, 0, 0));  // for the steps: all are the same
     }
@@ -142,7 +142,7 @@ class MappedBarycentrics {
     /// What fill_triangle gives in the row's pixel x, bit for bit.
     vec3 screen_barycentrics_at(int x) const {
         const auto share = [&](const EdgeWalk& edge) { return edge.value + x * edge.step_x; };
-        return vec3(share(row_edges_[0]), share(row_edges_[1]), share(row_edges_[2])) * per_area_;
+        return vec3(share(row_edges_[0]), share(row_edges_[1]), share(row_edges_[2])) * inv_area_;
     }
 
     static constexpr int none = -1;
@@ -152,7 +152,7 @@ class MappedBarycentrics {
     bool is_whole_;
     PerspectiveSetup exact_;
     std::array<EdgeWalk, 3> edges_, row_edges_;  ///< From column 0, of row 0 and of this row.
-    float per_area_;
+    float inv_area_;
     int row_ = none, row_last_ = none;  ///< The row, and its last pixel.
     int span_begin_ = none, span_end_ = none;
     FragmentBarycentrics begin_{}, end_{};  ///< Of the span; `end_` at span_end_.

@@ -20,8 +20,8 @@ struct Light {
     vec3 direction_world;  ///< Length 1: towards a directional light; where a spotlight shines.
     vec3 position_world{0};   ///< Of a point light or spotlight.
     float half_distance = 1;  ///< Where half of its light arrives; >= FLT_MIN, world.
-    float cos_full = 1;       ///< Cosine of the angle up to which a spotlight shines fully.
-    float cos_none = 0;       ///< Of the angle from which on it does not shine, < cos_full.
+    float cos_inner = 1;      ///< Cosine of the angle up to which a spotlight shines fully.
+    float cos_outer = 0;      ///< Of the angle from which on it does not shine, < cos_inner.
 };
 
 /// The light that arrives at a point.
@@ -43,8 +43,8 @@ F distance_attenuation(Vec3<F> in_half_distances) {
 ///
 /// @param cosine  Of the angle between where it shines and the way to the point.
 template <typename F>
-F spot_attenuation(F cosine, float cos_full, float cos_none) {
-    const F t = clamp((cosine - F(cos_none)) / F(cos_full - cos_none), F(0.0f), F(1.0f));
+F spot_attenuation(F cosine, float cos_inner, float cos_outer) {
+    const F t = clamp((cosine - F(cos_outer)) / F(cos_inner - cos_outer), F(0.0f), F(1.0f));
     return t * t * (F(3.0f) - F(2.0f) * t);
 }
 
@@ -64,7 +64,7 @@ Incoming<F> incoming_light(const Light& light, Vec3<F> position_world) {
     F attenuation = distance_attenuation(to_light);
     if (light.kind == LightKind::spot)
         attenuation *= spot_attenuation(-glm::dot(toward, Vec3<F>(light.direction_world)),
-                                        light.cos_full, light.cos_none);
+                                        light.cos_inner, light.cos_outer);
     return {toward, attenuation * Vec3<F>(light.color)};
 }
 

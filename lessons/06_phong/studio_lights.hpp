@@ -36,8 +36,8 @@ inline std::array<Light, 2> studio_lights(LightKind key, const Bounds& bounds,
     }
     if (key == LightKind::spot) {
         light.direction_world = -toward_key;
-        light.cos_full = std::cos(glm::radians(18.0f));
-        light.cos_none = std::cos(glm::radians(32.0f));
+        light.cos_inner = std::cos(glm::radians(18.0f));
+        light.cos_outer = std::cos(glm::radians(32.0f));
     }
     return {light, Light{LightKind::directional, vec3(0.6f, 0.82f, 1.15f), toward_rim}};
 }

@@ -146,7 +146,7 @@ inline LightViews spotlight_views(const Light& light, const Bounds& casters,
     const double nearest_caster = -caster_box.high.z;
     if (!(farthest > 0 && nearest_caster <= farthest)) return {};
     const double near = near_plane(nearest_caster, farthest);
-    const double fov_radians = 2 * std::acos(double{light.cos_none});
+    const double fov_radians = 2 * std::acos(double{light.cos_outer});
     const dmat4 clip = perspective(fov_radians, 1.0, near) * view;
 
     const auto box_in_ndc = [&](const Bounds& bounds, const LightBox& box) {
@@ -197,7 +197,7 @@ inline double cosine_to_face(dvec3 direction, std::size_t face) {
 inline bool reaches_face(const Light& light, std::size_t face) {
     constexpr double rounding_of_cosines = 1e-6;
     return light.kind != LightKind::spot ||
-           cosine_to_face(light.direction_world, face) > light.cos_none - rounding_of_cosines;
+           cosine_to_face(light.direction_world, face) > light.cos_outer - rounding_of_cosines;
 }
 
 /// A point light's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
@@ -241,7 +241,7 @@ inline LightViews light_views(const Light& light, const Bounds& casters, const B
     if (!is_usable(casters) || !is_usable(receivers)) return {};
     if (light.kind == LightKind::directional)
         return directional_light_views(light, casters, receivers, size);
-    if (light.kind == LightKind::spot && light.cos_none > std::cos(widest_spot_radians))
+    if (light.kind == LightKind::spot && light.cos_outer > std::cos(widest_spot_radians))
         return spotlight_views(light, casters, receivers, size);
     return point_light_views(light, casters, receivers, size);
 }

@@ -241,20 +241,20 @@ struct PcfKernel {
 ///                        not in the map.
 inline PcfKernel pcf_kernel(const ShadowMap& map, const ShadowBias& bias, vec3 position_world) {
     const mat4& m = map.texels_from_world;
-    float w = 1, per_w = 1;
+    float w = 1, inv_w = 1;
     if (map.is_perspective) w = (m * vec4(position_world, 1)).w;  // Eq. 9.12
     const vec3 moved = position_world + bias.offset + w * bias.offset_times_w;
     const vec4 place_times_w = m * vec4(moved, 1);  // Eq. 9.6
     if (map.is_perspective) {
         if (!(place_times_w.w > 0)) return {};
-        per_w = 1 / place_times_w.w;
+        inv_w = 1 / place_times_w.w;
     }
-    const vec3 place = vec3(place_times_w) * per_w;
+    const vec3 place = vec3(place_times_w) * inv_w;
     const auto end = static_cast<float>(map.size);
     if (!(place.x >= 0 && place.y >= 0 && place.x < end && place.y < end)) return {};
 
     const ivec2 middle(place);
-    const float depth = place.z + (bias.bias + bias.bias_per_w * per_w) +
+    const float depth = place.z + (bias.bias + bias.bias_per_w * inv_w) +
                         bias.slope.x * (static_cast<float>(middle.x) + 0.5f - place.x) +
                         bias.slope.y * (static_cast<float>(middle.y) + 0.5f - place.y);
     return {true, middle, depth, bias.slope};

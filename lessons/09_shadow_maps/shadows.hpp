@@ -70,8 +70,8 @@ inline std::array<Light, 2> raking_lights(LightKind key, const Bounds& bounds) {
     if (key == LightKind::spot) {
         const vec3 target = center + radius * vec3(0.12f, -0.15f, 0.1f);
         light.direction_world = unit_or(target - light.position_world, -toward_key);
-        light.cos_full = std::cos(glm::radians(19.0f));
-        light.cos_none = std::cos(glm::radians(24.0f));
+        light.cos_inner = std::cos(glm::radians(19.0f));
+        light.cos_outer = std::cos(glm::radians(24.0f));
     }
     return {light, Light{LightKind::directional, vec3(0.13f, 0.18f, 0.27f), toward_sky}};
 }

@@ -183,9 +183,10 @@ ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
         plan.set(Effect::toon, is_toon, "not asked for");
         plan.set(Effect::outline, has_outline(material), "not asked for");
         const bool is_masked = material.alpha == AlphaMode::mask;
-        plan.is_glass = !is_masked && (material.alpha == AlphaMode::blend || material.opacity < 1);
-        plan.set(Effect::mask, is_masked, plan.is_glass ? "no holes" : "opaque");
-        plan.set(Effect::blend, plan.is_glass || inputs.all_effects,
+        plan.is_transparent =
+            !is_masked && (material.alpha == AlphaMode::blend || material.opacity < 1);
+        plan.set(Effect::mask, is_masked, plan.is_transparent ? "no holes" : "opaque");
+        plan.set(Effect::blend, plan.is_transparent || inputs.all_effects,
                  is_masked ? "holes only" : "opaque");
     }
     return scene_plan;
@@ -253,10 +254,10 @@ std::vector<Mesh> outlines_of(const SceneAssets& assets, const Camera& camera) {
 
 std::vector<Pass> passes_of(const ScenePlan& plan, const std::vector<const Mesh*>& meshes) {
     std::vector<Pass> passes;
-    for (const auto& [is_blended, is_glass] :
+    for (const auto& [is_blended, is_transparent] :
          {std::pair{false, false}, {true, false}, {true, true}})
         for (const Culling culling : {Culling::back_faces, Culling::none}) {
-            Pass pass{is_blended, is_glass, culling};
+            Pass pass{is_blended, is_transparent, culling};
             if (std::none_of(plan.materials.begin(), plan.materials.end(),
                              [&](const MaterialPlan& material) { return pass.takes(material); }))
                 continue;  // no need to look at all triangles

@@ -107,12 +107,12 @@ inline std::vector<const Mesh*> seen_meshes(const Scene& scene, const std::vecto
 struct Pass {
     bool is_blended;  ///< They become transparent: glass, and with all effects forced the others,
                       ///< too.
-    bool is_glass;
+    bool is_transparent;
     Culling culling;
     std::vector<const Mesh*> meshes{};
 
     bool takes(const MaterialPlan& plan) const {
-        return plan[Effect::blend] == is_blended && plan.is_glass == is_glass &&
+        return plan[Effect::blend] == is_blended && plan.is_transparent == is_transparent &&
                plan.two_sided == (culling == Culling::none);
     }
 };

@@ -34,7 +34,7 @@ inline Light light_of(const SceneLight& from, float scene_radius) {
                 from.color / lux_of_white,  // Eq. 11.1
                 is_directional ? -from.direction_world : from.direction_world};
     light.position_world = from.position_world;
-    light.cos_full = from.cos_full, light.cos_none = from.cos_none;
+    light.cos_inner = from.cos_inner, light.cos_outer = from.cos_outer;
     if (is_directional) return light;
     constexpr float least = 1e-10f, most = 1e10f;  // whose squares are far from the ends of float
     light.half_distance = std::clamp(point_light_size * scene_radius, least, most);

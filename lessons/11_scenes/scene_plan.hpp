@@ -22,8 +22,8 @@ constexpr std::array<std::string_view, effect_count> effect_names = {
 struct MaterialPlan {
     EffectMask effects;
     std::array<std::string_view, effect_count> why_not;
-    bool is_seen = false;   ///< A triangle has it.
-    bool is_glass = false;  ///< Blended, also without --all-effects.
+    bool is_seen = false;         ///< A triangle has it.
+    bool is_transparent = false;  ///< Blended, also without --all-effects.
     bool two_sided = false;
 
     bool operator[](Effect effect) const { return effects[effect]; }

@@ -187,7 +187,7 @@ void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, con
         const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
         const vec4 in_texture = texture_sample(triangle.surface, at, frame.filter);
         float opacity = 1;  // of all that is neither glass nor has holes
-        if (is_masked || plan.is_glass)
+        if (is_masked || plan.is_transparent)
             opacity = opacity_at(triangle.surface, triangle.colors, at.here, in_texture);
         if (is_masked) {
             count(Counter::alpha_tested_fragments);

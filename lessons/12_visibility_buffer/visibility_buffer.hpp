@@ -37,7 +37,7 @@ class BarycentricPlanes {
   public:
     /// @param triangle  With an area.
     explicit BarycentricPlanes(const ScreenTriangle& triangle)
-        : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
+        : inv_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
         const int winding = triangle.twice_area > 0 ? 1 : -1;
         for (std::size_t i = 0; i < 3; ++i) {  // as fill_triangle() walks: opposite to the vertex
             const EdgeWalk edge(triangle.vertices[(i + 1) % 3], triangle.vertices[(i + 2) % 3],
@@ -54,14 +54,14 @@ class BarycentricPlanes {
         for (std::size_t i = 0; i < 3; ++i)
             share[i] = at_origin_[i] + run.first.x * step_x_[i] + run.first.y * step_y_[i];
         for (int x = 0; x < run.length; ++x) {
-            take(run.first + ivec2(x, 0), Barycentrics(share[0], share[1], share[2]) * per_area_);
+            take(run.first + ivec2(x, 0), Barycentrics(share[0], share[1], share[2]) * inv_area_);
             for (std::size_t i = 0; i < 3; ++i) share[i] += step_x_[i];
         }
     }
 
   private:
     std::array<std::int64_t, 3> at_origin_, step_x_, step_y_;
-    float per_area_;
+    float inv_area_;
 };
 
 /// Where the pixels of a tile are kept: row by row.

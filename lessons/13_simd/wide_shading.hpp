@@ -55,7 +55,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
             const PerspectiveBarycentrics<F> at = perspective_correct(inputs.setup, on_screen);
             const glm::vec<4, F> in_texture = texture_sample(inputs.surface, at, frame.filter);
             F opacity(1.0f);
-            if (is_masked || plan.is_glass)
+            if (is_masked || plan.is_transparent)
                 opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
             if (is_masked) {
                 count_where(Counter::alpha_tested_fragments, nearer);

@@ -65,23 +65,23 @@ WidePcfKernel<N> pcf_kernel(const ShadowMap& map, const WideShadowBias<N>& bias,
     const auto row_times = [&](int row, const Vec3<F>& p) {  // added up as by GLM
         return (F(m[0][row]) * p.x + F(m[1][row]) * p.y) + (F(m[2][row]) * p.z + F(m[3][row]));
     };
-    F w(1.0f), per_w(1.0f);
+    F w(1.0f), inv_w(1.0f);
     if (map.is_perspective) w = row_times(3, position_world);
     const Vec3<F> moved = position_world + bias.offset + w * bias.offset_times_w;
     Mask<N> is_in_map = asked;
     if (map.is_perspective) {
         const F moved_w = row_times(3, moved);
         is_in_map = is_in_map & (moved_w > F(0.0f));
-        per_w = F(1.0f) / moved_w;
+        inv_w = F(1.0f) / moved_w;
     }
     const Vec3<F> place =
-        Vec3<F>(row_times(0, moved), row_times(1, moved), row_times(2, moved)) * per_w;
+        Vec3<F>(row_times(0, moved), row_times(1, moved), row_times(2, moved)) * inv_w;
     const F first(0.0f), end(static_cast<float>(map.size));
     is_in_map =
         is_in_map & (place.x >= first) & (place.y >= first) & (place.x < end) & (place.y < end);
     const Ints<N> column = truncated(select(is_in_map, place.x, first));
     const Ints<N> row = truncated(select(is_in_map, place.y, first));
-    const F depth = place.z + (bias.bias + bias.bias_per_w * per_w) +
+    const F depth = place.z + (bias.bias + bias.bias_per_w * inv_w) +
                     bias.slope.x * (to_floats(column) + F(0.5f) - place.x) +
                     bias.slope.y * (to_floats(row) + F(0.5f) - place.y);
     return {is_in_map, column, row, depth, bias.slope};

@@ -64,7 +64,7 @@ constexpr int pixels_in_32_bits = 100;
 /// Visits the pixels of a box that a triangle covers, N of a row at a time. Always inlined: then
 /// `emit` keeps in registers what it would otherwise load for each row.
 template <typename Whole, typename Emit>
-[[gnu::always_inline]] inline void fill_box(std::array<EdgeWalk, 3> edges, float per_area,
+[[gnu::always_inline]] inline void fill_box(std::array<EdgeWalk, 3> edges, float inv_area,
                                             const PixelBox& box, Emit&& emit) {
     constexpr int N = Whole::width;
     using F = Floats<N>;
@@ -80,7 +80,7 @@ template <typename Whole, typename Emit>
             const Mask<N> covered = (share.x >= least.x) & (share.y >= least.y) &
                                     (share.z >= least.z) &
                                     first_lanes<F>(static_cast<int>(last - x) + 1);
-            emit(box.first + ivec2(x, y - box.first.y), covered, share * F(per_area));
+            emit(box.first + ivec2(x, y - box.first.y), covered, share * F(inv_area));
             row.advance();
         }
         for (EdgeWalk& edge : edges) edge.value += edge.step_y;
@@ -115,13 +115,13 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
         const std::array<EdgeWalk, 3> edges{EdgeWalk(b, c, winding, box.first),
                                             EdgeWalk(c, a, winding, box.first),
                                             EdgeWalk(a, b, winding, box.first)};
-        const auto per_area =
+        const auto inv_area =
             static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
         const ivec2 size = around.last - around.first + 1;
         if (std::max(size.x, size.y) < pixels_in_32_bits)
-            fill_box<Ints<width_of<F>>>(edges, per_area, box, emit);
+            fill_box<Ints<width_of<F>>>(edges, inv_area, box, emit);
         else if (std::ranges::none_of(edges, [&](auto& edge) { return is_outside(edge, box); }))
-            fill_box<Doubles<width_of<F>>>(edges, per_area, box, emit);
+            fill_box<Doubles<width_of<F>>>(edges, inv_area, box, emit);
     }
 }
 

@@ -365,8 +365,8 @@ void GlScene::Content::set_scene(Uniforms& uniforms, const SceneAssets& assets,
         uniforms.set("lights" + of_light + ".direction_world", light.direction_world);
         uniforms.set("lights" + of_light + ".position_world", light.position_world);
         uniforms.set("lights" + of_light + ".half_distance", light.half_distance);
-        uniforms.set("lights" + of_light + ".cos_full", light.cos_full);
-        uniforms.set("lights" + of_light + ".cos_none", light.cos_none);
+        uniforms.set("lights" + of_light + ".cos_inner", light.cos_inner);
+        uniforms.set("lights" + of_light + ".cos_outer", light.cos_outer);
         if (shadows.of_light[l].maps.empty()) continue;
         const ShadowMap& map = shadows.of_light[l].maps.front();
         uniforms.set("maps" + of_light + ".texels_from_world", map.texels_from_world);

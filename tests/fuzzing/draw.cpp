@@ -179,8 +179,8 @@ SceneLight any_light(Numbers& numbers) {
                      numbers.any_vector(),
                      numbers.direction(),
                      numbers.positive()};
-    light.cos_none = numbers.share();
-    light.cos_full = std::max(numbers.share(), std::nextafter(light.cos_none, 2.0f));
+    light.cos_outer = numbers.share();
+    light.cos_inner = std::max(numbers.share(), std::nextafter(light.cos_outer, 2.0f));
     return light;
 }
 

@@ -93,7 +93,7 @@ void check(const Scene& scene) {
     }
     for (const SceneLight& light : scene.lights) {
         expect(are_finite(std::vector{light.color, light.position_world, light.direction_world}));
-        expect(light.cos_none < light.cos_full);
+        expect(light.cos_outer < light.cos_inner);
     }
 }
 

@@ -38,7 +38,7 @@ inline std::string described(const Light& light) {
             " at " + shown(light.position_world) + ", half distance " + shown(light.half_distance);
     if (light.kind != LightKind::point) text += ", direction " + shown(light.direction_world);
     if (light.kind == LightKind::spot)
-        text += ", cosines " + shown(light.cos_full) + " and " + shown(light.cos_none);
+        text += ", cosines " + shown(light.cos_inner) + " and " + shown(light.cos_outer);
     return text;
 }
 

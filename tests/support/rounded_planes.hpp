@@ -27,13 +27,13 @@ class RoundedPlanes {
     explicit RoundedPlanes(const ScreenTriangle& triangle)
         : first_(origin == PlaneOrigin::triangle ? box_around(triangle).first : ivec2(0)) {
         const int winding = triangle.twice_area > 0 ? 1 : -1;
-        const F per_area = 1 / std::abs(static_cast<F>(triangle.twice_area));
+        const F inv_area = 1 / std::abs(static_cast<F>(triangle.twice_area));
         for (std::size_t i = 0; i < 3; ++i) {
             const EdgeWalk edge(triangle.vertices[(i + 1) % 3], triangle.vertices[(i + 2) % 3],
                                 winding, first_);
-            at_first_[i] = static_cast<F>(edge.value) * per_area;
-            step_x_[i] = static_cast<F>(edge.step_x) * per_area;
-            step_y_[i] = static_cast<F>(edge.step_y) * per_area;
+            at_first_[i] = static_cast<F>(edge.value) * inv_area;
+            step_x_[i] = static_cast<F>(edge.step_x) * inv_area;
+            step_y_[i] = static_cast<F>(edge.step_y) * inv_area;
         }
     }
 

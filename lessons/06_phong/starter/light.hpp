@@ -20,8 +20,8 @@ struct Light {
     vec3 direction_world;  ///< Length 1: towards a directional light; where a spotlight shines.
     vec3 position_world{0};   ///< Of a point light or spotlight.
     float half_distance = 1;  ///< Where half of its light arrives; >= FLT_MIN, world.
-    float cos_full = 1;       ///< Cosine of the angle up to which a spotlight shines fully.
-    float cos_none = 0;       ///< Of the angle from which on it does not shine, < cos_full.
+    float cos_inner = 1;      ///< Cosine of the angle up to which a spotlight shines fully.
+    float cos_outer = 0;      ///< Of the angle from which on it does not shine, < cos_inner.
 };
 
 /// The light that arrives at a point.
@@ -44,7 +44,7 @@ F distance_attenuation(Vec3<F> in_half_distances) {
 ///
 /// @param cosine  Of the angle between where it shines and the way to the point.
 template <typename F>
-F spot_attenuation(F cosine, float cos_full, float cos_none) {
+F spot_attenuation(F cosine, float cos_inner, float cos_outer) {
     // TODO: Eq. 6.7.
     return F(0.0f);
 }

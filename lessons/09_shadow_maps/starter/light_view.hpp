@@ -136,7 +136,7 @@ inline double near_plane(double nearest_caster, double farthest) {
 /// @return  Of count 0 when in front of the light and in its cone no receiver lies behind a caster.
 inline LightViews spotlight_views(const Light& light, const Bounds& casters,
                                   const Bounds& receivers, int size) {
-    // TODO: step 4: P V, by perspective(), of the angle 2 acos(cos_none), and looking();
+    // TODO: step 4: P V, by perspective(), of the angle 2 acos(cos_outer), and looking();
     // near_plane() takes no notice yet of what it is given. Step 5: Eq. 9.4, where {} is returned
     // if there can be no shadow:
     // 1. Both boxes in the light's view, by box_in(). {} if one is not usable.
@@ -176,7 +176,7 @@ inline double cosine_to_face(dvec3 direction, std::size_t face) {
 inline bool reaches_face(const Light& light, std::size_t face) {
     constexpr double rounding_of_cosines = 1e-6;
     return light.kind != LightKind::spot ||
-           cosine_to_face(light.direction_world, face) > light.cos_none - rounding_of_cosines;
+           cosine_to_face(light.direction_world, face) > light.cos_outer - rounding_of_cosines;
 }
 
 /// A point light's six maps: along the axes, each 90 degrees wide and a margin (Eq. 9.5).
@@ -206,7 +206,7 @@ inline LightViews light_views(const Light& light, const Bounds& casters, const B
     if (!is_usable(casters) || !is_usable(receivers)) return {};
     if (light.kind == LightKind::directional)
         return directional_light_views(light, casters, receivers, size);
-    if (light.kind == LightKind::spot && light.cos_none > std::cos(widest_spot_radians))
+    if (light.kind == LightKind::spot && light.cos_outer > std::cos(widest_spot_radians))
         return spotlight_views(light, casters, receivers, size);
     return point_light_views(light, casters, receivers, size);
 }

@@ -37,7 +37,7 @@ class BarycentricPlanes {
   public:
     /// @param triangle  With an area.
     explicit BarycentricPlanes(const ScreenTriangle& triangle)
-        : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
+        : inv_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
         // TODO: step 2: for each vertex the plane of the edge function opposite to it (Eq. 12.2).
         // EdgeWalk has its value in a pixel, here ivec2(0), and its steps. As in fill_triangle(), a
         // winding of 1 or -1, the sign of twice_area, makes the inside positive.
@@ -49,13 +49,13 @@ class BarycentricPlanes {
     void for_each_in(const PixelRun& run, Take&& take) const {
         // TODO: step 2: Eq. 12.2 in the run's first pixel, in whole numbers; from each pixel to the
         // next, add the steps to the right. For each pixel, make three floats of the sums, as
-        // Barycentrics, and multiply them by per_area_: fill_triangle() does so, too, and a
+        // Barycentrics, and multiply them by inv_area_: fill_triangle() does so, too, and a
         // division would round differently.
     }
 
   private:
     std::array<std::int64_t, 3> at_origin_{}, step_x_{}, step_y_{};
-    float per_area_;
+    float inv_area_;
 };
 
 /// Where the pixels of a tile are kept: row by row.

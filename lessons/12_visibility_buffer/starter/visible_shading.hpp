@@ -46,7 +46,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
         const FragmentBarycentrics at = perspective_correct(inputs.setup, on_screen);
         const vec4 in_texture = texture_sample(inputs.surface, at, frame.filter);
         float opacity = 1;
-        if (is_masked || plan.is_glass)
+        if (is_masked || plan.is_transparent)
             opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
         if (is_masked) {
             count(Counter::alpha_tested_fragments);

@@ -29,7 +29,7 @@ class WideBarycentricPlanes {
   public:
     /// @param triangle  As fill_triangle<F>() takes it: then the doubles are exact.
     explicit WideBarycentricPlanes(const ScreenTriangle& triangle)
-        : per_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
+        : inv_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(triangle.twice_area)))) {
         const int winding = triangle.twice_area > 0 ? 1 : -1;
         for (std::size_t i = 0; i < 3; ++i) {
             const EdgeWalk edge(triangle.vertices[(i + 1) % 3], triangle.vertices[(i + 2) % 3],
@@ -47,12 +47,12 @@ class WideBarycentricPlanes {
             return Floats<N>(__builtin_convertvector(
                 at_origin_[i] + columns * step_x_[i] + rows * step_y_[i], Vector<float, N>));
         };
-        return Vec3<Floats<N>>(share(0), share(1), share(2)) * Floats<N>(per_area_);
+        return Vec3<Floats<N>>(share(0), share(1), share(2)) * Floats<N>(inv_area_);
     }
 
   private:
     std::array<double, 3> at_origin_, step_x_, step_y_;
-    float per_area_;
+    float inv_area_;
 };
 
 /// What a shader has to know of the triangles, each lane of its own one. All are of one mesh and

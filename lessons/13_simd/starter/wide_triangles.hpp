@@ -62,7 +62,7 @@ constexpr int pixels_in_32_bits = 100;
 /// Visits the pixels of a box that a triangle covers, N of a row at a time. Always inlined: then
 /// `emit` keeps in registers what it would otherwise load for each row.
 template <typename Whole, typename Emit>
-[[gnu::always_inline]] inline void fill_box(std::array<EdgeWalk, 3> edges, float per_area,
+[[gnu::always_inline]] inline void fill_box(std::array<EdgeWalk, 3> edges, float inv_area,
                                             const PixelBox& box, Emit&& emit) {
     constexpr int N = Whole::width;
     using F = Floats<N>;
@@ -83,7 +83,7 @@ template <typename Whole, typename Emit>
                 is_covered = is_covered && value >= edge.least;
                 share[i] = F(static_cast<float>(value));
             }
-            if (is_covered) emit(ivec2(x, y), first_lanes<F>(1), share * F(per_area));
+            if (is_covered) emit(ivec2(x, y), first_lanes<F>(1), share * F(inv_area));
         }
 }
 
@@ -115,13 +115,13 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
         const std::array<EdgeWalk, 3> edges{EdgeWalk(b, c, winding, box.first),
                                             EdgeWalk(c, a, winding, box.first),
                                             EdgeWalk(a, b, winding, box.first)};
-        const auto per_area =
+        const auto inv_area =
             static_cast<float>(1.0 / static_cast<double>(winding * triangle.twice_area));
         const ivec2 size = around.last - around.first + 1;
         if (std::max(size.x, size.y) < pixels_in_32_bits)
-            fill_box<Ints<width_of<F>>>(edges, per_area, box, emit);
+            fill_box<Ints<width_of<F>>>(edges, inv_area, box, emit);
         else if (std::ranges::none_of(edges, [&](auto& edge) { return is_outside(edge, box); }))
-            fill_box<Doubles<width_of<F>>>(edges, per_area, box, emit);
+            fill_box<Doubles<width_of<F>>>(edges, inv_area, box, emit);
     }
 }
 

@@ -18,7 +18,7 @@ struct Light {
     vec3 color;            // linear
     vec3 direction_world;  // towards a directional light; where a spotlight shines
     vec3 position_world;
-    float half_distance, cos_full, cos_none;
+    float half_distance, cos_inner, cos_outer;
 };
 struct ShadowMap {
     mat4 texels_from_world, plane_from_world;
@@ -110,14 +110,14 @@ Incoming incoming_light(int l) {
     vec3 toward = normalize(to_light);
     float attenuation = 1.0 / (1.0 + dot(to_light, to_light));  // Eq. 6.6
     if (kinds[l] == 2)                                          // Eq. 6.7
-        attenuation *= smoothstep(light.cos_none, light.cos_full,
+        attenuation *= smoothstep(light.cos_outer, light.cos_inner,
                                   -dot(toward, light.direction_world));
     return Incoming(toward, attenuation * light.color);
 }
 
 #ifdef SHADOW
 // The bias of the flat triangle, of which neighbouring pixels, too, are points: Bias::slope.
-float receiver_bias(int l, float per_w) {
+float receiver_bias(int l, float inv_w) {
     vec3 face = cross(dFdx(position_world), dFdy(position_world));
     vec3 outward = dot(face, smooth_normal) * side() < 0.0 ? -face : face;
     float offset = kinds[l] == 0 ? 0.0 : -dot(outward, position_world);
@@ -125,7 +125,7 @@ float receiver_bias(int l, float per_w) {
     float slope = (abs(plane.x) + abs(plane.y)) / plane.z;
     bool is_turned_away = plane.z <= 0.0 || slope > max_slope;  // from the light, or nearly
     float bias = (reach_texels + snapping) * slope + depth_quanta +  // Eq. 9.10
-                 (maps[l].rounding_texels * slope + maps[l].rounding_depth) * per_w;
+                 (maps[l].rounding_texels * slope + maps[l].rounding_depth) * inv_w;
     return is_turned_away ? 2.0 : bias;
 }
 
@@ -136,11 +136,11 @@ float lit_of(vec4 four_taps, float depth) {
 // Nine taps by three gathers, which are faster than nine fetches.
 float pcf_visibility(int l) {
     vec4 place = maps[l].texels_from_world * vec4(position_world, 1.0);  // Eq. 9.6
-    float per_w = 1.0;
-    if (kinds[l] != 0) per_w = 1.0 / place.w;
-    place.xyz *= per_w;
+    float inv_w = 1.0;
+    if (kinds[l] != 0) inv_w = 1.0 / place.w;
+    place.xyz *= inv_w;
     ivec2 texel = ivec2(clamp(place.xy, 0.0, maps[l].size - 1.0)) + max_pcf_radius;
-    float depth = max(place.z + receiver_bias(l, per_w), 0.0);  // Eq. 9.7
+    float depth = max(place.z + receiver_bias(l, inv_w), 0.0);  // Eq. 9.7
     vec2 per_texel = 1.0 / vec2(textureSize(depths[l], 0));
     vec2 middle = vec2(texel) * per_texel;  // four texels meet there
     float lit = lit_of(textureGather(depths[l], middle), depth);
