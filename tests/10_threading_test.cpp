@@ -284,11 +284,14 @@ TEST(Threading, WhatWorkersCountIsTheCallers) {
         ThreadPool pool(threads);
         const Counters before = thread_counters;
         count(Counter::fragments_lit, 3);
-        pool.run(40, [&](std::size_t i, std::size_t) {
-            for (std::size_t k = 0; k < i; ++k) count(Counter::fragments_lit);
+        std::atomic<std::size_t> begun = 0;
+        pool.run(pool.size(), [&](std::size_t i, std::size_t) {  // each worker has one task
+            for (++begun; begun < pool.size();) std::this_thread::yield();
+            count(Counter::fragments_lit, 10 * (i + 1));
         });
+        const std::size_t n = pool.size();
         EXPECT_EQ(thread_counters[Counter::fragments_lit],
-                  before[Counter::fragments_lit] + 3 + 40 * 39 / 2)
+                  before[Counter::fragments_lit] + 3 + 5 * n * (n + 1))
             << threads << " threads";
     }
 }

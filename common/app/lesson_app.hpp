@@ -161,10 +161,9 @@ constexpr bool has_probe = false;
 ///                     that draw.
 /// @param make_assets  Called once as make_assets(Scene, const Options&): gives what is drawn, with
 ///                     a Scene `scene`.
-/// @param render       Called for each picture as render(const Options&, const Assets&); gives the
-/// picture in linear colour. Where there are several pictures,
-///                     several threads call it at once: what it keeps from one to the next must be
-///                     thread_local.
+/// @param render       Called for each picture as render(const Options&, const Assets&); gives it
+///                     in linear colour. Where there are several pictures, several threads call it
+///                     at once: what it keeps from one to the next must be thread_local.
 /// @param make_probe   Called for --probe as make_probe(const Options&, const Assets&); gives the
 ///                     PixelProbe of the picture.
 template <typename Options, typename MakeAssets, typename Render, typename MakeProbe = NoProbe>

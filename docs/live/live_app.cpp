@@ -264,6 +264,9 @@ extern "C" [[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)
     fail(static_cast<std::exception*>(thrown)->what());
 }
 
+// A page's program does not end: nothing that a thread keeps is destroyed.
+extern "C" int __cxa_thread_atexit(void (*)(void*), void*, void*) { return 0; }
+
 // What the library itself would throw, in what the compiler of a page makes, such as "out_of_range
 // was thrown ... with message "%s"".
 void std::__libcpp_verbose_abort(const char* format, ...) {

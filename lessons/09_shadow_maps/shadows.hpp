@@ -137,8 +137,7 @@ struct ShadowScene {
 /// max_shadow_maps with those before it has none, and casts no shadow.
 ///
 /// @param draw  Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths, and
-/// draws
-///              the scene's casters, or nothing where a map stays empty.
+///              draws the scene's casters, or nothing where a map stays empty.
 template <typename Draw>
 ShadowMaps draw_shadow_maps(const ShadowVariant& variant, const ShadowScene& of, Draw&& draw) {
     assert(of.lights.size() <= max_lights && of.casts.size() >= of.lights.size());

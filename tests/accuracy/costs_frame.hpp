@@ -64,14 +64,14 @@ void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const
     if constexpr (shading == Shading::phong)
         normal_map =
             triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
-    ShadowBiasCache shadow_bias(surface.positions_world);
+    ShadowBiasCache shadow_biases(surface.positions_world);
     ShadingVariant variant;
     variant.power = power;
     const VariantHighlight highlight = highlight_of(variant, surface);
     const auto light_at = [&](Barycentrics at, vec3 own_normal, vec3 normal) {
         const SurfacePoint<float> point = surface_point(surface, at, normal, frame.eye_world);
         return reflected_light(lights, point, highlight, [&](std::size_t l) {
-            return light_visibility(frame.shadow_maps, l, receiver, point.position_world,
+            return light_visibility(frame.shadow_maps, l, shadow_biases, point.position_world,
                                     own_normal);
         });
     };

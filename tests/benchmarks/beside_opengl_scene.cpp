@@ -22,6 +22,7 @@
 #include "04_mvp/clip.hpp"
 #include "04_mvp/transform.hpp"
 #include "06_phong/studio_lights.hpp"
+#include "11_scenes/casters.hpp"
 #include "benchmarks/beside_opengl.hpp"
 #include "common/image/backdrop.hpp"
 #include "common/math/color.hpp"

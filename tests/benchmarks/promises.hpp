@@ -42,15 +42,18 @@ void count_each(Counter counter) {
 
 }  // namespace rasterbook
 
+// They share a counter.
 #if defined(WITHOUT_texture) || defined(WITHOUT_specular_map) || defined(WITHOUT_emission_map)
+#define triangle_surface triangle_surface_anyway
 #include "06_phong/surface.hpp"
+#undef triangle_surface
 
 namespace rasterbook {
 
-inline SurfaceColor surface_color(const TriangleSurface& surface, const FragmentBarycentrics& at,
-                                  const vec3& in_texture, Filter filter) {
-    if (surface.effects[Effect::WITHOUT]) __builtin_unreachable();
-    return surface_color<>(surface, at, in_texture, filter);
+inline TriangleSurface triangle_surface(const Scene& scene, const SurfaceTextures& textures,
+                                        EffectMask effects, const ProjectedTriangle& projected) {
+    effects.set(Effect::WITHOUT, false);
+    return triangle_surface_anyway(scene, textures, effects, projected);
 }
 
 #ifdef WITHOUT_texture

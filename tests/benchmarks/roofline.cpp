@@ -193,9 +193,8 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
         shading.push_back(ms_between(start_of_shading, start_of_rest));
         rest.push_back(ms_between(start_of_rest, end));
     };
-    pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
-        draw(i, parts.ids, parts.shading, parts.rest);
-    });
+    pool.run(tiling.count(),
+             [&](std::size_t i, std::size_t) { draw(i, parts.ids, parts.shading, parts.rest); });
     if (!again) return color;
     const Uncounted once_more;
     std::vector<double> others;

@@ -89,9 +89,9 @@ struct EdgeWalk {
 /// @param triangle  A triangle of no area visits nothing.
 /// @param first     The part's upper left pixel, from 0 on.
 /// @param last      Its lower right one, below 2^22. If it lies before `first`, nothing is visited.
-/// @param emit      Called as emit(ivec2 pixel, Barycentrics), row by row, once for each pixel.
-///                  The coordinates are those of its centre: >= 0, each within 2 ulp of its exact
-///                  value (Eq. 2.4), and the same whatever the part.
+/// @param emit      Called as emit(ivec2 pixel, Barycentrics), row by row, once for each pixel,
+///                  with the coordinates of its centre: >= 0, each within 2 ulp of its exact value
+///                  (Eq. 2.4), and the same whatever the part.
 template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit&& emit) {
     // TODO, step 1: emit the pixels of the bounding box at which no edge's value is negative, with

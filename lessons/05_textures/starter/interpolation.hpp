@@ -68,7 +68,8 @@ inline PerspectiveSetup perspective_setup(const ProjectedTriangle& projected) {
 /// @return           Coordinates >= 0, each within 16 ulp of its exact value; 22 ulp in a piece
 ///                   that was cut, taking its vertices' coordinates as they are.
 template <typename F>
-PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup, Vec3<F> on_screen) {
+inline PerspectiveBarycentrics<F> perspective_correct(const PerspectiveSetup& setup,
+                                                      Vec3<F> on_screen) {
     // TODO: Eq. 5.2 and 5.3, and in step 3 Eq. 5.7 for the derivatives. First turn the setup's
     // vectors into Vec3<F>. In a whole triangle the numerators are just inverse_w times on_screen.
     return {on_screen, Vec3<F>(F(0.0f)), Vec3<F>(F(0.0f))};

@@ -142,7 +142,7 @@ inline void complete_normals(Mesh& mesh, const std::optional<SmoothNormals>& smo
     normals.reserve(3 * mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const vec3 of_face = face_normal(mesh, mesh.triangles[t]);
-        const std::uint32_t group = smoothing_group(mesh, t);
+        [[maybe_unused]] const std::uint32_t group = smoothing_group(mesh, t);
         for (Vertex& vertex : mesh.triangles[t].vertices) {
             // TODO: the file's normal, mesh.normals[vertex.normal], if the vertex has one; else, if
             // `group` is not no_smoothing, what `smooth` has for its shared_position().

@@ -35,7 +35,8 @@ class TriangleBatch {
     void bin(const Tiling& tiling) {
         begin_.assign(tiling.count() + 1, 0);
         large_.clear();
-        const auto for_each_tile = [&](const ProjectedTriangle& ready, auto&& take) {
+        [[maybe_unused]] const auto for_each_tile = [&](const ProjectedTriangle& ready,
+                                                        auto&& take) {
             tiling.for_each_in(ready.on_screen, take);
         };
         // TODO: count the triangles of each list in begin_, add up, and fill indices_ from the last
