@@ -332,8 +332,7 @@ TEST(Toon, Eq7_14_TheUnitsOfTheSceneDoNotMatter) {
                         p, depth_at((p.x < 6 ? 10.0L : farther) * unit, of_unit));
             const CountedSince counters;
             draw_edges(step.depth, step.normals, of_unit, 2, {}, step.color);
-            EXPECT_EQ(count(counters, Counter::outline_pixels),
-                      static_cast<std::uint64_t>(expected * 9))
+            EXPECT_EQ(counters[Counter::outline_pixels], static_cast<std::uint64_t>(expected * 9))
                 << "pixels inked at a step from w = 10 to " << farther << " units of " << unit;
         }
 }
@@ -346,7 +345,7 @@ TEST(Toon, Eq7_14_PicturesThatAreTooSmall) {
             << ", width 4: no pixel has neighbours 2 away on all sides";
         const CountedSince counters;
         draw_edges(picture.depth, picture.normals, camera, 4, {}, picture.color);
-        ASSERT_EQ(count(counters, Counter::outline_tests), 0u)
+        ASSERT_EQ(counters[Counter::outline_tests], 0u)
             << "none of " << testing::PrintToString(size) << " pixels is asked";
     }
     ByHand least = ByHand::of({5, 5}, [](ivec2 p) { return p.x < 2 ? 5.0f : 50.0f; });

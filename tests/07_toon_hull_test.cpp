@@ -274,7 +274,7 @@ TEST(Toon, HardCase_TheRimOfABodyOutsideReachesIn) {
         Image<vec3> color(size, paper_color);
         DepthBuffer depth(size);
         draw_hull(cube, hull_normals(cube), camera, width, depth, color);
-        EXPECT_EQ(count(counters, Counter::outline_pixels) > 0, is_in)
+        EXPECT_EQ(counters[Counter::outline_pixels] > 0, is_in)
             << "whether pixels are counted, of a cube just outside at the left, width " << width;
         EXPECT_EQ(color[ivec2(0, 32)] == ink, is_in)
             << "whether the rim reaches into pixel (0, 32), width " << width;

@@ -293,5 +293,16 @@ TEST(Threading, WhatWorkersCountIsTheCallers) {
         EXPECT_EQ(thread_counters[Counter::fragments_lit],
                   before[Counter::fragments_lit] + 3 + 5 * n * (n + 1))
             << threads << " threads";
+
+        const Counters so_far = thread_counters;
+        begun = 0;
+        const auto throws = [&](std::size_t, std::size_t) {  // each worker's task
+            for (++begun; begun < pool.size();) std::this_thread::yield();
+            count(Counter::fragments_lit);
+            throw std::runtime_error("no memory");
+        };
+        EXPECT_THROW(pool.run(pool.size(), throws), std::runtime_error);
+        EXPECT_EQ(thread_counters.values, so_far.values)
+            << "after a job whose tasks have thrown, " << threads << " threads";
     }
 }

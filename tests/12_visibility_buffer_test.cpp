@@ -433,11 +433,11 @@ TEST(VisibilityBuffer, Eq12_6_PartsOfTheWorkedExample) {
     parts.draw_around({127, 40}, 1);
     EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{1, 2}))
         << "parts drawn for a kernel of radius 1 around (127, 40): parts of 64 texels, 4 a row";
-    EXPECT_EQ(count(counters, Counter::shadow_parts), 2u);
+    EXPECT_EQ(counters[Counter::shadow_parts], 2u);
     parts.draw_around({128, 41}, 1);
-    EXPECT_EQ(count(counters, Counter::shadow_parts), 2u) << "what is drawn is not drawn again";
+    EXPECT_EQ(counters[Counter::shadow_parts], 2u) << "what is drawn is not drawn again";
     parts.draw_around({128, 63}, 0);
-    EXPECT_EQ(count(counters, Counter::shadow_parts), 2u) << "radius 0: one texel, of part 2";
+    EXPECT_EQ(counters[Counter::shadow_parts], 2u) << "radius 0: one texel, of part 2";
     parts.draw_around({128, 63}, 1);
     EXPECT_EQ(parts_drawn(parts), (std::set<std::size_t>{1, 2, 5, 6}))
         << "parts drawn when a kernel of radius 1 around (128, 63) has been asked for, too";
@@ -476,7 +476,7 @@ TEST(VisibilityBuffer, Eq12_6_JustTheAskedPartsAreDrawnAndHaveLesson09sBits) {
                                       std::to_string(side) + " (seed " + std::to_string(seed) + ")";
             ASSERT_EQ(parts_drawn(parts), asked)
                 << "parts that are drawn, and that were asked for, " << where;
-            ASSERT_EQ(count(counters, Counter::shadow_parts), asked.size())
+            ASSERT_EQ(counters[Counter::shadow_parts], asked.size())
                 << "parts counted, and asked for, " << where;
         }
         Image<float> expected(whole.size(), -1);
@@ -511,7 +511,7 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
             const Mesh& mesh = scene.meshes[0];
             std::array<vec3, 3> vertices;
             for (std::size_t v = 0; v < 3; ++v) vertices[v] = mesh.positions[3 * dice.below(8) + v];
-            ShadowBiasCache receiver(vertices), same = receiver;
+            ShadowBiasCache biases(vertices), same = biases;
             const vec3 at(dice.between(0, 0.5f), dice.between(0, 0.5f), 0);
             const vec3 point =
                 at.x * vertices[0] + at.y * vertices[1] + (1 - at.x - at.y) * vertices[2];
@@ -524,7 +524,7 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
                         asked.at(map).merge(
                             parts_asked(kernel.middle, whole.radius, variant.size, side));
                     });
-                serial += count(by_09, Counter::shadow_tests);
+                serial += by_09[Counter::shadow_tests];
                 half_lit += expected > 0 && expected < 1;
                 const std::string where =
                     std::string(name_of(kind)) + ", " + name_of(variant.bias) + ", a map of " +
@@ -532,10 +532,10 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
                     ", PCF of " + std::to_string(variant.pcf) + " (seed " + std::to_string(seed) +
                     ", point " + std::to_string(i) + ")";
                 const CountedSince by_12;
-                ASSERT_EQ(light_visibility(on_demand, l, receiver, point, normal), expected)
+                ASSERT_EQ(light_visibility(on_demand, l, biases, point, normal), expected)
                     << "visibility of light " << l << " with maps on demand, and with lesson 09's; "
                     << where;
-                asking += count(by_12, Counter::shadow_tests);
+                asking += by_12[Counter::shadow_tests];
                 for (std::size_t map = 0; map < asked.size(); ++map)
                     ASSERT_EQ(parts_drawn(on_demand.parts()[map]), asked[map])
                         << "parts of map " << map << " that are drawn, and that taps lie in; "
@@ -638,7 +638,7 @@ TEST(VisibilityBuffer, HardCase_SixteenThreadsAskForTheSamePartsAtOnce) {
         });
         ASSERT_EQ(wrong, 0) << "texels that a thread has read otherwise than lesson 09 draws them, "
                             << "after it asked for their part; repeat " << repeat;
-        ASSERT_EQ(count(counters, Counter::shadow_parts), 9u)
+        ASSERT_EQ(counters[Counter::shadow_parts], 9u)
             << "parts that were drawn, of nine; repeat " << repeat;
     }
 }

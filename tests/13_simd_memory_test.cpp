@@ -68,14 +68,14 @@ vec2 any_change(Dice& dice, bool is_special) {
     return {u, v};
 }
 
-ShadowBias any_receiver(Dice& dice) {
-    ShadowBias receiver;
-    if (dice.one_in(2)) receiver.slope = vec2(dice.in_cube(0.05f));
-    if (dice.one_in(2)) receiver.bias = dice.one_in(5) ? 2 : dice.between(0, 0.1f);
-    if (dice.one_in(2)) receiver.bias_per_w = dice.between(0, 0.1f);
-    if (dice.one_in(2)) receiver.offset = dice.in_cube(0.1f);
-    if (dice.one_in(2)) receiver.offset_times_w = dice.in_cube(0.1f);
-    return receiver;
+ShadowBias any_bias(Dice& dice) {
+    ShadowBias bias;
+    if (dice.one_in(2)) bias.slope = vec2(dice.in_cube(0.05f));
+    if (dice.one_in(2)) bias.bias = dice.one_in(5) ? 2 : dice.between(0, 0.1f);
+    if (dice.one_in(2)) bias.bias_per_w = dice.between(0, 0.1f);
+    if (dice.one_in(2)) bias.offset = dice.in_cube(0.1f);
+    if (dice.one_in(2)) bias.offset_times_w = dice.in_cube(0.1f);
+    return bias;
 }
 
 /// A map whose depths are any; of a directional light or of one in perspective.
@@ -308,11 +308,11 @@ TEST(Simd, ShadowTestsFollowTheReceiversPlane) {
                                           0.25f * static_cast<float>(y - 2));
     for_each_width([&]<int N>() {
         const Mask<N> all = first_lanes<Floats<N>>(N);
-        WideShadowBias<N> receiver{};
-        receiver.set(all, ShadowBias{.slope = {0.125f, 0.25f}});
+        WideShadowBias<N> bias{};
+        bias.set(all, ShadowBias{.slope = {0.125f, 0.25f}});
         for (const float below : {0.0f, 1.0f / 64}) {
             const Vec3<Floats<N>> point(vec3(-0.375f, -0.375f, 0.5f - below));
-            const WidePcfKernel<N> kernel = pcf_kernel(map, receiver, point, all);
+            const WidePcfKernel<N> kernel = pcf_kernel(map, bias, point, all);
             ASSERT_TRUE(has_in_lanes(kernel.column, [](int) { return 1; })) << "the texel's column";
             ASSERT_TRUE(has_in_lanes(kernel.row, [](int) { return 2; })) << "the texel's row";
             ASSERT_TRUE(has_in_lanes(kernel.depth, [&](int) { return 15.0f / 32 - below; }))
@@ -334,9 +334,8 @@ TEST(Simd, HardCase_ShadowTestsHaveLesson09sTexelsDepthsAndBits) {
             std::array<ShadowBias, std::size_t(N)> receivers;
             WideShadowBias<N> of_lanes{};
             for (int i = 0; i < N; ++i) {
-                receivers.at(std::size_t(i)) = i == 0 || dice.one_in(3)
-                                                   ? any_receiver(dice)
-                                                   : receivers.at(std::size_t(i - 1));
+                receivers.at(std::size_t(i)) =
+                    i == 0 || dice.one_in(3) ? any_bias(dice) : receivers.at(std::size_t(i - 1));
                 of_lanes.set(lane_numbers<N>() == Ints<N>(i), receivers.at(std::size_t(i)));
             }
             std::array<vec3, std::size_t(N)> points;
@@ -529,7 +528,7 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
                     }
                 for (const Counter counter :
                      {Counter::shadow_tests, Counter::shadow_parts, Counter::shadow_fragments})
-                    ASSERT_EQ(count(counts, counter), count(expected_counts, counter))
+                    ASSERT_EQ(counts[counter], expected_counts[counter])
                         << counter_names[static_cast<std::size_t>(counter)] << " after batch "
                         << batch << " of " << pixels << " pixels in " << N << " lanes, seed "
                         << seed;

@@ -995,7 +995,7 @@ TEST(Simd, Eq13_4_BatchesOfTheWorkedExample) {
         const auto counted_and_last = [&](auto&& shade) {
             const CountedSince counters;
             shade();
-            return std::pair(count(counters, Counter::fragments_shaded), fragments_at_once);
+            return std::pair(counters[Counter::fragments_shaded], fragments_at_once);
         };
         const auto shaded_by_16 =
             counted_and_last([&] { shade_pixels<Permutation{}, Floats<16>>(frame, visible); });
@@ -1045,7 +1045,7 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
             }
             const CountedSince counters;
             shade_pixels<Permutation{}, Floats<N>>(frame, visible);
-            const std::uint64_t counted = count(counters, Counter::fragments_shaded);
+            const std::uint64_t counted = counters[Counter::fragments_shaded];
             const std::string where = std::to_string(pixels) + " pixels in " +
                                       std::to_string(triangle_count) + " triangles, " +
                                       std::to_string(N) + " lanes (" + std::to_string(k) + ")";

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include "common/app/counters.hpp"
@@ -31,16 +30,17 @@ class Workers {
     /// caller's counters.
     ///
     /// @param tasks  May be 0.
-    /// @throws       What the first task to throw has thrown.
+    /// @throws       What the first task to throw has thrown; then nothing is added.
     void run(std::size_t tasks, const Task& task) {
         struct alignas(cache_line) Apart {
             Counters counters;
         };
         std::vector<Apart> counted(size());
         run_tasks(tasks, [&](std::size_t i, std::size_t worker) {
-            const Counters before = std::exchange(thread_counters, Counters());
+            const Uncounted in_its_own_thread;  // also where the task throws
+            thread_counters = {};
             task(i, worker);
-            counted[worker].counters += std::exchange(thread_counters, before);
+            counted[worker].counters += thread_counters;
         });
         for (const Apart& one : counted) thread_counters += one.counters;
     }

@@ -20,7 +20,6 @@
 #include "04_mvp/instance.hpp"
 #include "04_mvp/mvp_variants.hpp"
 #include "04_mvp/projection.hpp"
-#include "common/app/counters.hpp"
 #include "common/probe/pixel_report.hpp"
 
 namespace rasterbook {

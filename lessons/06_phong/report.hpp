@@ -12,7 +12,6 @@
 #include "05_textures/interpolation.hpp"
 #include "05_textures/probe.hpp"
 #include "06_phong/surface.hpp"
-#include "common/app/counters.hpp"
 #include "common/probe/pixel_report.hpp"
 
 namespace rasterbook {

@@ -187,8 +187,8 @@ inline VertexLighting light_vertices(const ShadingVariant& variant, std::span<co
                                      const ProjectedTriangle& projected) {
     VertexLighting result{variant.shading};
     if (!surface.effects[Effect::light] || !result.is_used()) return result;
+    const Uncounted vertices;  // only fragments are counted
     const auto light = [&](std::size_t i, Barycentrics at, vec3 normal) {
-        const Uncounted vertices;
         SurfacePoint<float> point = surface_point(surface, at, normal, eye_world);
         point.normal_world = normal;  // it has length 1 already
         const ReflectedLight sum = reflected_light(lights, point, highlight_of(variant, surface));

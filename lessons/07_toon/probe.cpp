@@ -15,7 +15,6 @@
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "07_toon/toon_variants.hpp"
-#include "common/app/counters.hpp"
 
 namespace rasterbook {
 

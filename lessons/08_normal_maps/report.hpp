@@ -6,7 +6,6 @@
 #include "05_textures/interpolation.hpp"
 #include "05_textures/probe.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
-#include "common/app/counters.hpp"
 #include "common/probe/pixel_report.hpp"
 
 namespace rasterbook {

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "09_shadow_maps/shadows.hpp"
-#include "common/app/counters.hpp"
 #include "common/probe/pixel_report.hpp"
 
 namespace rasterbook {

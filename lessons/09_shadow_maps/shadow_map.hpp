@@ -142,13 +142,14 @@ constexpr double max_slope = 1;
 
 /// The plane of a triangle on which shadows fall, as a map sees it.
 struct ReceiverPlane {
-    dvec3 normal;       ///< World space, unit length, to the side that is seen.
-    dvec4 plane;        ///< In the map's texels and depths (Eq. 9.8).
-    double across = 0;  ///< |plane.x| + |plane.y|
-    double along = 0;   ///< |plane.z|
+    dvec3 normal;  ///< World space, unit length, to the side that is seen.
+    dvec4 plane;   ///< In the map's texels and depths (Eq. 9.8).
+
+    double across() const { return std::abs(plane.x) + std::abs(plane.y); }
+    double along() const { return std::abs(plane.z); }
 
     /// The sum of the slopes; not a number in a triangle of no area.
-    double slope() const { return across / along; }
+    double slope() const { return across() / along(); }
 };
 
 /// @param vertices  World space.
@@ -163,7 +164,7 @@ inline std::optional<ReceiverPlane> receiver_plane(const ShadowMap& map,
     dvec4 plane = map.plane_from_world * dvec4(normal, -glm::dot(normal, a));  // Eq. 9.8
     if (glm::dot(normal, outward) < 0) plane = -plane, normal = -normal;
     if (!(plane.z > 0)) return {};  // depth is greater towards the light
-    return ReceiverPlane{normal, plane, std::abs(plane.x) + std::abs(plane.y), std::abs(plane.z)};
+    return ReceiverPlane{normal, plane};
 }
 
 /// How far the farthest tap's centre is from the point, in texels (Eq. 9.9).
@@ -176,21 +177,26 @@ inline ShadowBias constant_bias(const ShadowMap& map, int radius) {
     return {.bias = static_cast<float>(reach_texels(radius) * map.slope_in_middle)};
 }
 
-/// As much as the plane's depth changes within the kernel, and roundings (Eq. 9.10).
-inline ShadowBias slope_scaled_bias(const ShadowMap& map, int radius, const ReceiverPlane& plane) {
-    const double slope = plane.slope();
-    if (!(slope <= max_slope)) return always_lit;  // also 0/0
-    return {.bias = static_cast<float>((reach_texels(radius) + snapping) * slope + depth_quanta),
+/// As much as a plane's depth changes within some texels, and roundings.
+///
+/// @param slope  Of the plane, at most max_slope.
+inline ShadowBias bias_within(const ShadowMap& map, double texels, double slope) {
+    return {.bias = static_cast<float>((texels + snapping) * slope + depth_quanta),
             .bias_per_w = static_cast<float>(map.rounding_texels * slope + map.rounding_depth)};
+}
+
+/// As much as the plane's depth changes within the kernel (Eq. 9.10).
+inline ShadowBias slope_scaled_bias(const ShadowMap& map, int radius, const ReceiverPlane& plane) {
+    if (!(plane.slope() <= max_slope)) return always_lit;  // also 0/0
+    return bias_within(map, reach_texels(radius), plane.slope());
 }
 
 /// Each tap is compared with the plane's depth there: only roundings are left to add (Eq. 9.11).
 inline ShadowBias receiver_plane_bias(const ShadowMap& map, const ReceiverPlane& plane) {
-    const double slope = plane.slope();
-    if (!(slope <= max_slope)) return always_lit;
-    return {.slope = vec2(-dvec2(plane.plane) / plane.plane.z),
-            .bias = static_cast<float>(snapping * slope + depth_quanta),
-            .bias_per_w = static_cast<float>(map.rounding_texels * slope + map.rounding_depth)};
+    if (!(plane.slope() <= max_slope)) return always_lit;
+    ShadowBias bias = bias_within(map, 0, plane.slope());
+    bias.slope = vec2(-dvec2(plane.plane) / plane.plane.z);
+    return bias;
 }
 
 /// Moves the point off the surface, until its depth suffices (Eq. 9.12). Where that is nowhere, the
@@ -199,8 +205,9 @@ inline ShadowBias normal_offset_bias(const ShadowMap& map, int radius, const Rec
     const dvec3 w_row(dvec4(map.texels_from_world[0].w, map.texels_from_world[1].w,
                             map.texels_from_world[2].w, 0));
     const double times_w =
-        (reach_texels(radius) + snapping) * plane.across + depth_quanta * plane.along;
-    const double without_w = map.rounding_texels * plane.across + map.rounding_depth * plane.along;
+        (reach_texels(radius) + snapping) * plane.across() + depth_quanta * plane.along();
+    const double without_w =
+        map.rounding_texels * plane.across() + map.rounding_depth * plane.along();
     const double growth = times_w * glm::dot(plane.normal, w_row);  // K g
     if (!(growth < 1)) return always_lit;  // the farther the point moves, the more is missing
     return {.offset = vec3(plane.normal * (without_w / (1 - growth))),

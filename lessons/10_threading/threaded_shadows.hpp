@@ -53,7 +53,7 @@ inline BinnedTriangles casters_of(Workers& pool, const ShadowMap& map, const Sce
     const auto casts = [&](std::size_t material) {
         return casts_shadows(scene.materials[material]);
     };
-    const Uncounted casters_are;
+    const Uncounted casters;
     return {pool, scene, meshes, map.clip_from_world, tiling, Culling::none, casts, set_up};
 }
 

@@ -61,6 +61,7 @@ inline void draw_tile(ShadowMap& map, const Casters& casters, const Tiling& tili
     });
 }
 
+/// A scene as shadow maps see it, with all of its lights.
 inline ShadowScene shadow_scene(const SceneAssets& assets, bool all_effects) {
     return {assets.scene, assets.shadow_bounds, assets.lit_by.lights, all_effects,
             assets.lit_by.casts};

@@ -22,7 +22,6 @@
 #include "10_threading/split.hpp"
 #include "11_scenes/scene_plan.hpp"
 #include "11_scenes/toon_material.hpp"
-#include "common/app/counters.hpp"
 #include "common/image/backdrop.hpp"
 
 namespace rasterbook {

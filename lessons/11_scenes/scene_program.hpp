@@ -20,7 +20,7 @@ namespace rasterbook {
 /// Runs a lesson of scenes: reads the command line and the model, renders, writes the picture.
 ///
 /// @tparam Options  Derived from SceneRendererOptions.
-/// @param render    Called as render(const Options&, const SceneAssets&, ThreadPool&,
+/// @param render    Called as render(const Options&, const SceneAssets&, Workers&,
 ///                  StepClock&).
 template <typename Options, typename Render>
 int run_scene_lesson(int argc, char** argv, std::string name, std::string title, Render render) {

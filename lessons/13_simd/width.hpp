@@ -7,7 +7,6 @@
 #include "10_threading/binned_triangles.hpp"
 #include "12_visibility_buffer/visible_shading.hpp"
 #include "13_simd/wide_triangles.hpp"
-#include "common/app/counters.hpp"
 #include "common/app/lesson_app.hpp"
 
 namespace rasterbook {

@@ -10,7 +10,6 @@
 
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
-#include "common/app/counters.hpp"
 
 namespace rasterbook::test {
 

@@ -21,7 +21,6 @@
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
 #include "06_phong/shading_variants.hpp"
-#include "common/app/counters.hpp"
 #include "common/math/types.hpp"
 #include "common/model/mesh.hpp"
 #include "support/one_triangle.hpp"

@@ -15,7 +15,6 @@
 #include "06_phong/phong.hpp"
 #include "06_phong/shading_variants.hpp"
 #include "06_phong/surface.hpp"
-#include "common/app/counters.hpp"
 
 namespace rasterbook::test {
 

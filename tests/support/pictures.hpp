@@ -28,10 +28,6 @@ inline bool are_the_same_bits(const Image<vec3>& a, const Image<vec3>& b) {
            std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
 }
 
-inline std::uint64_t count(const Counters& counters, Counter counter) {
-    return counters.values[static_cast<std::size_t>(counter)];
-}
-
 /// What this thread counts from now on.
 class CountedSince {
   public:
@@ -42,6 +38,7 @@ class CountedSince {
         return counted;
     }
     auto values() const { return Counters(*this).values; }
+    std::uint64_t operator[](Counter counter) const { return Counters(*this)[counter]; }
 
   private:
     Counters then_ = thread_counters;
@@ -52,7 +49,7 @@ struct Drawn {
     Image<vec3> picture;
     Counters counters;
 
-    std::uint64_t count(Counter counter) const { return test::count(counters, counter); }
+    std::uint64_t count(Counter counter) const { return counters[counter]; }
 };
 
 /// @param render  Called as render(options, assets): that of a lesson (support/lesson_NN.hpp).

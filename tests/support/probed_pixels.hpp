@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/app/counters.hpp"
 #include "common/image/image.hpp"
 #include "common/math/color.hpp"
 #include "common/probe/pixel_report.hpp"

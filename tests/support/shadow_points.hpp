@@ -15,7 +15,6 @@
 #include "04_mvp/projection.hpp"
 #include "05_textures/interpolation.hpp"
 #include "06_phong/light.hpp"
-#include "common/app/counters.hpp"
 #include "common/image/image.hpp"
 #include "common/math/functions.hpp"
 #include "common/model/mesh.hpp"

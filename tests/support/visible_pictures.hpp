@@ -107,9 +107,9 @@ inline void expect_all_work(const Counters& counters, std::uint64_t scenes) {
           Counter::highlights, Counter::toon_fragments, Counter::normal_map_samples,
           Counter::colored_fragments, Counter::alpha_tested_fragments, Counter::blended_fragments,
           Counter::shadow_tests, Counter::shadow_fragments, Counter::alpha_tested_texels})
-        EXPECT_GT(count(counters, counter), 20 * scenes)
+        EXPECT_GT(counters[counter], 20 * scenes)
             << counter_names[static_cast<std::size_t>(counter)] << " of all scenes";
-    EXPECT_GT(count(counters, Counter::shadow_parts), scenes);
+    EXPECT_GT(counters[Counter::shadow_parts], scenes);
 }
 
 /// For ASSERT_TRUE: the same work was counted.

@@ -40,7 +40,7 @@ struct Sample {
     float visibility;  ///< 0 or 1, or -1 on a face that is turned away from the light.
 };
 std::vector<Sample> samples;
-ShadowBias floor_receiver;  ///< Before it is scaled.
+ShadowBias floor_bias;  ///< Before it is scaled.
 
 Mesh scene() {
     Mesh mesh;
@@ -57,13 +57,13 @@ Mesh scene() {
     return mesh;
 }
 
-/// The same receiver with its bias so many times as large.
-ShadowBias scaled(ShadowBias receiver, float factor) {
-    receiver.bias *= factor;
-    receiver.bias_per_w *= factor;
-    receiver.offset *= factor;
-    receiver.offset_times_w *= factor;
-    return receiver;
+/// A bias so many times as large.
+ShadowBias scaled(ShadowBias bias, float factor) {
+    bias.bias *= factor;
+    bias.bias_per_w *= factor;
+    bias.offset *= factor;
+    bias.offset_times_w *= factor;
+    return bias;
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ extern "C" void draw(float elevation, int size, int bias, float factor) {
         const auto& [from, to, outward] = cut_faces[i];
         const ShadowBias fitted = shadow_bias(
             map, Bias(bias), 0, {vec3(from, -1), vec3(to, -1), vec3(to, 1)}, dvec3(outward, 0));
-        if (i == 0) floor_receiver = fitted;
+        if (i == 0) floor_bias = fitted;
         const bool faces_light = glm::dot(outward, vec2(light.direction_world)) > 0;
         const int steps = static_cast<int>(glm::length(to - from) * samples_per_unit);
         for (int k = 0; k <= steps; ++k) {
@@ -117,11 +117,11 @@ extern "C" const Sample* tested() { return samples.data(); }
 extern "C" int tested_count() { return int(samples.size()); }
 
 /// The course's bias for the floor's depth; 2 if the light sees the floor edge-on.
-extern "C" float bias_of_floor() { return floor_receiver.bias; }
+extern "C" float bias_of_floor() { return floor_bias.bias; }
 
 /// By how much the course moves the floor's points along the normal.
 extern "C" float offset_of_floor() {
-    return glm::length(floor_receiver.offset + floor_receiver.offset_times_w);  // w is 1
+    return glm::length(floor_bias.offset + floor_bias.offset_times_w);  // w is 1
 }
 
 }  // namespace rasterbook

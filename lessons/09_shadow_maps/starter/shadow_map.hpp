@@ -136,13 +136,14 @@ constexpr double max_slope = 1;
 
 /// The plane of a triangle on which shadows fall, as a map sees it.
 struct ReceiverPlane {
-    dvec3 normal;       ///< World space, unit length, to the side that is seen.
-    dvec4 plane;        ///< In the map's texels and depths (Eq. 9.8).
-    double across = 0;  ///< |plane.x| + |plane.y|
-    double along = 0;   ///< |plane.z|
+    dvec3 normal;  ///< World space, unit length, to the side that is seen.
+    dvec4 plane;   ///< In the map's texels and depths (Eq. 9.8).
+
+    double across() const { return std::abs(plane.x) + std::abs(plane.y); }
+    double along() const { return std::abs(plane.z); }
 
     /// The sum of the slopes; not a number in a triangle of no area.
-    double slope() const { return across / along; }
+    double slope() const { return across() / along(); }
 };
 
 /// @param vertices  World space.
@@ -155,7 +156,6 @@ inline std::optional<ReceiverPlane> receiver_plane(const ShadowMap& map,
     // TODO: step 2: the normal by normalize_or() of the cross product of two sides, in double; 0 if
     // the triangle has no area. The plane as the map sees it, Eq. 9.8; if dot(normal, outward) < 0,
     // change the signs of both. None unless plane.z > 0: depth is greater towards the light.
-    // across = |plane.x| + |plane.y|, along = |plane.z|.
     return {};
 }
 
@@ -172,20 +172,28 @@ inline ShadowBias constant_bias(const ShadowMap& map, int radius) {
     return {.bias = static_cast<float>(reach_texels(radius) * map.slope_in_middle)};
 }
 
-/// As much as the plane's depth changes within the kernel, and roundings (Eq. 9.10).
+/// As much as a plane's depth changes within some texels, and roundings.
+///
+/// @param slope  Of the plane, at most max_slope.
+inline ShadowBias bias_within(const ShadowMap& map, double texels, double slope) {
+    // TODO: step 2: texels times slope (Eq. 9.9), and depth_quanta. Step 5, derived in Robust from
+    // "The last two per cent of the bias" on:
+    //     bias = (texels + snapping) slope + depth_quanta
+    //     bias_per_w = map.rounding_texels slope + map.rounding_depth
+    return {};
+}
+
+/// As much as the plane's depth changes within the kernel (Eq. 9.10).
 inline ShadowBias slope_scaled_bias(const ShadowMap& map, int radius, const ReceiverPlane& plane) {
     // TODO: step 2: always_lit unless slope() <= max_slope. (Ask it this way round: a comparison
-    // with NaN is false.) Else Eq. 9.9, and depth_quanta. Step 5, Eq. 9.10, derived in Robust from
-    // "The last two per cent of the bias" on:
-    //     bias = (reach_texels + snapping) slope + depth_quanta
-    //     bias_per_w = map.rounding_texels slope + map.rounding_depth
+    // with NaN is false.) Else bias_within() the reach.
     return {};
 }
 
 /// Each tap is compared with the plane's depth there: only roundings are left to add (Eq. 9.11).
 inline ShadowBias receiver_plane_bias(const ShadowMap& map, const ReceiverPlane& plane) {
-    // TODO: step 2: as slope_scaled_bias(), and z_x and z_y in `slope`. Step 5: Eq. 9.11, without
-    // reach_texels.
+    // TODO: step 2: always_lit unless slope() <= max_slope. Else bias_within() 0 texels, and z_x
+    // and z_y in `slope`.
     return {};
 }
 

@@ -20,7 +20,6 @@
 #include "11_scenes/scene_assets.hpp"
 #include "12_visibility_buffer/visibility_buffer.hpp"
 #include "13_simd/simd.hpp"
-#include "common/app/counters.hpp"
 #include "common/image/backdrop.hpp"
 
 namespace rasterbook {
