@@ -67,7 +67,8 @@ build() {
     case $preset in
         mine | mine_debug | mine_fast) preset=release build common || return ;;  # they link what no reader changes
     esac
-    local home fresh=() log of=${1%_probe}
+    local home fresh=() log of=${1%_complete}
+    of=${of#lab_}
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt" 2>/dev/null || true)
     [ -z "$home" ] || [ "$home" = "$PWD" ] || fresh=(--fresh)
     # A lesson is built again and again: then only what has changed is looked at, and not what may have been installed since.

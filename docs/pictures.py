@@ -342,6 +342,7 @@ def draw_mistakes(tree: Path, only: list[str]) -> None:
 class Answer(NamedTuple):
     name: str  # 06_1
     lesson: str
+    program: str
     options: list[str] | None  # of its first command for the lesson
     picture: Path | None
     diff: str
@@ -354,13 +355,14 @@ def answers() -> list[Answer]:
         for part in readme.read_text(encoding="utf-8").split("<summary>Answer ")[1:]:
             number, _, text = part.partition("</summary>")
             text = text.partition("</details>")[0]
-            command = re.search(rf"\./lessons/run {lesson[:2]}\b([^`\n#]*)", text)
+            command = re.search(rf"\./lessons/run (lab )?{lesson[:2]}\b([^`\n#]*)", text)
             picture = re.search(r"!\[[^\]]*\]\(([^)]+)\)", text)
             found.append(
                 Answer(
                     f"{lesson[:2]}_{number}",
                     lesson,
-                    shlex.split(command[1]) if command else None,
+                    f"lab_{lesson}" if command and command[1] else lesson,
+                    shlex.split(command[2]) if command else None,
                     (readme.parent / picture[1]).resolve() if picture else None,
                     text.partition("```diff\n")[2].partition("```")[0],
                 )
@@ -403,7 +405,7 @@ def draw_answers(tree: Path, of_lesson: str = "", number: str = "", is_check: bo
         changed(code, answer.diff)
         if int(answer.lesson[:2]) % divisor != remainder:
             continue
-        picture = png(drawn_with(tree, code, answer.lesson, answer.options))
+        picture = png(drawn_with(tree, code, answer.program, answer.options))
         if answer.picture is None:
             print(f"{answer.name}: draws; it shows no picture")
         elif not is_check:

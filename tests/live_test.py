@@ -21,7 +21,7 @@ from pathlib import Path
 
 from site_test import ROOT, WIDTHS, check_log, is_turn_of, of_this_turn, skip, start_browser
 
-LESSONS = sorted(folder.name for folder in (ROOT / "lessons").iterdir() if folder.is_dir())
+LESSONS = sorted(folder.name for folder in (ROOT / "lessons").glob("[0-9]*"))
 
 # Until a picture is drawn in full, or something is wrong.
 WAIT = """return new Promise((done) => {
@@ -169,11 +169,14 @@ def check_controls(page: LivePage, address: str, lesson: str, build: Path) -> li
         if f"{option}=" not in page.browser.current_url:
             problems.append(f"{label}: is not in the address")
         command = page.all(".live .commands code")[0].text.split()
+        program = f"lab_{lesson}" if command[1] == "lab" else lesson
+        if program != lesson:
+            command.remove("lab")
         if command[:2] != ["./lessons/run", lesson[:2]] or f"--{option}" not in command:
             problems.append(f"{label}: is not in the command line {' '.join(command)}")
         if option == "show-threads":
             command += ["--threads", "1"]
-        if pixels != native_bytes(build, lesson, command[2:]):
+        if pixels != native_bytes(build, program, command[2:]):
             problems.append(f"{label}: draws other bytes than {' '.join(command)}")
         page.go("size=480x270")
         if page.pixels != usual:

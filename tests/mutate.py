@@ -308,7 +308,7 @@ def main(lesson, sources, chosen, seed):
     of_variants = {path.stem: path.read_text() for path in sorted((ROOT / "tests").glob("*variants_test.cpp"))}
     of_variants = {name: text for name, text in of_variants.items() if any(f'"{file}"' in text for file in sources)}
     programs = [f"{lesson}_test", *of_variants]
-    drawn_by = {name for text in of_variants.values() for name in re.findall(r'"(\d\d_\w+)"', text)}
+    drawn_by = {name for text in of_variants.values() for name in re.findall(r'"((?:lab_)?\d\d_\w+)"', text)}
 
     together = [m for m in chosen if is_within(m, function_bodies(sources[m.file])) or
                 is_within(m, member_initialisers(sources[m.file]))]

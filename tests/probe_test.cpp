@@ -37,9 +37,8 @@ std::string last_line(const std::string& text) {
 }  // namespace
 
 TEST(Probe, Lesson02SaysWhatThePictureHas) {
-    lesson_02::Options exact, barycentric, coarse, smooth;
-    barycentric.paint = lesson_02::Paint::barycentric;
-    coarse.fill.subpixel_bits = 0;
+    PaintOptions exact, barycentric, smooth;
+    barycentric.paint = Paint::barycentric;
     smooth.samples_per_side = 2;
     const Scene teapot = loaded("teapot.obj"), scene = loaded("scene.obj");
     const auto expect = [](const auto& options, const Scene& of, int pixels) {
@@ -50,14 +49,12 @@ TEST(Probe, Lesson02SaysWhatThePictureHas) {
     expect(exact, teapot, 400);
     expect(exact, scene, 300);
     expect(barycentric, teapot, 200);
-    expect(coarse, teapot, 100);
     expect(smooth, teapot, 100);
 }
 
 TEST(Probe, Lesson03SaysWhatThePictureHas) {
-    lesson_03::Options exact, barycentric, coarse, smooth;
-    barycentric.paint = lesson_03::Paint::barycentric;
-    coarse.depth.format = DepthFormat::unorm16, coarse.depth.range = 1e6f;
+    lesson_03::Options exact, barycentric, smooth;
+    barycentric.paint = Paint::barycentric;
     smooth.samples_per_side = 2;
     const Scene teapot = loaded("teapot.obj"), scene = loaded("scene.obj");
     const auto expect = [](const auto& options, const Scene& of, int pixels) {
@@ -68,7 +65,6 @@ TEST(Probe, Lesson03SaysWhatThePictureHas) {
     expect(exact, teapot, 300);
     expect(exact, scene, 200);
     expect(barycentric, teapot, 100);
-    expect(coarse, teapot, 200);
     expect(smooth, teapot, 100);
 }
 

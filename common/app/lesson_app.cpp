@@ -31,6 +31,7 @@ namespace rasterbook {
 class CommandLine : public CLI::App {
   public:
     using CLI::App::App;
+    std::vector<Choice> choices;
 };
 
 namespace {
@@ -243,15 +244,9 @@ std::string why_first_is_empty(const LessonProgram& program, const Scene& scene)
 void make_pictures(const LessonProgram& program) {
     LessonOptions& options = program.options;
     const auto start = std::chrono::steady_clock::now();
-    const std::filesystem::path model = find_model(options.model);
-    if (options.is_sandboxed) options.budget.confine_to(model.parent_path());
-    const Scene& scene = program.prepare(load_model(model, options.budget));
+    const Scene& scene = program.prepare(read_model(options));
     const double load_ms = elapsed_ms(start);
-    constexpr std::size_t most_warnings = 200;
-    for (std::size_t i = 0; i < std::min(scene.warnings.size(), most_warnings); ++i)
-        std::cerr << "warning: " << shortened(scene.warnings[i]) << '\n';
-    if (scene.warnings.size() > most_warnings)
-        std::cerr << "warning: and " << scene.warnings.size() - most_warnings << " more\n";
+    print_warnings(scene);
 
     const ivec2 size = options.size;
     options.size *= options.samples_per_side;
@@ -330,6 +325,8 @@ void Knobs::choice(const char* name, const char* preset,
             if (given == word) return call();
         throw CLI::ValidationError(name, "'" + given + "' is not one of " + all);
     };
+    command_line_.choices.push_back({name, help, preset, {}});
+    for (const auto& [word, call] : words) command_line_.choices.back().words.emplace_back(word);
     command_line_
         .add_option_function<std::string>(name, take, std::string(help) + " [" + preset + "]")
         ->type_name(all);
@@ -413,17 +410,34 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
     }
 }
 
-int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
+std::vector<Choice> choices_of(const LessonProgram& program) {
+    CommandLine line;
+    Knobs knobs(line);
+    program.declare_knobs(knobs);
+    return line.choices;
+}
+
+Scene read_model(LessonOptions& options) {
+    const std::filesystem::path model = find_model(options.model);
+    if (options.is_sandboxed) options.budget.confine_to(model.parent_path());
+    return load_model(model, options.budget);
+}
+
+void print_warnings(const Scene& scene) {
+    constexpr std::size_t most_warnings = 200;
+    for (std::size_t i = 0; i < std::min(scene.warnings.size(), most_warnings); ++i)
+        std::cerr << "warning: " << shortened(scene.warnings[i]) << '\n';
+    if (scene.warnings.size() > most_warnings)
+        std::cerr << "warning: and " << scene.warnings.size() - most_warnings << " more\n";
+}
+
+int exit_status_of(const std::function<int()>& run) {
     protect_files();
     keep_freed_memory();
     try {
-        if (const std::optional<int> status = read_command_line(program, argc, argv)) {
-            if (*status == 0) flush_output();
-            return *status;
-        }
-        make_pictures(program);
-        flush_output();
-        return 0;
+        const int status = run();
+        if (status == 0) flush_output();
+        return status;
     } catch (const std::bad_alloc&) {
         std::cerr << "error: not enough memory for this model at this size\n";
         return 1;
@@ -431,6 +445,15 @@ int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
         std::cerr << "error: " << shortened(error.what()) << '\n';
         return 1;
     }
+}
+
+int run_lesson_program(const LessonProgram& program, int argc, char** argv) {
+    return exit_status_of([&] {
+        if (const std::optional<int> status = read_command_line(program, argc, argv))
+            return *status;
+        make_pictures(program);
+        return 0;
+    });
 }
 
 }  // namespace rasterbook

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -43,6 +44,12 @@ struct Orbit {
     float fov_degrees = 36.0f;    ///< From the picture's lower to its upper border, 1 to 170.
 
     bool operator==(const Orbit&) const = default;
+};
+
+/// An option that takes one of several words.
+struct Choice {
+    std::string name, help, preset;
+    std::vector<std::string> words;
 };
 
 /// What takes the knobs' values: a command line, or the controls of a page.
@@ -104,14 +111,14 @@ struct FrameOptions {
     int threads;  ///< For those lessons that draw a picture with several.
 };
 
-/// A lesson, ready to run: run_lesson fills it in.
+/// A lesson, ready to run: lesson_program() fills it in.
 struct LessonProgram {
-    std::string name;   ///< NN_name
-    std::string title;  ///< One sentence for --help.
-    LessonOptions& options;
-    Orbit* orbit;        ///< Of the options, or null.
-    bool* show_depth;    ///< Of the options, or null.
-    const int* threads;  ///< Of the options, or null: then one thread draws a picture.
+    std::string name;        ///< NN_name
+    std::string title;       ///< One sentence for --help.
+    LessonOptions& options;  ///< They and the rest are kept by the functions below.
+    Orbit* orbit;            ///< Of the options, or null.
+    bool* show_depth;        ///< Of the options, or null.
+    const int* threads;      ///< Of the options, or null: then one thread draws a picture.
     std::function<void(Knobs&)> declare_knobs;
     std::function<const Scene&(Scene)> prepare;  ///< Called once, with the model as it was read.
 
@@ -138,9 +145,24 @@ void declare_picture_knobs(Knobs& knobs, const LessonProgram& program);
 ///          on stderr. Else none.
 std::optional<int> read_command_line(const LessonProgram& program, int argc, char** argv);
 
+/// The choices among the program's own knobs.
+std::vector<Choice> choices_of(const LessonProgram& program);
+
+/// Reads the model that the options name.
+///
+/// @throws std::runtime_error  Names the file and what is wrong with it.
+Scene read_model(LessonOptions& options);
+
+/// Prints the scene's warnings on stderr, a line each.
+void print_warnings(const Scene& scene);
+
+/// The exit status of a program: what `run` returns, or 1 where it throws, after one line on
+/// stderr. SIGINT, SIGTERM and SIGHUP end the program as always, but between files
+/// (protect_files()).
+int exit_status_of(const std::function<int()>& run);
+
 /// @return  The exit status: 0, 1 for bad input or what cannot be written, 2 for bad usage; errors
-///          are one line on stderr. SIGINT, SIGTERM and SIGHUP end the program as always, but
-///          between files (protect_files()).
+///          are one line on stderr.
 int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 
 /// For run_lesson(): a lesson without --probe.
@@ -154,7 +176,7 @@ constexpr bool has_probe = true;
 constexpr bool has_probe = false;
 #endif
 
-/// Runs a lesson: reads the command line and the model, renders, writes the picture.
+/// A lesson's program, with options of its own at their defaults.
 ///
 /// @tparam Options     Derived from LessonOptions; may have `void declare(Knobs&)`, an `Orbit
 ///                     orbit`, a `bool show_depth`, and `threads.threads`, the number of threads
@@ -167,11 +189,14 @@ constexpr bool has_probe = false;
 /// @param make_probe   Called for --probe as make_probe(const Options&, const Assets&); gives the
 ///                     PixelProbe of the picture.
 template <typename Options, typename MakeAssets, typename Render, typename MakeProbe = NoProbe>
-requires std::is_invocable_v<MakeAssets, Scene, const Options&>
-int run_lesson(int argc, char** argv, std::string name, std::string title, MakeAssets make_assets,
-               Render render, MakeProbe make_probe = {}) {
-    Options options;
-    std::optional<std::invoke_result_t<MakeAssets, Scene, const Options&>> assets;
+LessonProgram lesson_program(std::string name, std::string title, MakeAssets make_assets,
+                             Render render, MakeProbe make_probe = {}) {
+    struct State {
+        Options options;
+        std::optional<std::invoke_result_t<MakeAssets, Scene, const Options&>> assets;
+    };
+    const auto state = std::make_shared<State>();
+    Options& options = state->options;
     Orbit* orbit = nullptr;
     bool* show_depth = nullptr;
     const int* threads = nullptr;
@@ -180,28 +205,50 @@ int run_lesson(int argc, char** argv, std::string name, std::string title, MakeA
     if constexpr (requires { options.threads.threads; }) threads = &options.threads.threads;
     std::function<PixelProbe()> probe;
     if constexpr (!std::is_same_v<MakeProbe, NoProbe>)
-        probe = [&] {
+        probe = [=] {
             if constexpr (has_probe)
-                return make_probe(std::as_const(options), std::as_const(*assets));
+                return make_probe(std::as_const(state->options), std::as_const(*state->assets));
             else
                 return PixelProbe();
         };
+    return {std::move(name),
+            std::move(title),
+            options,
+            orbit,
+            show_depth,
+            threads,
+            [=](Knobs& knobs) {
+                if constexpr (requires { state->options.declare(knobs); })
+                    state->options.declare(knobs);
+            },
+            [=](Scene model) -> const Scene& {
+                state->assets.emplace(make_assets(std::move(model), state->options));
+                return scene_of(*state->assets);
+            },
+            [=](const FrameOptions& frame) {
+                Options own = state->options;
+                if constexpr (requires { own.orbit; }) own.orbit.yaw_degrees = frame.yaw_degrees;
+                if constexpr (requires { own.threads.threads; })
+                    own.threads.threads = frame.threads;
+                return render(own, *state->assets);
+            },
+            probe};
+}
+
+/// Draws the scene as it was read.
+template <typename Options>
+Scene just_the_scene(Scene scene, const Options&) {
+    return scene;
+}
+
+/// Runs a lesson: reads the command line and the model, renders, writes the picture. Parameters:
+/// those of lesson_program().
+template <typename Options, typename MakeAssets, typename Render, typename MakeProbe = NoProbe>
+requires std::is_invocable_v<MakeAssets, Scene, const Options&>
+int run_lesson(int argc, char** argv, std::string name, std::string title, MakeAssets make_assets,
+               Render render, MakeProbe make_probe = {}) {
     return run_lesson_program(
-        {std::move(name), std::move(title), options, orbit, show_depth, threads,
-         [&](Knobs& knobs) {
-             if constexpr (requires { options.declare(knobs); }) options.declare(knobs);
-         },
-         [&](Scene model) -> const Scene& {
-             assets.emplace(make_assets(std::move(model), options));
-             return scene_of(*assets);
-         },
-         [&](const FrameOptions& frame) {
-             Options own = options;
-             if constexpr (requires { own.orbit; }) own.orbit.yaw_degrees = frame.yaw_degrees;
-             if constexpr (requires { own.threads.threads; }) own.threads.threads = frame.threads;
-             return render(own, *assets);
-         },
-         probe},
+        lesson_program<Options>(std::move(name), std::move(title), make_assets, render, make_probe),
         argc, argv);
 }
 
@@ -210,10 +257,8 @@ template <typename Options, typename Render, typename MakeProbe = NoProbe>
 requires(!std::is_invocable_v<Render, Scene, const Options&>)
 int run_lesson(int argc, char** argv, std::string name, std::string title, Render render,
                MakeProbe make_probe = {}) {
-    return run_lesson<Options>(
-        argc, argv, std::move(name), std::move(title),
-        [](Scene scene, const Options&) { return scene; }, std::move(render),
-        std::move(make_probe));
+    return run_lesson<Options>(argc, argv, std::move(name), std::move(title),
+                               just_the_scene<Options>, render, make_probe);
 }
 
 }  // namespace rasterbook

@@ -48,4 +48,13 @@ inline bool is_backdrop(const Image<vec3>& picture) {
     return true;
 }
 
+/// What a line of a wireframe adds to its pixels: near lines are bright, far ones dim. Linear
+/// colour.
+///
+/// @param depth  1 for near to 0 for far.
+inline vec3 line_color(float depth) {
+    constexpr vec3 near_color(0.30f, 0.42f, 0.36f), far_color(0.0f, 0.012f, 0.07f);
+    return glm::mix(far_color, near_color, depth);
+}
+
 }  // namespace rasterbook

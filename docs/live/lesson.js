@@ -61,7 +61,7 @@ class Lesson {
       if (error !== left) throw error;
     }
     const described = JSON.parse(this.text(this.exports.controls()));
-    Object.assign(this, described);  // model, hasProbe, controls
+    Object.assign(this, described);  // model, hasProbe, methods, controls
   }
 
   /** An error of the program takes along what the C++ library has said last. */

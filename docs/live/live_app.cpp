@@ -27,6 +27,7 @@
 #include "common/model/texture_file.hpp"
 #include "common/probe/pixel_report.hpp"
 #include "docs/live/packed_scene.hpp"
+#include "lab/lab.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 #define IMPORTED(name) extern "C" __attribute__((import_module("page"), import_name(#name)))
@@ -142,6 +143,7 @@ namespace {
 /// What is made once, when the lesson's main() runs.
 struct Page {
     const LessonProgram& program;
+    bool is_lab;
     CommandLine line{};
     Scene model{};
     std::string given{};  ///< What the page has written.
@@ -163,11 +165,22 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-int run_lesson_program(const LessonProgram& program, int, char**) {
-    page = new Page{program};
+namespace {
+
+[[noreturn]] void show(const LessonProgram& program, bool is_lab) {
+    page = new Page{program, is_lab};
     Knobs knobs(page->line);
     declare_picture_knobs(knobs, program);
     leave();
+}
+
+}  // namespace
+
+int run_lesson_program(const LessonProgram& program, int, char**) { show(program, false); }
+
+int run_lab(const std::function<LessonProgram()>& make, const std::string&, int, char**) {
+    const LessonProgram program = make();
+    show(program, true);
 }
 
 /// To be called first. Does not return: see leave().
@@ -179,13 +192,20 @@ EXPORTED(room) char* room(std::size_t bytes) {
     return page->given.data();
 }
 
-/// The lesson's model and controls, as JSON.
+/// The lesson's model and controls, as JSON; of a lab also which of them are its own.
 EXPORTED(controls) const char* controls() {
+    CommandLine methods;
+    Knobs knobs(methods);
+    if (page->is_lab) page->program.declare_knobs(knobs);
     std::ostringstream json;
     json << "{\"model\": " << quoted(page->program.options.model.string())
          << ", \"hasProbe\": " << (page->program.make_probe ? "true" : "false")
-         << ", \"controls\": [";
+         << ", \"methods\": [";
     const char* comma = "";
+    for (const Control& method : methods.controls)
+        json << std::exchange(comma, ", ") << quoted(method.name);
+    json << "], \"controls\": [";
+    comma = "";
     for (const Control& control : page->line.controls) {
         json << comma << "{\"name\": " << quoted(control.name) << ", \"kind\": \"" << control.kind
              << "\", \"help\": " << quoted(control.help)
@@ -240,9 +260,11 @@ EXPORTED(draw) const u8vec4* draw(int width, int height) {
 /// cannot tell.
 EXPORTED(probe) const char* probe(int x, int y) {
     page->answer.clear();
-    if (page->program.make_probe)
-        page->answer = explained(page->program.make_probe(), {x, y},
-                                 page->program.options.samples_per_side, page->picture[{x, y}]);
+    if (!page->program.make_probe) return page->answer.c_str();
+    const PixelProbe probe = page->program.make_probe();
+    page->answer = probe ? explained(probe, {x, y}, page->program.options.samples_per_side,
+                                     page->picture[{x, y}])
+                         : "Only what is drawn by the lesson's own methods is explained.\n";
     return page->answer.c_str();
 }
 

@@ -16,8 +16,8 @@ async function unpacked(text) {
 const tasks = {
   lesson: async ({ name, text, bytes }) => {
     modules[name] = await WebAssembly.compile(bytes ?? (await unpacked(text)));
-    const { model, hasProbe, controls } = new Lesson(modules[name]);
-    return { model, hasProbe, controls };
+    const { model, hasProbe, methods, controls } = new Lesson(modules[name]);
+    return { model, hasProbe, methods, controls };
   },
 
   scene: async ({ name, text }) => {

@@ -6,10 +6,24 @@
 
 #include <algorithm>
 
+#include "common/app/lesson_app.hpp"
 #include "common/math/numerics.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
+
+/// What a triangle's pixels show.
+enum class Paint { flat, barycentric };
+
+struct PaintOptions : LessonOptions {
+    Paint paint = Paint::flat;
+
+    void declare(Knobs& knobs) {
+        knobs.choice(
+            "--paint", paint, {{"flat", Paint::flat}, {"barycentric", Paint::barycentric}},
+            "One colour for each triangle, or its three barycentrics as red, green and blue");
+    }
+};
 
 /// The direction that a triangle faces, length 1; up for a triangle without area.
 inline vec3 flat_normal(const Mesh& mesh, const Triangle& triangle) {

@@ -3,28 +3,14 @@
 /// Lesson 02: the model as filled triangles, each painted over those before it.
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/probe.hpp"
-#include "02_triangle_fill/triangle_variants.hpp"
+#include "02_triangle_fill/triangle.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
-enum class Paint { flat, barycentric };
-
-struct Options : LessonOptions {
-    Paint paint = Paint::flat;
-    FillVariant fill;
-
-    void declare(Knobs& knobs) {
-        knobs.choice(
-            "--paint", paint, {{"flat", Paint::flat}, {"barycentric", Paint::barycentric}},
-            "One colour for each triangle, or its three barycentrics as red, green and blue");
-        fill.declare(knobs);
-    }
-};
-
-static Image<vec3> render(const Options& options, const Scene& scene) {
+static Image<vec3> render(const PaintOptions& options, const Scene& scene) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
 
@@ -41,18 +27,17 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
                 continue;
             }
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
-            fill(options.fill, on_screen, {a, b, c}, options.size,
-                 [&](ivec2 pixel, vec3 barycentrics) {
-                     count(Counter::fragments_shaded);
-                     color[pixel] = options.paint == Paint::flat ? face_color : barycentrics;
-                 });
+            fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 barycentrics) {
+                count(Counter::fragments_shaded);
+                color[pixel] = options.paint == Paint::flat ? face_color : barycentrics;
+            });
         }
     }
     return color;
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "02_triangle_fill",
-                               "Draws a model as filled triangles, in the file's order.", render,
-                               [](const auto&... of) { return fill_probe(of...); });
+    return run_lesson<PaintOptions>(argc, argv, "02_triangle_fill",
+                                    "Draws a model as filled triangles, in the file's order.",
+                                    render, [](const auto&... of) { return fill_probe(of...); });
 }

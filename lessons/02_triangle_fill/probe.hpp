@@ -13,7 +13,6 @@
 
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
-#include "02_triangle_fill/triangle_variants.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
 #include "common/probe/pixel_report.hpp"
@@ -81,18 +80,15 @@ inline vec3 report_backdrop(PixelReport& report, ivec2 pixel, ivec2 size) {
 
 /// Explains pixels of this lesson's picture.
 ///
-/// @param options  With FillVariant `fill` and `paint`. Both have to outlive the probe.
-template <typename Options>
-PixelProbe fill_probe(const Options& options, const Scene& scene) {
+/// @param options,scene  Have to outlive the probe.
+inline PixelProbe fill_probe(const PaintOptions& options, const Scene& scene) {
     return [&](ivec2 pixel, PixelReport& report) {
-        using PaintMode = decltype(options.paint);
         struct Seen {
             std::string name;
             ScreenTriangle on_screen;
             vec3 barycentrics, normal, face_color;
         };
         const OrthographicView view(scene, options.size);
-        const bool is_variant = is_fill_variant(options.fill);
         PixelHistory history;
         std::optional<Seen> seen;
         for (const Mesh& mesh : scene.meshes) {
@@ -102,14 +98,8 @@ PixelProbe fill_probe(const Options& options, const Scene& scene) {
                 const vec3 b = positions_screen[triangle.vertices[1].position];
                 const vec3 c = positions_screen[triangle.vertices[2].position];
                 const ScreenTriangle on_screen = snap_triangle(a, b, c);
-                const bool is_near = box_holds(on_screen, pixel);
-                std::optional<vec3> at;
-                if (is_near || is_variant)
-                    fill(options.fill, on_screen, {a, b, c}, options.size,
-                         [&](ivec2 filled, vec3 barycentrics) {
-                             if (filled == pixel) at = barycentrics;
-                         });
-                if (!at && !is_near) continue;
+                if (!box_holds(on_screen, pixel)) continue;
+                const std::optional<vec3> at = covered(on_screen, pixel);
                 const std::string name = name_of(mesh, triangle, scene.materials);
                 if (!at) {
                     history.missed(name, why_not_covered(on_screen, pixel));
@@ -126,7 +116,7 @@ PixelProbe fill_probe(const Options& options, const Scene& scene) {
         if (!seen) return report_backdrop(report, pixel, options.size);
         report.section("seen: " + seen->name);
         report_coverage(report, seen->on_screen, seen->barycentrics);
-        if (options.paint == PaintMode::barycentric) return seen->barycentrics;
+        if (options.paint == Paint::barycentric) return seen->barycentrics;
         report.line("normal of the face", seen->normal);
         report.line("flat colour", seen->face_color);
         return seen->face_color;

@@ -4,7 +4,6 @@
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
-#include "03_z_buffer/depth_variants.hpp"
 #include "03_z_buffer/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
@@ -12,25 +11,14 @@
 
 using namespace rasterbook;
 
-enum class Paint { flat, barycentric };
-
-struct Options : LessonOptions {
-    Paint paint = Paint::flat;
+struct Options : PaintOptions {
     bool show_depth = false;
-    DepthVariant depth;
-
-    void declare(Knobs& knobs) {
-        knobs.choice(
-            "--paint", paint, {{"flat", Paint::flat}, {"barycentric", Paint::barycentric}},
-            "One colour for each triangle, or its three barycentrics as red, green and blue");
-        depth.declare(knobs);
-    }
 };
 
 static Image<vec3> render(const Options& options, const Scene& scene) {
     const OrthographicView view(scene, options.size);
     Image<vec3> color = backdrop(options.size);
-    DepthBuffer depth(options.size, options.depth.farthest());
+    DepthBuffer depth(options.size);
 
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
@@ -48,8 +36,7 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
             const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
             fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 barycentrics) {
                 count(Counter::fragments_tested);
-                const float z = options.depth.kept(triangle_depth.at(barycentrics));
-                if (!depth.test_and_write(pixel, z)) return;
+                if (!depth.test_and_write(pixel, triangle_depth.at(barycentrics))) return;
                 count(Counter::fragments_shaded);
                 color[pixel] = options.paint == Paint::flat ? face_color : barycentrics;
             });

@@ -11,7 +11,6 @@
 #include "02_triangle_fill/probe.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
-#include "03_z_buffer/depth_variants.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/probe/pixel_report.hpp"
 
@@ -34,20 +33,17 @@ inline bool test_depth(DepthBuffer& nearest, const std::string& triangle,
 
 /// Explains pixels of this lesson's picture.
 ///
-/// @param options  With DepthVariant `depth` and `paint`. Both have to outlive the probe.
-template <typename Options>
-PixelProbe depth_probe(const Options& options, const Scene& scene) {
+/// @param options,scene  Have to outlive the probe.
+inline PixelProbe depth_probe(const PaintOptions& options, const Scene& scene) {
     return [&](ivec2 pixel, PixelReport& report) {
-        using PaintMode = decltype(options.paint);
         struct Seen {
             std::string name;
             ScreenTriangle on_screen;
             vec3 barycentrics, depths;
-            float kept;
             vec3 normal, face_color;
         };
         const OrthographicView view(scene, options.size);
-        DepthBuffer nearest(ivec2(1), options.depth.farthest());
+        DepthBuffer nearest(ivec2(1));
         PixelHistory history;
         std::optional<Seen> seen;
         for (const Mesh& mesh : scene.meshes) {
@@ -65,7 +61,7 @@ PixelProbe depth_probe(const Options& options, const Scene& scene) {
                     continue;
                 }
                 const vec3 depths(a.z, b.z, c.z);
-                const float z = options.depth.kept(TriangleDepth(depths).at(*at));
+                const float z = TriangleDepth(depths).at(*at);
                 if (!is_front_facing(on_screen))
                     history.lost(name, *at, z, "faces away (Eq. 2.2)");
                 else if (test_depth(nearest, name, *at, z, history))
@@ -73,7 +69,6 @@ PixelProbe depth_probe(const Options& options, const Scene& scene) {
                                 on_screen,
                                 *at,
                                 depths,
-                                z,
                                 flat_normal(mesh, triangle),
                                 flat_color(mesh, triangle, scene.materials[triangle.material])};
             }
@@ -85,8 +80,7 @@ PixelProbe depth_probe(const Options& options, const Scene& scene) {
         report.line("depths of a, b, c", seen->depths);
         const float depth = TriangleDepth(seen->depths).at(seen->barycentrics);
         report.line("depth", words(depth, 7), "Eq. 3.3");
-        if (seen->kept != depth) report.line("as the buffer keeps it", words(seen->kept, 7));
-        if (options.paint == PaintMode::barycentric) return seen->barycentrics;
+        if (options.paint == Paint::barycentric) return seen->barycentrics;
         report.line("normal of the face", seen->normal);
         report.line("flat colour", seen->face_color);
         return seen->face_color;

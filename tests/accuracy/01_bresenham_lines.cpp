@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "01_bresenham_lines/line_variants.hpp"
 #include "accuracy/accuracy.hpp"
 #include "common/image/image.hpp"
+#include "lab/line_methods.hpp"
 #include "support/exact_area.hpp"
 
 using namespace rasterbook;

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "02_triangle_fill/triangle_variants.hpp"
 #include "accuracy/accuracy.hpp"
 #include "common/image/image.hpp"
 #include "common/math/numerics.hpp"
+#include "lab/fill_methods.hpp"
 #include "support/exact_area.hpp"
 #include "support/triangulations.hpp"
 
@@ -64,7 +64,7 @@ double covered_pixels(const std::vector<Vertices>& triangles) {
 }
 
 /// Pixels that are drawn and should not be, or the other way round, for each triangle.
-double wrong_pixels(const FillVariant& variant, const std::vector<Vertices>& triangles) {
+double wrong_pixels(const FillMethod& variant, const std::vector<Vertices>& triangles) {
     double wrong = 0;
     for (const Vertices& t : triangles) {
         Image<std::uint8_t> hits(picture_size, 0);
@@ -77,7 +77,7 @@ double wrong_pixels(const FillVariant& variant, const std::vector<Vertices>& tri
 
 /// Gaps and double hits of a million pixels, in fans of 36 triangles around a pixel's centre whose
 /// rim is `radius` pixels away. Only pixels well inside the rim count.
-double fan_errors(const FillVariant& variant, float radius) {
+double fan_errors(const FillMethod& variant, float radius) {
     constexpr ivec2 size(1280, 960);
     constexpr int fans = 4;
     std::mt19937 random(1);
@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
     static Image<float> coverage(picture_size, 0.0f);
     const double covered = covered_pixels(triangles);
     const auto emit = [](ivec2 pixel, vec3) { ++hits[pixel]; };
-    const auto fill_boxes = [=](const FillVariant& variant) {
+    const auto fill_boxes = [=](const FillMethod& variant) {
         return [=] {
             for (const Vertices& t : triangles)
                 fill_bounding_box_as(variant, t, picture_size, emit);
@@ -149,13 +149,13 @@ int main(int argc, char** argv) {
     };
 
     for (const int bits : {0, 2, 4, 8, 12, 16}) {
-        const FillVariant variant{.subpixel_bits = bits};
+        const FillMethod variant{.subpixel_bits = bits};
         add_variant("snapping", std::to_string(bits) + " bits", covered,
                     {{"wrong pixels a triangle", wrong_pixels(variant, random_triangles(1000))}},
                     fill_boxes(variant));
     }
 
-    const auto far_fans = [](const FillVariant& variant) {
+    const auto far_fans = [](const FillMethod& variant) {
         Errors errors;
         for (const char* radius : {"60", "4e3", "4e4", "4e5", "4e6"})
             errors[std::string("wrong of a million, rim at ") + radius + " px"] =
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
                                                           {"float", EdgeNumber::float32},
                                                           {"double", EdgeNumber::float64}};
     for (const auto& [name, number] : numbers) {
-        const FillVariant variant{.edges = number};
+        const FillMethod variant{.edges = number};
         add_variant("edges", name, covered, far_fans(variant), fill_boxes(variant));
     }
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "03_z_buffer/depth_buffer.hpp"
-#include "03_z_buffer/depth_variants.hpp"
 #include "accuracy/accuracy.hpp"
 #include "common/image/image.hpp"
+#include "lab/depth_formats.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;

@@ -39,7 +39,8 @@ inline std::vector<std::filesystem::path> files_with(const std::set<std::string>
 inline std::vector<std::string> lessons() {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(root / "lessons"))
-        if (entry.is_directory()) names.push_back(entry.path().filename().string());
+        if (entry.is_directory() && entry.path().filename() != "lab")
+            names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
 }

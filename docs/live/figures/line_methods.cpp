@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "01_bresenham_lines/line_variants.hpp"
+#include "lab/line_methods.hpp"
 
 namespace rasterbook {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other formats to store depths in, to be seen with `--format` and `--range`, and measured in
-/// docs/accuracy/03_z_buffer.md.
+/// Other formats to store the depths of lesson 03 in; measured in docs/accuracy/03_z_buffer.md.
 #pragma once
 
 #include <cmath>
@@ -23,7 +22,7 @@ std::uint32_t unorm(float depth) {
 /// A depth from -1 to 1 as one from 0 to 1.
 constexpr float zero_to_one(float depth_ndc) { return (depth_ndc + 1.0f) / 2.0f; }
 
-struct DepthVariant {
+struct DepthMethod {
     DepthFormat format = DepthFormat::float32;
     float range = 1.0f;  ///< >= 1: the model fills the farthest 1/range of the depths.
 
@@ -35,8 +34,10 @@ struct DepthVariant {
              {"ndc", DepthFormat::ndc},
              {"unorm16", DepthFormat::unorm16},
              {"unorm24", DepthFormat::unorm24}},
-            "What a depth is kept as; from-near is 0 at the near plane and 1 far away, and ndc is "
-            "as float, but first computes a depth from -1 to 1");
+            "What a depth is kept as: float is 1 at the near plane and 0 far away, from-near the "
+            "other "
+            "way round; ndc is float by way of a depth from -1 to 1; unorm16 and unorm24 are whole "
+            "numbers of so many bits");
         knobs.choice("--range", range,
                      {{"1", 1.0f}, {"100", 100.0f}, {"10000", 10'000.0f}, {"1000000", 1e6f}},
                      "Squeeze the model into the farthest part of the depths, one N-th of them, as "
@@ -63,6 +64,8 @@ struct DepthVariant {
         }
         return depth;
     }
+
+    bool operator==(const DepthMethod&) const = default;
 
     /// What the buffer is cleared to.
     float farthest() const { return kept(0.0f); }

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The variants that docs/accuracy measures: each keeps what its comment says.
+// The methods of lessons/lab: each keeps what its comment says. And the program that compares them.
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "01_bresenham_lines/line_variants.hpp"
-#include "02_triangle_fill/triangle_variants.hpp"
-#include "03_z_buffer/depth_variants.hpp"
 #include "common/image/image_io.hpp"
+#include "lab/depth_formats.hpp"
+#include "lab/fill_methods.hpp"
+#include "lab/line_methods.hpp"
 #include "support/exact_area.hpp"
 #include "support/lesson_process.hpp"
 #include "support/printers.hpp"
@@ -39,7 +40,7 @@ Image<float> drawn_line(LineMethod method, ivec2 a, ivec2 b, ivec2 size,
 }
 
 /// How often each pixel is visited, row by row.
-std::vector<int> hits_of(const FillVariant& variant, const std::array<dvec2, 3>& vertices,
+std::vector<int> hits_of(const FillMethod& variant, const std::array<dvec2, 3>& vertices,
                          ivec2 size) {
     Image<int> hits(size, 0);
     fill_bounding_box_as(variant, vertices, size, [&](ivec2 pixel, vec3) { ++hits[pixel]; });
@@ -55,7 +56,7 @@ std::array<dvec2, 3> random_vertices(std::mt19937& random, double low, double hi
 
 }  // namespace
 
-TEST(Variants, EveryStepOfALineHasACoverageOfOneAroundTheLine) {
+TEST(Lab, EveryStepOfALineHasACoverageOfOneAroundTheLine) {
     constexpr ivec2 size(64);
     // Of 61 steps at most: dda-fixed drifts most, by half of 2^-16 rows a step; Wu's two shares are
     // floats, and its row drifts by less than they are rounded.
@@ -92,7 +93,7 @@ TEST(Variants, EveryStepOfALineHasACoverageOfOneAroundTheLine) {
     }
 }
 
-TEST(Variants, LinesThatLeaveThePictureAreDrawnInsideAsTheWholeLineIs) {
+TEST(Lab, LinesThatLeaveThePictureAreDrawnInsideAsTheWholeLineIs) {
     constexpr ivec2 size(40, 30), beyond(60);
     std::mt19937 random(1);
     std::uniform_int_distribution<int> x(-beyond.x, size.x + beyond.x - 1),
@@ -121,7 +122,7 @@ TEST(Variants, LinesThatLeaveThePictureAreDrawnInsideAsTheWholeLineIs) {
     }
 }
 
-TEST(Variants, FixedPointDriftsByAtMostHalfAStepOfItsFraction) {
+TEST(Lab, FixedPointDriftsByAtMostHalfAStepOfItsFraction) {
     for (int rise = 19'990; rise < 20'000; ++rise) {
         FixedRow<16> row(LineSteps({3, 5}, {30'003, 5 + rise}), 0);
         for (int step = 0; step <= 30'000; ++step) {
@@ -135,7 +136,7 @@ TEST(Variants, FixedPointDriftsByAtMostHalfAStepOfItsFraction) {
     }
 }
 
-TEST(Variants, WholeBoundingBoxesVisitWhatFillTriangleVisits) {
+TEST(Lab, WholeBoundingBoxesVisitWhatFillTriangleVisits) {
     std::mt19937 random(1);
     for (int i = 0; i < 300; ++i) {
         std::array<dvec2, 3> t = random_vertices(random, -20, 60);
@@ -158,7 +159,7 @@ TEST(Variants, WholeBoundingBoxesVisitWhatFillTriangleVisits) {
     }
 }
 
-TEST(Variants, BarycentricsOfABoundingBoxAddUpToOne) {
+TEST(Lab, BarycentricsOfABoundingBoxAddUpToOne) {
     for (const EdgeNumber number :
          {EdgeNumber::int64, EdgeNumber::int32, EdgeNumber::float32, EdgeNumber::float64}) {
         vec3 first(0);
@@ -176,7 +177,7 @@ TEST(Variants, BarycentricsOfABoundingBoxAddUpToOne) {
     }
 }
 
-TEST(Variants, FewerBitsSnapToCoarserPlaces) {
+TEST(Lab, FewerBitsSnapToCoarserPlaces) {
     // From (0.6, 0.6), snapped to whole pixels: the square from 1 to 4 without its lower half.
     const std::array<dvec2, 3> t = {dvec2(0.6, 0.6), dvec2(0.6, 4.4), dvec2(4.4, 0.6)};
     const std::vector<int> coarse = hits_of({.subpixel_bits = 0}, t, ivec2(8));
@@ -185,7 +186,7 @@ TEST(Variants, FewerBitsSnapToCoarserPlaces) {
     EXPECT_NE(hits_of({.subpixel_bits = 2}, t, ivec2(8)), whole);
 }
 
-TEST(Variants, VerticesOutOfRangeVisitNothing) {
+TEST(Lab, VerticesOutOfRangeVisitNothing) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const EdgeNumber number :
          {EdgeNumber::int64, EdgeNumber::int32, EdgeNumber::float32, EdgeNumber::float64})
@@ -196,7 +197,7 @@ TEST(Variants, VerticesOutOfRangeVisitNothing) {
         }
 }
 
-TEST(Variants, AveragingKeepsTheMeanOfEachSquare) {
+TEST(Lab, AveragingKeepsTheMeanOfEachSquare) {
     Image<vec3> picture({4, 2}, vec3(0));
     picture[{0, 0}] = vec3(1, 0, 0);
     picture[{3, 1}] = vec3(0, 2, 4);
@@ -206,11 +207,11 @@ TEST(Variants, AveragingKeepsTheMeanOfEachSquare) {
     EXPECT_EQ((half[{1, 0}]), vec3(0, 0.5f, 1));
 }
 
-TEST(Variants, WhatIsKeptOfDepthsStaysInOrder) {
+TEST(Lab, WhatIsKeptOfDepthsStaysInOrder) {
     for (const DepthFormat format : {DepthFormat::float32, DepthFormat::from_near, DepthFormat::ndc,
                                      DepthFormat::unorm16, DepthFormat::unorm24})
         for (const float range : {1.0f, 100.0f, 1e6f}) {
-            const DepthVariant variant{format, range};
+            const DepthMethod variant{format, range};
             std::map<float, int> kept;
             float before = variant.farthest();
             for (int i = 0; i <= 1000; ++i) {
@@ -225,8 +226,8 @@ TEST(Variants, WhatIsKeptOfDepthsStaysInOrder) {
         }
 }
 
-TEST(Variants, WhatIsKeptOfADepthIsThatDepthInTheFarthestPartOfAll) {
-    EXPECT_EQ(DepthVariant{}.kept(0.3f), 0.3f) << "unasked, a depth is kept as it is";
+TEST(Lab, WhatIsKeptOfADepthIsThatDepthInTheFarthestPartOfAll) {
+    EXPECT_EQ(DepthMethod{}.kept(0.3f), 0.3f) << "unasked, a depth is kept as it is";
     struct Case {
         const char* name;
         DepthFormat format;
@@ -240,16 +241,16 @@ TEST(Variants, WhatIsKeptOfADepthIsThatDepthInTheFarthestPartOfAll) {
           Case{"unorm24", DepthFormat::unorm24, 0, 0x1p-24f}})
         for (const float range : {1.0f, 4.0f})
             for (const float depth : {0.0f, 0.5f, 1.0f}) {
-                const DepthVariant variant{format, range};
+                const DepthMethod variant{format, range};
                 EXPECT_NEAR(variant.kept(depth), farthest + depth / range, tolerance)
                     << name << " of the depth " << depth << " in the farthest 1/" << range;
                 EXPECT_EQ(variant.farthest(), farthest) << name << " of an empty pixel";
             }
 }
 
-TEST(Variants, RangeOfDepthsIsTheNumberOnTheCommandLine) {
+TEST(Lab, RangeOfDepthsIsTheNumberOnTheCommandLine) {
     for (const std::string number : {"1", "100", "10000", "1000000"}) {
-        DepthVariant variant{.range = 7};
+        DepthMethod variant{.range = 7};
         LessonOptions options;
         std::string words[] = {"03_z_buffer", "--range", number};
         char* arguments[] = {words[0].data(), words[1].data(), words[2].data()};
@@ -261,7 +262,7 @@ TEST(Variants, RangeOfDepthsIsTheNumberOnTheCommandLine) {
     }
 }
 
-TEST(Variants, DepthsAreRoundedToTheNearestOfTheirBits) {
+TEST(Lab, DepthsAreRoundedToTheNearestOfTheirBits) {
     EXPECT_EQ(unorm<16>(0.0f), 0u);
     EXPECT_EQ(unorm<16>(1.0f), 65535u);
     EXPECT_EQ(unorm<16>(1.4f / 65535), 1u);
@@ -269,7 +270,7 @@ TEST(Variants, DepthsAreRoundedToTheNearestOfTheirBits) {
     EXPECT_EQ(unorm<24>(0.5f), 8388608u);
 }
 
-TEST(Variants, AreasInPixelsAddUpToThePolygon) {
+TEST(Lab, AreasInPixelsAddUpToThePolygon) {
     std::mt19937 random(1);
     for (int i = 0; i < 100; ++i) {
         const auto t = random_vertices(random, 0, 12);
@@ -284,11 +285,11 @@ TEST(Variants, AreasInPixelsAddUpToThePolygon) {
     EXPECT_EQ(area_in_pixel({dvec2(0, 0), dvec2(1, 0), dvec2(0, 1)}, {1, 0}), 0.0);
 }
 
-TEST(Variants, EveryKnobDrawsAndShowsADifference) {
+TEST(Lab, EveryKnobDrawsAndShowsADifference) {
     const std::map<std::string, std::vector<std::vector<std::string>>> knobs = {
-        {"01_bresenham_lines",
+        {"lab_01_bresenham_lines",
          {{"--line", "dda-float"}, {"--line", "dda-fixed"}, {"--line", "wu"}}},
-        {"02_triangle_fill",
+        {"lab_02_triangle_fill",
          {{"--edges", "int32", "--model", "triangle.obj"},
           {"--edges", "float"},
           {"--edges", "double"},
@@ -300,12 +301,12 @@ TEST(Variants, EveryKnobDrawsAndShowsADifference) {
           {"--samples", "4"},
           {"--samples", "16"},
           {"--samples", "64"}}},
-        {"03_z_buffer",
+        {"lab_03_z_buffer",
          {{"--format", "unorm16", "--range", "100"},
           {"--format", "unorm24", "--range", "10000"},
           {"--format", "from-near", "--range", "1000000"},
           {"--format", "ndc", "--range", "1000000"}}}};
-    const std::filesystem::path folder = fresh_folder("knobs");
+    const std::filesystem::path folder = fresh_folder("drawn");
     const auto draw = [&](const std::string& lesson, std::vector<std::string> arguments) {
         const std::string out = (folder / "picture.bmp").string();
         arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
@@ -325,4 +326,110 @@ TEST(Variants, EveryKnobDrawsAndShowsADifference) {
                 differing += usual.pixels()[i] != other.pixels()[i];
             EXPECT_GT(differing, 0u) << lesson << ' ' << knob[0] << ' ' << knob[1];
         }
+}
+
+TEST(Lab, WithTheLessonsMethodsItDrawsTheLessonsPicture) {
+    for (const auto& [lesson, method] :
+         std::map<std::string, std::string>{{"01_bresenham_lines", "--line=bresenham"},
+                                            {"02_triangle_fill", "--edges=int64"},
+                                            {"03_z_buffer", "--format=float"}})
+        for (const std::string size : {"320x180", "97x61"})
+            EXPECT_EQ(bytes_of_picture("lab_" + lesson, {method, "--size", size}),
+                      bytes_of_picture(lesson, {"--size", size}))
+                << lesson << ", " << size;
+}
+
+TEST(Lab, WithoutOptionsItSaysWhatThereIsToChoose) {
+    const ProcessResult run = run_program("lab_03_z_buffer", {});
+    EXPECT_EQ(run.exit_status, 0);
+    EXPECT_EQ(run.err, "");
+    for (const char* text : {"\n--format float,from-near,ndc,unorm16,unorm24   [float]\n",
+                             "\n--range 1,100,10000,1000000   [1]\n", "Other formats for depths"})
+        EXPECT_NE(run.out.find(text), std::string::npos) << text << "in\n" << run.out;
+}
+
+TEST(Lab, SeveralMethodsAreDrawnComparedAndTimed) {
+    const std::filesystem::path folder = fresh_folder("compared");
+    const ProcessResult run =
+        run_program("lab_03_z_buffer", {"--format", "unorm16,float", "--depth", "--range=1,10000",
+                                        "--size", "80x50", "--out", (folder / "lab.png").string()});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    const Files files = files_in(folder);
+    const auto drawn = [&](const std::string& format, const std::string& range) {
+        return bytes_of_picture("lab_03_z_buffer", {"--depth", "--size", "80x50", "--format",
+                                                    format, "--range", range});
+    };
+    const Image<u8vec4> sheet = read_image(folder / "lab.png");
+    ASSERT_EQ(sheet.size(), ivec2(4 * 80, 2 * 50));
+    const Image<u8vec4> reference = read_image(folder / "lab_float_1.png");
+    ASSERT_EQ(files.size(), 5u);
+    std::vector<Image<u8vec4>> pictures;
+    std::vector<std::string> names;
+    for (const std::string format : {"unorm16", "float"})
+        for (const std::string range : {"1", "10000"}) {
+            const std::string file = "lab_" + format + '_' + range + ".png";
+            ASSERT_TRUE(files.contains(file));
+            EXPECT_EQ(files.at(file), drawn(format, range)) << file;
+            pictures.push_back(read_image(folder / file));
+            names.push_back(format + ' ' + range);
+        }
+    int greatest = 0;
+    const auto apart = [&](const Image<u8vec4>& picture, ivec2 at) {
+        return glm::abs(ivec3(picture[at]) - ivec3(reference[at]));
+    };
+    for (std::size_t i = 0; i < 4; ++i) {
+        int pixels = 0, most = 0;
+        double squares = 0;
+        for (int y = 0; y < 50; ++y)
+            for (int x = 0; x < 80; ++x) {
+                const ivec3 d = apart(pictures[i], {x, y});
+                pixels += d != ivec3(0);
+                most = std::max({most, d.x, d.y, d.z});
+                squares += d.x * d.x + d.y * d.y + d.z * d.z;
+            }
+        greatest = std::max(greatest, most);
+        std::istringstream line(run.out.substr(run.out.find('\n' + names[i]) + 1));
+        std::string format, range;
+        double said_pixels = 0, said_most = 0, root_mean_square = 0, median = 0;
+        line >> format >> range >> said_pixels >> said_most >> root_mean_square >> median;
+        EXPECT_EQ(format + ' ' + range, names[i]) << run.out;
+        EXPECT_EQ(said_pixels, pixels) << names[i];
+        EXPECT_EQ(said_most, most) << names[i];
+        EXPECT_NEAR(root_mean_square, std::sqrt(squares / (3 * 80 * 50)), 0.0005) << names[i];
+        EXPECT_GT(median, 0) << names[i];
+    }
+    EXPECT_GT(greatest, 0) << "16 bits at range 10000 are not told from floats";
+    for (std::size_t i = 0; i < 4; ++i)
+        for (int y = 0; y < 50; ++y)
+            for (int x = 0; x < 80; ++x) {
+                const ivec2 at(80 * static_cast<int>(i) + x, y);
+                ASSERT_EQ(sheet[at], (pictures[i][{x, y}])) << names[i];
+                ASSERT_EQ(ivec3(sheet[at + ivec2(0, 50)]),
+                          255 / greatest * apart(pictures[i], {x, y}))
+                    << "the difference of " << names[i];
+            }
+}
+
+TEST(Lab, WhatCannotBeComparedIsSaidAndNothingIsWritten) {
+    const std::filesystem::path folder = fresh_folder("not_compared");
+    for (const auto& [words, message] :
+         std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--line", "bresenham,wo"}, "'wo' is not one of bresenham|dda-float|dda-fixed|wu"},
+             {{"--line", "wu,"}, "'' is not one of"},
+             {{"--line", "blue"}, "'blue' is not one of"},
+             {{"--filter", "nearest,bilinear"}, "--filter"},
+             {{"--line", "wu,wu,wu,wu,wu,wu,wu,wu,wu,wu,wu,wu,wu"},
+              "--line: these are 13 pictures, and no more than 12 are compared"},
+             {{"--line", "wu,bresenham", "--stats"}, "--stats is for one picture"},
+             {{"--line"}, "--line"}}) {
+        std::vector<std::string> arguments = words;
+        arguments.insert(arguments.begin(), {"--out", (folder / "lab.png").string()});
+        expect_error(run_program("lab_01_bresenham_lines", arguments), 2, message);
+    }
+    expect_error(
+        run_program("lab_01_bresenham_lines", {"--out", (folder / "lab.png").string(), "--line",
+                                               "wu,bresenham", "--model", "nothing.obj"}),
+        1, "there is no such file");
+    EXPECT_EQ(files_in(folder).size(), 0u);
 }

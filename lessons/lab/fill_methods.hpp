@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other ways to fill the triangle of lesson 02, shown by `--edges` and `--subpixel-bits`, and
-/// measured in docs/accuracy/02_triangle_fill.md.
+/// Other ways to fill the triangle of lesson 02; measured in docs/accuracy/02_triangle_fill.md.
 #pragma once
 
 #include <algorithm>
@@ -19,20 +18,25 @@ namespace rasterbook {
 /// What edge functions are computed in.
 enum class EdgeNumber { int64, int32, float32, float64 };
 
-struct FillVariant {
+struct FillMethod {
     EdgeNumber edges = EdgeNumber::int64;
     int subpixel_bits = rasterbook::subpixel_bits;  ///< 0 to 16, for whole numbers.
 
     void declare(Knobs& knobs) {
-        knobs.choice("--edges", edges,
-                     {{"int64", EdgeNumber::int64},
-                      {"int32", EdgeNumber::int32},
-                      {"float", EdgeNumber::float32},
-                      {"double", EdgeNumber::float64}},
-                     "What edge functions are computed in; vertices are snapped for the first two");
-        knobs.choice("--subpixel-bits", subpixel_bits,
-                     {{"0", 0}, {"2", 2}, {"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
-                     "Vertices are snapped to 1/2^N of a pixel");
+        knobs.choice(
+            "--edges", edges,
+            {{"int64", EdgeNumber::int64},
+             {"int32", EdgeNumber::int32},
+             {"float", EdgeNumber::float32},
+             {"double", EdgeNumber::float64}},
+            "What edge functions are computed in: int64 never overflows; int32 does, where "
+            "triangles are larger than 128 pixels; float and double leave vertices where "
+            "they are, and round");
+        knobs.choice(
+            "--subpixel-bits", subpixel_bits,
+            {{"0", 0}, {"2", 2}, {"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
+            "Vertices are snapped to 1/2^N of a pixel. Only the lesson's own fill, int64 with "
+            "8 bits, narrows rows by division; the others test each pixel of a box");
     }
 };
 
@@ -98,14 +102,14 @@ void fill_bounding_box(const std::array<glm::vec<2, Number>, 3>& vertices, Numbe
     }
 }
 
-/// Fills the bounding box in the variant's numbers.
+/// Fills the bounding box in the method's numbers.
 ///
 /// @param vertices In pixels, not snapped. When a coordinate is not a number or reaches 2^30 steps,
 ///                 nothing is visited.
 template <std::invocable<ivec2, vec3> Emit>
-void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>& vertices,
+void fill_bounding_box_as(const FillMethod& method, const std::array<dvec2, 3>& vertices,
                           ivec2 size, Emit&& emit) {
-    const int bits = variant.subpixel_bits, scale_bits = std::max(bits, 1);  // centres are whole
+    const int bits = method.subpixel_bits, scale_bits = std::max(bits, 1);  // centres are whole
     const double limit = std::ldexp(1.0, 30 - scale_bits);
     for (const dvec2 p : vertices)
         if (!(std::abs(p.x) < limit && std::abs(p.y) < limit)) return;
@@ -117,7 +121,7 @@ void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>
                     std::llrint(std::ldexp(vertices[i][axis], bits)) << (scale_bits - bits));
         fill_bounding_box<Number>(whole, one << scale_bits, size, emit);
     };
-    switch (variant.edges) {
+    switch (method.edges) {
         case EdgeNumber::int64:
             return snapped(std::int64_t{1});
         case EdgeNumber::int32:
@@ -131,19 +135,19 @@ void fill_bounding_box_as(const FillVariant& variant, const std::array<dvec2, 3>
 }
 
 /// Whether other numbers than fill_triangle's are asked for.
-inline bool is_fill_variant(const FillVariant& variant) {
-    return variant.edges != EdgeNumber::int64 || variant.subpixel_bits != subpixel_bits;
+inline bool is_another_method(const FillMethod& method) {
+    return method.edges != EdgeNumber::int64 || method.subpixel_bits != subpixel_bits;
 }
 
-/// fill_triangle, or fill_bounding_box_as if the variant asks for other numbers.
+/// fill_triangle, or fill_bounding_box_as if the method asks for other numbers.
 ///
 /// @param on_screen  The triangle as snap_triangle gives it, for fill_triangle.
 /// @param vertices    The same in pixels, not snapped.
 template <std::invocable<ivec2, vec3> Emit>
-void fill(const FillVariant& variant, const ScreenTriangle& on_screen,
+void fill(const FillMethod& method, const ScreenTriangle& on_screen,
           const std::array<dvec2, 3>& vertices, ivec2 size, Emit&& emit) {
-    if (is_fill_variant(variant))
-        fill_bounding_box_as(variant, vertices, size, emit);
+    if (is_another_method(method))
+        fill_bounding_box_as(method, vertices, size, emit);
     else
         fill_triangle(on_screen, size, emit);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other ways to draw the line of lesson 01, shown by `--line` and measured in
-/// docs/accuracy/01_bresenham_lines.md.
+/// Other ways to draw the line of lesson 01; measured in docs/accuracy/01_bresenham_lines.md.
 #pragma once
 
 #include <algorithm>
