@@ -14,7 +14,7 @@
 
 #include "04_mvp/camera.hpp"
 #include "04_mvp/instance.hpp"
-#include "04_mvp/mvp_variants.hpp"
+#include "04_mvp/projection.hpp"
 #include "04_mvp/transform.hpp"
 #include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
@@ -44,7 +44,8 @@ Image<u8vec4> picture(By by, double turn_degrees, ivec2 size, bool is_of_depths)
         "--size", std::to_string(size.x) + "x" + std::to_string(size.y)};
     if (by == By::orthographic) arguments.insert(arguments.end(), {"--view", "orthographic"});
     if (is_of_depths) arguments.push_back("--depth");
-    const ProcessResult run = run_program("04_mvp", arguments);
+    const ProcessResult run =
+        run_program(by == By::orthographic ? "lab_04_mvp" : "04_mvp", arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return run.exit_status == 0 ? read_image(out) : Image<u8vec4>(size);
 }
@@ -236,7 +237,8 @@ TEST(Mvp, Eq4_14_AnInstanceIsCulledByWhereItStands) {
     const Camera camera = {eye, look_at(eye, center, vec3(0, 1, 0)), 1, 1, center};
     const auto visited = [&](const mat4& world_from_model) {
         int count = 0;
-        for_each_visible_triangle(MvpVariant{}, {mesh, world_from_model}, camera, ivec2(64),
+        for_each_visible_triangle(mesh, camera.clip_from_world(ivec2(64)) * world_from_model,
+                                  ivec2(64), Culling::back_faces,
                                   [&](const ProjectedTriangle&) { ++count; });
         return count;
     };
@@ -263,12 +265,12 @@ TEST(Mvp, PictureOfTheModelMatrix) {
         ASSERT_TRUE(is_in_its_place(By::orthographic, turn_degrees));
     for (const double turn_degrees : {pot_turn_degrees, 160.0})
         ASSERT_TRUE(has_the_colors_of_its_normals(By::orthographic, turn_degrees));
-    EXPECT_TRUE(equals_golden("04_mvp", "04_mvp_model", {"--view", "orthographic"}, on_edges));
+    EXPECT_TRUE(equals_golden("lab_04_mvp", "04_mvp_model", {"--view", "orthographic"}, on_edges));
 }
 
 TEST(Mvp, PictureOfTheSceneFromAbove) {
     EXPECT_TRUE(equals_golden(
-        "04_mvp", "04_mvp_above",
+        "lab_04_mvp", "04_mvp_above",
         {"--clip", "pixel", "--yaw", "-20", "--pitch", "60", "--distance", "1.5"}, on_edges));
 }
 

@@ -171,8 +171,8 @@ TEST(Allocations, AreCounted) {
 }
 
 TEST(Allocations, OfLesson04DoNotDependOnTriangles) {
-    EXPECT_TRUE(does_not_depend_on_triangles(
-        lesson_04::Options(), [](const auto& options, const Scene& scene) {
+    EXPECT_TRUE(
+        does_not_depend_on_triangles(PotOptions(), [](const auto& options, const Scene& scene) {
             const test::CountedSince counters;
             const std::size_t count = allocations_of([&] { lesson_04::render(options, scene); });
             expect_many(counters, Counter::fragments_shaded);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "04_mvp/transform.hpp"
+#include "common/app/lesson_app.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
@@ -17,6 +18,18 @@ namespace rasterbook {
 struct Instance {
     const Mesh& mesh;
     mat4 world_from_model;
+};
+
+struct PotOptions : LessonOptions {
+    Orbit orbit;
+    bool show_depth = false;
+    float turn_degrees = -40;
+
+    PotOptions() { model = "scene.obj"; }
+    void declare(Knobs& knobs) {
+        knobs.number("--turn", turn_degrees, -36000, 36000,
+                     "The coffee pot's rotation, in degrees, counter-clockwise from above");
+    }
 };
 
 /// The meshes of a scene as they stand; and where there are a teapot and a crate, the teapot again.

@@ -18,7 +18,6 @@
 #include "03_z_buffer/probe.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/instance.hpp"
-#include "04_mvp/mvp_variants.hpp"
 #include "04_mvp/projection.hpp"
 #include "common/probe/pixel_report.hpp"
 
@@ -107,59 +106,23 @@ inline vec3 report_face(PixelReport& report, const Instance& instance, const Tri
     return color;
 }
 
-/// Explains a pixel of render_by_pixels().
-template <typename Options>
-vec3 probed_by_pixels(const Options& options, const Scene& scene,
-                      std::span<const Instance> instances, const Camera& camera, ivec2 pixel,
-                      PixelReport& report) {
-    const OrthographicView orthographic(scene, options.size);
-    DepthBuffer nearest(ivec2(1));
-    PixelHistory history;
-    std::optional<std::pair<const Instance*, const Triangle*>> seen;
-    for (const Instance& instance : instances) {
-        const auto positions_clip =
-            options.mvp.view == View::orthographic
-                ? transform(orthographic, options.size, positions_world(instance))
-                : transform(options.mvp, camera, options.size, instance);
-        for (const Triangle& triangle : instance.mesh.triangles)
-            fill_homogeneous(
-                whole_triangle(vertices_of(triangle, positions_clip)), options.size,
-                [&](ivec2 filled, float depth) {
-                    const std::string name = name_of(instance.mesh, triangle, scene.materials);
-                    if (filled == pixel && test_depth(nearest, name, {}, depth, history))
-                        seen.emplace(&instance, &triangle);
-                });
-    }
-    history.print(report, scene.meshes);
-    if (!seen) return report_backdrop(report, pixel, options.size);
-    report.section("seen: " + name_of(seen->first->mesh, *seen->second, scene.materials));
-    return report_face(report, *seen->first, *seen->second, scene);
-}
-
 /// Explains pixels of this lesson's picture.
 ///
-/// @param options    With MvpVariant `mvp`. It has to outlive the probe, and so has the scene.
-template <typename Options>
-PixelProbe mvp_probe(const Options& options, const Scene& scene, std::vector<Instance> instances) {
-    const Camera camera = orbit_camera(options.orbit, scene.bounds());
+/// @param options,scene  Have to outlive the probe.
+inline PixelProbe mvp_probe(const PotOptions& options, const Scene& scene,
+                            std::vector<Instance> instances) {
+    const mat4 clip_from_world =
+        orbit_camera(options.orbit, scene.bounds()).clip_from_world(options.size);
     std::vector<ProjectedTriangle> triangles;
     std::vector<std::size_t> ends;  // of each instance's triangles
     for (const Instance& instance : instances) {
         for_each_visible_triangle(
-            instance.mesh, camera.clip_from_world(options.size) * instance.world_from_model,
-            options.size, Culling::none,
-            [&](const ProjectedTriangle& projected) { triangles.push_back(projected); },
-            [&](const std::vector<vec3>&) {
-                return transform(options.mvp, camera, options.size, instance);
-            },
-            [&](const auto& vertices) { return clip(options.mvp, vertices, options.size); });
+            instance.mesh, clip_from_world * instance.world_from_model, options.size, Culling::none,
+            [&](const ProjectedTriangle& projected) { triangles.push_back(projected); });
         ends.push_back(triangles.size());
     }
-    return [&options, &scene, instances = std::move(instances), camera,
-            triangles = std::move(triangles),
+    return [&options, &scene, instances = std::move(instances), triangles = std::move(triangles),
             ends = std::move(ends)](ivec2 pixel, PixelReport& report) {
-        if (options.mvp.asks_pixels())
-            return probed_by_pixels(options, scene, instances, camera, pixel, report);
         const auto seen = report_triangles(report, triangles, Culling::back_faces, scene, pixel);
         if (!seen) return report_backdrop(report, pixel, options.size);
         std::size_t i = 0;

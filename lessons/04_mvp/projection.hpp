@@ -48,13 +48,11 @@ enum class Culling { back_faces, none };
 ///
 /// Counts the mesh and its triangles, and what of them is culled.
 ///
-/// @param size       Of the picture, in pixels.
-/// @param visit      Called as visit(const ProjectedTriangle&).
-/// @param transform  Called as transform(positions): takes the mesh's positions to clip space.
-/// @param clip       Called as clip(vertices_clip): gives the ClippedTriangles of one triangle.
-template <typename Visit, typename Transform, typename Clip>
+/// @param size   Of the picture, in pixels.
+/// @param visit  Called as visit(const ProjectedTriangle&).
+template <typename Visit>
 void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, ivec2 size,
-                               Culling culling, Visit&& visit, Transform&& transform, Clip&& clip) {
+                               Culling culling, Visit&& visit) {
     count(Counter::meshes_in);
     count_undrawn_if_asked(mesh, clip_from_model);
     if (is_outside_frustum(mesh.bounds, clip_from_model)) {
@@ -62,10 +60,11 @@ void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, iv
         return;
     }
     if (!mesh.tangents.empty()) count(Counter::meshes_with_tangents);
-    const std::vector<vec4> positions_clip = transform(mesh.positions);
+    const std::vector<vec4> positions_clip = transform(clip_from_model, mesh.positions);
     for (const Triangle& triangle : mesh.triangles) {
         count(Counter::triangles_in);
-        for (const ClippedTriangle& clipped : clip(vertices_of(triangle, positions_clip))) {
+        for (const ClippedTriangle& clipped :
+             clip_triangle(vertices_of(triangle, positions_clip))) {
             const ProjectedTriangle projected = project(mesh, triangle, clipped, size);
             if (projected.is_back_facing && culling == Culling::back_faces)
                 count(Counter::triangles_culled_by_facing);
@@ -75,16 +74,12 @@ void for_each_visible_triangle(const Mesh& mesh, const mat4& clip_from_model, iv
     }
 }
 
-/// Visits what may be visible of a scene, transformed in float and clipped by all six planes.
+/// Visits what may be visible of a scene.
 template <typename Visit>
 void for_each_visible_triangle(const Scene& scene, const mat4& clip_from_world, ivec2 size,
                                Culling culling, Visit&& visit) {
-    const auto to_clip_space = [&](const std::vector<vec3>& positions) {
-        return transform(clip_from_world, positions);
-    };
     for (const Mesh& mesh : scene.meshes)
-        for_each_visible_triangle(mesh, clip_from_world, size, culling, visit, to_clip_space,
-                                  clip_triangle);
+        for_each_visible_triangle(mesh, clip_from_world, size, culling, visit);
 }
 
 }  // namespace rasterbook

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "04_mvp/mvp_variants.hpp"
 #include "accuracy/accuracy.hpp"
+#include "lab/mvp_methods.hpp"
 #include "support/projected.hpp"
 #include "support/seen_by_rays.hpp"
 
@@ -85,7 +85,7 @@ constexpr ivec2 picture_size(256);
 /// Draws a triangle as the lesson does; calls emit(pixel) where its depth is that of something
 /// seen.
 template <typename Emit>
-void draw(const MvpVariant& variant, const std::array<vec4, 3>& vertices, Emit&& emit) {
+void draw(const MvpMethod& variant, const std::array<vec4, 3>& vertices, Emit&& emit) {
     if (variant.clipping == Clipping::pixels)
         return fill_homogeneous(whole_triangle(vertices), picture_size, [&](ivec2 pixel, float z) {
             if (z < DepthBuffer::cleared) emit(pixel);
@@ -102,7 +102,7 @@ void draw(const MvpVariant& variant, const std::array<vec4, 3>& vertices, Emit&&
 
 /// Pixels of a million, of those that should be drawn, that are drawn and should not be, or the
 /// other way round, or twice.
-double wrong_of_a_million(const MvpVariant& variant, const std::vector<ClipVertices>& triangles) {
+double wrong_of_a_million(const MvpMethod& variant, const std::vector<ClipVertices>& triangles) {
     double wrong = 0, seen = 0;
     for (const ClipVertices& vertices : triangles) {
         Image<std::uint8_t> hits(picture_size, 0);
@@ -123,7 +123,7 @@ void add_clippings(const char* comparison, const std::vector<ClipVertices>& tria
     const std::pair<const char*, Clipping> clippings[] = {
         {"six", Clipping::six_planes}, {"near", Clipping::near_plane}, {"pixel", Clipping::pixels}};
     for (const auto& [name, clipping] : clippings) {
-        const MvpVariant variant{.clipping = clipping};
+        const MvpMethod variant{.clipping = clipping};
         add_variant(comparison, name, static_cast<double>(triangles.size()),
                     {{"wrong of a million", wrong_of_a_million(variant, triangles)}}, [=] {
                         for (const ClipVertices& vertices : triangles)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other number types to compute positions in, and other ways to clip, to be seen with
-/// `--precision`, `--offset` and `--clip`, and measured in docs/accuracy/04_mvp.md; and the scene
-/// without a camera, by `--view orthographic`.
+/// Other number types to compute the positions of lesson 04 in, and other ways to clip; measured in
+/// docs/accuracy/04_mvp.md; and the scene without a camera.
 #pragma once
 
 #include <algorithm>
@@ -34,11 +33,13 @@ enum class Clipping { six_planes, near_plane, pixels };
 /// What takes the world to the screen: the lesson's camera, or what lessons 01 to 03 have.
 enum class View { camera, orthographic };
 
-struct MvpVariant {
+struct MvpMethod {
     Precision precision = Precision::float32;
     double offset = 0;  ///< Of scene and camera in the world, along each axis.
     Clipping clipping = Clipping::six_planes;
     View view = View::camera;
+
+    bool operator==(const MvpMethod&) const = default;
 
     /// Whether nothing is clipped, and each pixel is asked.
     bool asks_pixels() const { return clipping == Clipping::pixels || view == View::orthographic; }
@@ -109,23 +110,23 @@ glm::mat<4, 4, T> clip_from_world_in(const Camera& camera, glm::vec<3, T> eye,
 }
 
 /// The points as the camera sees them, in clip space: transform(), or with camera and points moved
-/// by the variant's offset, computed as it says.
+/// by the method's offset, computed as it says.
 ///
 /// @param camera  Before the move.
-inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& camera, ivec2 size,
+inline std::vector<vec4> transform(const MvpMethod& method, const Camera& camera, ivec2 size,
                                    const std::vector<vec3>& positions) {
     const vec3 center = camera.center_world;
-    if (variant.precision == Precision::float32) {
-        if (variant.offset == 0) return transform(camera.clip_from_world(size), positions);
-        const auto offset = static_cast<float>(variant.offset);
+    if (method.precision == Precision::float32) {
+        if (method.offset == 0) return transform(camera.clip_from_world(size), positions);
+        const auto offset = static_cast<float>(method.offset);
         return transform(
             clip_from_world_in(camera, camera.position_world + offset, center + offset, size),
             moved(positions, offset));
     }
-    const dvec3 eye = dvec3(camera.position_world) + variant.offset;
-    const dvec3 center_moved = dvec3(center) + variant.offset;
-    const std::vector<dvec3> positions_world = moved(positions, variant.offset);
-    if (variant.precision == Precision::relative)
+    const dvec3 eye = dvec3(camera.position_world) + method.offset;
+    const dvec3 center_moved = dvec3(center) + method.offset;
+    const std::vector<dvec3> positions_world = moved(positions, method.offset);
+    if (method.precision == Precision::relative)
         return transform_relative(
             clip_from_world_in(camera, vec3(0), vec3(center_moved - eye), size), eye,
             positions_world);
@@ -133,12 +134,12 @@ inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& came
 }
 
 /// An instance in clip space: by one matrix where nothing else is asked for.
-inline std::vector<vec4> transform(const MvpVariant& variant, const Camera& camera, ivec2 size,
+inline std::vector<vec4> transform(const MvpMethod& method, const Camera& camera, ivec2 size,
                                    const Instance& instance) {
-    if (variant.precision == Precision::float32 && variant.offset == 0)
+    if (method.precision == Precision::float32 && method.offset == 0)
         return transform(camera.clip_from_world(size) * instance.world_from_model,
                          instance.mesh.positions);
-    return transform(variant, camera, size, positions_world(instance));
+    return transform(method, camera, size, positions_world(instance));
 }
 
 /// The points as lesson 03 has them on the screen, in clip space with a w of 1.
@@ -192,23 +193,37 @@ inline ClippedTriangles clip_near(const std::array<vec4, 3>& vertices, ivec2 siz
     return clipped;
 }
 
-/// clip_triangle, or the variant in its place.
-inline ClippedTriangles clip(const MvpVariant& variant, const std::array<vec4, 3>& vertices,
+/// clip_triangle, or the method in its place.
+inline ClippedTriangles clip(const MvpMethod& method, const std::array<vec4, 3>& vertices,
                              ivec2 size) {
-    return variant.clipping == Clipping::near_plane ? clip_near(vertices, size)
-                                                    : clip_triangle(vertices);
+    return method.clipping == Clipping::near_plane ? clip_near(vertices, size)
+                                                   : clip_triangle(vertices);
 }
 
-/// for_each_visible_triangle of an instance, transformed and clipped as the variant has it; backs
+/// for_each_visible_triangle of an instance, transformed and clipped as the method has it; backs
 /// are culled.
 template <typename Visit>
-void for_each_visible_triangle(const MvpVariant& variant, const Instance& instance,
+void for_each_visible_triangle(const MvpMethod& method, const Instance& instance,
                                const Camera& camera, ivec2 size, Visit&& visit) {
+    count(Counter::meshes_in);
     const mat4 clip_from_model = camera.clip_from_world(size) * instance.world_from_model;
-    for_each_visible_triangle(
-        instance.mesh, clip_from_model, size, Culling::back_faces, visit,
-        [&](const std::vector<vec3>&) { return transform(variant, camera, size, instance); },
-        [&](const std::array<vec4, 3>& vertices) { return clip(variant, vertices, size); });
+    count_undrawn_if_asked(instance.mesh, clip_from_model);
+    if (is_outside_frustum(instance.mesh.bounds, clip_from_model)) {
+        count(Counter::meshes_culled_by_frustum);
+        return;
+    }
+    const std::vector<vec4> positions_clip = transform(method, camera, size, instance);
+    for (const Triangle& triangle : instance.mesh.triangles) {
+        count(Counter::triangles_in);
+        for (const ClippedTriangle& clipped :
+             clip(method, vertices_of(triangle, positions_clip), size)) {
+            const ProjectedTriangle projected = project(instance.mesh, triangle, clipped, size);
+            if (projected.is_back_facing)
+                count(Counter::triangles_culled_by_facing);
+            else
+                visit(projected);
+        }
+    }
 }
 
 /// A triangle in clip space with vertices anywhere, also behind the camera: the planes through the

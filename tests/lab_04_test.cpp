@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "04_mvp/mvp_variants.hpp"
 #include "common/image/image_io.hpp"
+#include "lab/mvp_methods.hpp"
 #include "support/lesson_process.hpp"
 #include "support/printers.hpp"
 #include "support/projected.hpp"
@@ -33,7 +33,7 @@ struct Drawn {
 };
 
 /// As in the lesson; what is infinitely far away is not kept.
-void draw(const MvpVariant& variant, const ClipVertices& vertices, Drawn& drawn) {
+void draw(const MvpMethod& variant, const ClipVertices& vertices, Drawn& drawn) {
     const auto keep = [&](ivec2 pixel, float z) {
         if (!(z > DepthBuffer::cleared)) return;
         ++drawn.hits[pixel];
@@ -89,7 +89,7 @@ int differing_pixels(const Image<u8vec4>& a, const Image<u8vec4>& b) {
 Image<u8vec4> picture(std::vector<std::string> arguments) {
     const std::string out = (fresh_folder("mvp_knobs") / "picture.bmp").string();
     arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
-    const ProcessResult run = run_program("04_mvp", arguments);
+    const ProcessResult run = run_program("lab_04_mvp", arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     return read_image(out);
@@ -97,7 +97,7 @@ Image<u8vec4> picture(std::vector<std::string> arguments) {
 
 }  // namespace
 
-TEST(MvpVariants, EveryClippingDrawsWhatRaysSee) {
+TEST(LabMvp, EveryClippingDrawsWhatRaysSee) {
     // Vertices are snapped by up to 1/512 pixel in x and in y, and so are those that cutting adds.
     constexpr long double snapped_px = 1.0L / 256;
     // Those of `pixel` are not: what is left is the rounding of double.
@@ -115,7 +115,7 @@ TEST(MvpVariants, EveryClippingDrawsWhatRaysSee) {
     EXPECT_GT(seen, 50'000);
 }
 
-TEST(MvpVariants, EveryClippingGivesTheSameDepths) {
+TEST(LabMvp, EveryClippingGivesTheSameDepths) {
     // A pixel or more from the border depths change by less than 1 in a pixel, and snapping moves
     // by less than 1/256 of it. Slivers may be steeper.
     constexpr float tolerance = 1.0f / 256;
@@ -136,7 +136,7 @@ TEST(MvpVariants, EveryClippingGivesTheSameDepths) {
     EXPECT_GT(compared, 10'000);
 }
 
-TEST(MvpVariants, TrianglesInsideAreLeftAsTheyAre) {
+TEST(LabMvp, TrianglesInsideAreLeftAsTheyAre) {
     for (const ClipVertices& vertices : small_triangles(400)) {
         bool is_inside = true;
         for (const vec4 vertex : vertices)
@@ -153,7 +153,7 @@ TEST(MvpVariants, TrianglesInsideAreLeftAsTheyAre) {
     }
 }
 
-TEST(MvpVariants, NearCuttingLeavesNothingThatFillTriangleRefuses) {
+TEST(LabMvp, NearCuttingLeavesNothingThatFillTriangleRefuses) {
     // fill_triangle takes 4 million pixels: about 65,500 times half of the picture's width, and
     // 131,000 times half of its height. What reaches farther is cut by six planes.
     struct Case {
@@ -174,7 +174,7 @@ TEST(MvpVariants, NearCuttingLeavesNothingThatFillTriangleRefuses) {
     }
 }
 
-TEST(MvpVariants, NearCuttingForgetsTheTriangleBefore) {
+TEST(LabMvp, NearCuttingForgetsTheTriangleBefore) {
     // The near plane leaves four corners of the first, of which the last, a million halves of the
     // picture to the right, is too far. The second only leaves the picture.
     const ClipVertices too_far = {vec4(2e6f, -1, 0.5f, 1), vec4(1, 0, 0.5f, 1),
@@ -190,7 +190,7 @@ TEST(MvpVariants, NearCuttingForgetsTheTriangleBefore) {
     }
 }
 
-TEST(MvpVariants, TrianglesThatShareSidesVisitEachPixelOnce) {
+TEST(LabMvp, TrianglesThatShareSidesVisitEachPixelOnce) {
     // A fan around a pixel's centre, with vertices behind the camera and sides through centres.
     for (const float tilt : {0.0f, 0.3f, 0.6f}) {
         Drawn result;
@@ -214,7 +214,7 @@ TEST(MvpVariants, TrianglesThatShareSidesVisitEachPixelOnce) {
     }
 }
 
-TEST(MvpVariants, CentresOnSidesBelongToTheSameTriangleWithEveryClipping) {
+TEST(LabMvp, CentresOnSidesBelongToTheSameTriangleWithEveryClipping) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> column(0, 15), row(0, 7), power(0, 2);
     for (int i = 0; i < 300; ++i) {
@@ -233,7 +233,7 @@ TEST(MvpVariants, CentresOnSidesBelongToTheSameTriangleWithEveryClipping) {
     }
 }
 
-TEST(MvpVariants, BackFacesAndDegenerateTrianglesAreNotDrawn) {
+TEST(LabMvp, BackFacesAndDegenerateTrianglesAreNotDrawn) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const Clipping clipping : {Clipping::six_planes, Clipping::near_plane, Clipping::pixels}) {
         const vec4 a(-0.5f, -0.5f, 0, 1), b(0.5f, -0.5f, 0, 1), c(0, 0.5f, 0, 1);
@@ -247,7 +247,7 @@ TEST(MvpVariants, BackFacesAndDegenerateTrianglesAreNotDrawn) {
     }
 }
 
-TEST(MvpVariants, TrianglesInTheNearPlaneAndInfinitelyFarAwayAreDrawn) {
+TEST(LabMvp, TrianglesInTheNearPlaneAndInfinitelyFarAwayAreDrawn) {
     // All of its numbers are sums of a few powers of two: nothing rounds.
     const auto visited = [](float z, float expected_depth) {
         int pixels = 0;
@@ -267,7 +267,7 @@ TEST(MvpVariants, TrianglesInTheNearPlaneAndInfinitelyFarAwayAreDrawn) {
     EXPECT_EQ(visited(-0.25f, 0), 0) << "pixels of a triangle beyond infinity";
 }
 
-TEST(MvpVariants, NeedlesBesideThePictureAndBehindTheCameraAreNotDrawn) {
+TEST(LabMvp, NeedlesBesideThePictureAndBehindTheCameraAreNotDrawn) {
     // Each is so thin that its volume and a pixel's shares in it are what rounding leaves; those of
     // the pixel named here come out as if it were inside.
     const ClipVertices beside = {vec4(-0x1.bfp+4f, -0x1.62ep-3f, 0, 1),
@@ -293,7 +293,7 @@ TEST(MvpVariants, NeedlesBesideThePictureAndBehindTheCameraAreNotDrawn) {
         << "two vertices behind the camera, one beside it, in a plane through pixel (88, 32)";
 }
 
-TEST(MvpVariants, RelativeIsFloatAroundTheCameraAndDoubleRoundsOnce) {
+TEST(LabMvp, RelativeIsFloatAroundTheCameraAndDoubleRoundsOnce) {
     // It looks at the origin, as cameras do of which nothing else is said.
     const Camera camera = {{0, 0, 5}, translation(vec3(0, 0, -5)), 1, 0.5f};
     const Camera at_origin = {vec3(0), mat4(1), 1, 0.5f, {0, 0, -5}};
@@ -328,7 +328,7 @@ TEST(MvpVariants, RelativeIsFloatAroundTheCameraAndDoubleRoundsOnce) {
     }
 }
 
-TEST(MvpVariants, OnlyFloatDependsOnWhereTheWorldIs) {
+TEST(LabMvp, OnlyFloatDependsOnWhereTheWorldIs) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-4, 4);
     std::vector<vec3> positions;
@@ -360,7 +360,7 @@ TEST(MvpVariants, OnlyFloatDependsOnWhereTheWorldIs) {
               transform(camera.clip_from_world(size), positions));
 }
 
-TEST(MvpVariants, WhatIsFlattenedToALineHasTheColorOfWhatFacesUp) {
+TEST(LabMvp, WhatIsFlattenedToALineHasTheColorOfWhatFacesUp) {
     // x and y become (x, 0.3 x): a line, that faces nowhere. Far from the origin floats are 2
     // apart; there rounding gives the line an area: (0, 0), (8, 2) and (4, 2).
     constexpr float far_away = 0x1p24f;
@@ -377,7 +377,7 @@ TEST(MvpVariants, WhatIsFlattenedToALineHasTheColorOfWhatFacesUp) {
     struct {
         ivec2 size = ::size;
         bool show_depth = false;
-        MvpVariant mvp{.precision = Precision::float64, .clipping = Clipping::pixels};
+        MvpMethod mvp{.precision = Precision::float64, .clipping = Clipping::pixels};
     } const options;
     const vec3 center(far_away + 4, far_away + 2, 0), eye = center + vec3(0, 0, 4);
     const Camera camera = {eye, look_at(eye, center, vec3(0, 1, 0)), 1.5f, 1, center};
@@ -394,7 +394,7 @@ TEST(MvpVariants, WhatIsFlattenedToALineHasTheColorOfWhatFacesUp) {
     EXPECT_GT(seen, 100);
 }
 
-TEST(MvpVariants, EveryKnobDraws) {
+TEST(LabMvp, EveryKnobDraws) {
     const Image<u8vec4> usual = picture({}), close = picture({"--distance", "0.3"});
     for (const std::string offset : {"1000", "100000", "1000000", "10000000"})
         EXPECT_GT(differing_pixels(usual, picture({"--offset", offset})), 0) << offset;
