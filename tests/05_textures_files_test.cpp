@@ -202,7 +202,8 @@ namespace {
 using Arguments = std::vector<std::string>;
 
 /// What the lesson's first step can draw; and what the last one draws.
-const Arguments of_step_1 = {"--filter", "nearest", "--mapping", "affine", "--srgb", "ignored"};
+const Arguments of_step_1 = {"lab",    "--filter", "nearest", "--mapping",
+                             "affine", "--srgb",   "ignored"};
 const Arguments of_all_steps = {"--filter", "nearest"};
 
 void expect_four_texels_upright(const Arguments& arguments) {
@@ -393,7 +394,7 @@ TEST(Textures, PictureOfFourTexelsMean) {
 }
 
 TEST(Textures, PictureOfTheAffineMapping) {
-    EXPECT_TRUE(equals_golden("05_textures", "05_textures_affine",
+    EXPECT_TRUE(equals_golden("lab_05_textures", "05_textures_affine",
                               {"--model", "horizon.obj", "--distance", "0.035", "--pitch", "12",
                                "--yaw", "-25", "--mapping", "affine"}));
 }

@@ -71,7 +71,6 @@ TEST(Probe, Lesson03SaysWhatThePictureHas) {
 TEST(Probe, Lesson04SaysWhatThePictureHas) {
     PotOptions exact, smooth;
     exact.turn_degrees = 70;
-    near.mvp.clipping = Clipping::near_plane, near.orbit.distance = 0.6f;
     smooth.samples_per_side = 2, smooth.orbit.distance = 0.3f;
     const Scene scene = loaded("scene.obj");
     const auto expect = [&](const auto& options, int pixels) {
@@ -87,14 +86,12 @@ TEST(Probe, Lesson04SaysWhatThePictureHas) {
 }
 
 TEST(Probe, Lesson05SaysWhatThePictureHas) {
-    lesson_05::Options exact, nearest, bilinear, affine_mapping, spans, smooth;
+    TexturedSceneOptions exact, nearest, bilinear, smooth;
     nearest.texture.filter = Filter::nearest, nearest.texture.wrap = Wrap::mirror;
     bilinear.texture.filter = Filter::bilinear, bilinear.texture.wrap = Wrap::clamp;
-    affine_mapping.texture.mapping = affine, affine_mapping.orbit.distance = 0.6f;
-    spans.texture.mapping = 16;
     smooth.samples_per_side = 2;
     const auto expect = [&](const auto& options, const char* model, int pixels) {
-        const auto assets = lesson_05::make_assets(loaded(model), options);
+        const auto assets = load_textured_scene(loaded(model), options);
         expect_the_pictures_pixels(
             options, assets, pixels, [](auto&... with) { return lesson_05::render(with...); },
             [](const auto&... with) { return texture_probe(with...); });
@@ -103,8 +100,6 @@ TEST(Probe, Lesson05SaysWhatThePictureHas) {
     expect(exact, "horizon.obj", 100);
     expect(nearest, "scene.obj", 150);
     expect(bilinear, "floor_checker.obj", 150);
-    expect(affine_mapping, "scene.obj", 100);
-    expect(spans, "floor_checker.obj", 100);
     expect(smooth, "scene.obj", 100);
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "05_textures/texture.hpp"
-#include "05_textures/texture_variants.hpp"
+#include "05_textures/texture_options.hpp"
 #include "05_textures/textures.hpp"
 #include "common/model/mesh.hpp"
 #include "common/model/texture_file.hpp"
@@ -70,6 +70,26 @@ inline MaterialTextures load_diffuse_textures(Scene& scene, const TextureOptions
         scene, &Material::diffuse_map, "map_Kd", options,
         [&](const Image<u8vec4>& image, WrapModes) { return options.decoded(image); },
         [](const Material&) { return true; });
+}
+
+struct TexturedSceneOptions : LessonOptions {
+    Orbit orbit;
+    bool show_depth = false;
+    TextureOptions texture;
+
+    TexturedSceneOptions() { model = "scene.obj"; }
+    void declare(Knobs& knobs) { texture.declare(knobs); }
+};
+
+/// What is made once, before the first frame.
+struct TexturedScene {
+    Scene scene;
+    MaterialTextures textures;
+};
+
+inline TexturedScene load_textured_scene(Scene scene, const TexturedSceneOptions& options) {
+    MaterialTextures textures = load_diffuse_textures(scene, options.texture);
+    return {std::move(scene), std::move(textures)};
 }
 
 }  // namespace rasterbook

@@ -14,27 +14,7 @@
 
 using namespace rasterbook;
 
-struct Options : LessonOptions {
-    Orbit orbit;
-    bool show_depth = false;
-    TextureVariant texture;
-
-    Options() { model = "scene.obj"; }
-    void declare(Knobs& knobs) { texture.declare(knobs); }
-};
-
-/// What is made once, before the first frame.
-struct Assets {
-    Scene scene;
-    MaterialTextures textures;
-};
-
-static Assets make_assets(Scene scene, const Options& options) {
-    MaterialTextures textures = load_diffuse_textures(scene, options.texture);
-    return {std::move(scene), std::move(textures)};
-}
-
-static Image<vec3> render(const Options& options, const Assets& assets) {
+static Image<vec3> render(const TexturedSceneOptions& options, const TexturedScene& assets) {
     const auto& [scene, textures] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -47,7 +27,7 @@ static Image<vec3> render(const Options& options, const Assets& assets) {
         const Texture* const texture = textures[projected.triangle.material].get();
         const std::array<vec2, 3> uvs =
             uvs_of(projected.mesh, projected.triangle, material.diffuse_map, texture);
-        MappedBarycentrics mapped(options.texture, projected.on_screen, projected.clipped);
+        const PerspectiveSetup setup = perspective_setup(projected);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
             count(Counter::fragments_tested);
@@ -56,7 +36,7 @@ static Image<vec3> render(const Options& options, const Assets& assets) {
             color[pixel] = face_color;
             if (texture == nullptr) return;
             count(Counter::texture_samples);
-            const FragmentUv uv = fragment_uv(uvs, mapped.at(pixel, on_screen));
+            const FragmentUv uv = fragment_uv(uvs, perspective_correct(setup, on_screen));
             color[pixel] *= vec3(sample(*texture, options.texture.filter, uv));
         });
     };
@@ -66,7 +46,7 @@ static Image<vec3> render(const Options& options, const Assets& assets) {
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "05_textures", "Draws a scene with textures.",
-                               make_assets, render,
-                               [](auto&... of) { return texture_probe(of...); });
+    return run_lesson<TexturedSceneOptions>(
+        argc, argv, "05_textures", "Draws a scene with textures.", load_textured_scene, render,
+        [](auto&... of) { return texture_probe(of...); });
 }

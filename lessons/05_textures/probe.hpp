@@ -15,7 +15,7 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/probe.hpp"
 #include "04_mvp/projection.hpp"
-#include "05_textures/texture_variants.hpp"
+#include "05_textures/load_textures.hpp"
 #include "05_textures/textures.hpp"
 #include "common/probe/pixel_report.hpp"
 
@@ -95,30 +95,10 @@ inline vec4 report_sample(PixelReport& report, const char* name, const Texture& 
     return color;
 }
 
-/// The barycentric coordinates on the surface, as a variant finds them: some depend on the pixels
-/// to the left, so the row is drawn up to this pixel.
-inline FragmentBarycentrics mapped_in_row(std::span<const ProjectedTriangle> triangles,
-                                          const TextureVariant& variant, const SeenFragment& seen,
-                                          ivec2 pixel) {
-    FragmentBarycentrics on_surface{};
-    DepthBuffer row({pixel.x + 1, 1});
-    for (const ProjectedTriangle& projected : triangles) {
-        if (projected.is_back_facing) continue;
-        MappedBarycentrics mapped(variant, projected.on_screen, projected.clipped);
-        fill_triangle(projected.on_screen, {0, pixel.y}, pixel, [&](ivec2 at, Barycentrics b) {
-            if (!row.test_and_write({at.x, 0}, projected.depth.at(b))) return;
-            if (&projected == seen.projected) on_surface = mapped.at(at, b);
-        });
-    }
-    return on_surface;
-}
-
 /// Explains pixels of this lesson's picture.
 ///
-/// @param options  With TextureVariant `texture`. Both have to outlive the probe.
-/// @param assets   A scene and its textures.
-template <typename Options, typename Assets>
-PixelProbe texture_probe(const Options& options, const Assets& assets) {
+/// @param options,assets  Have to outlive the probe.
+inline PixelProbe texture_probe(const TexturedSceneOptions& options, const TexturedScene& assets) {
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
     return [&options, &assets,
             triangles = projected_triangles(assets.scene, camera.clip_from_world(options.size),
@@ -129,7 +109,7 @@ PixelProbe texture_probe(const Options& options, const Assets& assets) {
         const auto& [mesh, triangle] = std::tie(seen->projected->mesh, seen->projected->triangle);
         const Material& material = scene.materials[triangle.material];
         const FragmentBarycentrics on_surface =
-            mapped_in_row(triangles, options.texture, *seen, pixel);
+            perspective_correct(perspective_setup(*seen->projected), seen->on_screen);
         report_perspective(report, *seen->projected, on_surface);
         vec3 color = flat_color(mesh, triangle, material);
         report.line("flat colour", color);

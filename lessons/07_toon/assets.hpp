@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "05_textures/texture_variants.hpp"
+#include "05_textures/texture_options.hpp"
 #include "06_phong/effects.hpp"
 #include "07_toon/toon_variants.hpp"
 #include "common/model/mesh.hpp"

@@ -12,7 +12,7 @@
 
 #include "04_mvp/camera.hpp"
 #include "04_mvp/clip.hpp"
-#include "05_textures/texture_variants.hpp"
+#include "05_textures/texture_options.hpp"
 #include "06_phong/effects.hpp"
 #include "06_phong/light.hpp"
 #include "06_phong/shading_variants.hpp"

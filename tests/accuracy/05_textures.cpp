@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "04_mvp/clip.hpp"
-#include "05_textures/texture_variants.hpp"
+#include "05_textures/texture.hpp"
 #include "accuracy/accuracy.hpp"
 #include "common/image/image_io.hpp"
+#include "lab/texture_methods.hpp"
 #include "support/projected.hpp"
 
 using namespace rasterbook;
@@ -41,11 +42,11 @@ struct Rectangle {
 
 /// Draws as the lesson does; calls emit(pixel, uv).
 template <typename Emit>
-void draw(const TextureVariant& variant, const Rectangle& rectangle, ivec2 size, Emit&& emit) {
+void draw(const TextureMethod& method, const Rectangle& rectangle, ivec2 size, Emit&& emit) {
     for (std::size_t i = 0; i < rectangle.triangles.size(); ++i) {
         const ClippedTriangle& clipped = rectangle.triangles[i];
         const ScreenTriangle on_screen = projected(clipped, size).on_screen;
-        MappedBarycentrics mapped(variant, on_screen, clipped);
+        MappedBarycentrics mapped(method, on_screen, clipped);
         fill_triangle(on_screen, size, [&](ivec2 pixel, Barycentrics screen_barycentrics) {
             emit(pixel, fragment_uv(rectangle.uvs[i], mapped.at(pixel, screen_barycentrics)));
         });
@@ -66,9 +67,9 @@ void add_mappings() {
                                                     {"16", 16},         {"8", 8},   {"4", 4},
                                                     {"perspective", 1}};
     for (const auto& [name, mapping] : mappings) {
-        const TextureVariant variant{{}, mapping};
+        const TextureMethod method{mapping};
         long double greatest = 0, sum_of_squares = 0;
-        draw(variant, wall, size, [&](ivec2 pixel, const FragmentUv& uv) {
+        draw(method, wall, size, [&](ivec2 pixel, const FragmentUv& uv) {
             const long double x = (pixel.x + 0.5L) / size.x;
             const long double u = (x / 100) / ((1 - x) + x / 100);  // u/w over 1/w
             const long double error = texels * std::abs(u - static_cast<long double>(uv.here.x));
@@ -80,11 +81,11 @@ void add_mappings() {
         const Errors errors = {{"greatest error, texels", static_cast<double>(greatest)},
                                {"RMS error, texels", rms}};
         add_variant("mapping", name, pixels, errors, [=] {
-            draw(variant, wall, size,
+            draw(method, wall, size,
                  [](ivec2 pixel, const FragmentUv& uv) { sink[pixel] = uv.here; });
         });
         add_variant("footprint", name, pixels, errors, [=] {
-            draw(variant, wall, size, [](ivec2 pixel, const FragmentUv& uv) {
+            draw(method, wall, size, [](ivec2 pixel, const FragmentUv& uv) {
                 sink[pixel] = uv.here + uv.ddx + uv.ddy;
             });
         });

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "05_textures/texture.hpp"
-#include "05_textures/texture_variants.hpp"
+#include "05_textures/texture_options.hpp"
 #include "13_simd/simd.hpp"
 #include "13_simd/wide_textures.hpp"
 #include "accuracy/accuracy.hpp"

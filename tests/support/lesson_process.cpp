@@ -83,7 +83,11 @@ ProcessResult StartedProgram::wait() {
     return result;
 }
 
-ProcessResult run_program(const std::string& name, const std::vector<std::string>& arguments) {
+ProcessResult run_program(std::string name, std::vector<std::string> arguments) {
+    if (const auto lab = std::ranges::find(arguments, "lab"); lab != arguments.end()) {
+        arguments.erase(lab);
+        name = "lab_" + name;
+    }
     return StartedProgram(name, arguments).wait();
 }
 

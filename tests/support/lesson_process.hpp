@@ -35,9 +35,12 @@ class StartedProgram {
 };
 
 /// Runs a program of the build, such as "03_z_buffer", or any by its whole path, and waits for it.
+///
+/// An argument "lab" stands for the lesson's laboratory, as in ./lessons/run lab.
+///
 /// In the environment, RASTERBOOK_OTHER_BUILD names the folder of a build for another machine, and
 /// RASTERBOOK_EMULATOR what runs its programs (./tests/other_machines).
-ProcessResult run_program(const std::string& name, const std::vector<std::string>& arguments);
+ProcessResult run_program(std::string name, std::vector<std::string> arguments);
 
 /// The bytes of the PNG file that a lesson's program writes.
 std::string bytes_of_picture(const std::string& lesson, std::vector<std::string> arguments);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Other ways to map a texture, filter and decode it. Most are seen with `--mapping`, `--filter`,
-/// `--wrap` and `--srgb`; all are measured in docs/accuracy/05_textures.md.
+/// Other ways to map the textures of lesson 05 and to decode them; measured in
+/// docs/accuracy/05_textures.md.
 #pragma once
 
 #include <algorithm>
@@ -11,50 +11,19 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "05_textures/interpolation.hpp"
 #include "05_textures/texture.hpp"
 #include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 
-/// What an image's stored values are taken for: sRGB, or amounts of light.
-enum class Decoding { srgb, ignored };
+constexpr int affine = 0;  ///< For TextureMethod::mapping: no division at all.
 
-/// How textures are read, in this lesson and all later ones.
-struct TextureOptions {
-    Filter filter = Filter::trilinear;
-    Wrap wrap = Wrap::repeat;  ///< Of maps that ask for none themselves.
-    Decoding decoding = Decoding::srgb;
-    bool keep_going = false;  ///< An image that cannot be read is replaced.
+/// Where perspective is divided out.
+struct TextureMethod {
+    int mapping = 1;  ///< Every so many pixels of a row, or `affine`.
 
     void declare(Knobs& knobs) {
-        knobs.choice("--filter", filter,
-                     {{"nearest", Filter::nearest},
-                      {"bilinear", Filter::bilinear},
-                      {"trilinear", Filter::trilinear}},
-                     "The nearest texel, the mean of four, or of four in each of two mip levels");
-        knobs.choice("--wrap", wrap,
-                     {{"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}, {"clamp", Wrap::clamp}},
-                     "What lies beyond a texture's border");
-        knobs.choice("--srgb", decoding,
-                     {{"decoded", Decoding::srgb}, {"ignored", Decoding::ignored}},
-                     "Whether a texture's sRGB-encoded values are decoded to linear");
-        knobs.flag("--keep-going", keep_going,
-                   "A texture that cannot be read is a warning, and a chessboard takes its place");
-    }
-
-    /// An image's colours, decoded as the options say.
-    Image<vec4> decoded(const Image<u8vec4>& picture) const {
-        return decoding == Decoding::srgb ? linear_from_srgb8(picture) : plain_numbers(picture);
-    }
-};
-
-constexpr int affine = 0;  ///< For TextureVariant::mapping: no division at all.
-
-struct TextureVariant : TextureOptions {
-    int mapping = 1;  ///< Perspective is divided out every so many pixels of a row, or `affine`.
-
-    void declare(Knobs& knobs) {
-        TextureOptions::declare(knobs);
         knobs.choice("--mapping", mapping,
                      {{"affine", affine},
                       {"64", 64},
@@ -63,25 +32,25 @@ struct TextureVariant : TextureOptions {
                       {"8", 8},
                       {"4", 4},
                       {"perspective", 1}},
-                     "Perspective-correct texture coordinates: nowhere, every so many pixels, or "
-                     "everywhere");
+                     "Where perspective is divided out of texture coordinates: nowhere, every so "
+                     "many pixels of a row, or in each");
     }
 };
 
-/// perspective_correct(), or what the variant puts in its place: the coordinates on the screen, or
+/// perspective_correct(), or what the method puts in its place: the coordinates on the screen, or
 /// a division only every so many pixels of a row, and straight lines between.
 ///
 /// @see Abrash, "Michael Abrash's Graphics Programming Black Book", 1997, chapter 63: every 16.
 class MappedBarycentrics {
   public:
-    MappedBarycentrics(const TextureVariant& variant, const ScreenTriangle& on_screen,
+    MappedBarycentrics(const TextureMethod& method, const ScreenTriangle& on_screen,
                        const ClippedTriangle& clipped)
-        : mapping_(variant.mapping),
+        : mapping_(method.mapping),
           whole_from_piece_(clipped[0].barycentrics, clipped[1].barycentrics,
                             clipped[2].barycentrics),
           is_whole_(whole_from_piece_ == mat3(1)),
           exact_(perspective_setup(
-              on_screen, variant.mapping == affine ? without_perspective(clipped) : clipped)),
+              on_screen, method.mapping == affine ? without_perspective(clipped) : clipped)),
           edges_(edges_of(on_screen)),
           row_edges_(edges_),
           inv_area_(static_cast<float>(1.0 / std::abs(static_cast<double>(on_screen.twice_area)))) {

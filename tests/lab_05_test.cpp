@@ -12,8 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "05_textures/texture_variants.hpp"
+#include "05_textures/texture_options.hpp"
 #include "common/image/image_io.hpp"
+#include "lab/texture_methods.hpp"
 #include "support/lesson_process.hpp"
 #include "support/printers.hpp"
 #include "support/projected.hpp"
@@ -94,7 +95,7 @@ constexpr int spans[] = {64, 32, 16, 8, 4, 2};  // those of --mapping, and the s
 template <typename IsLeftOut>
 int expect_straight_spans(const Case& c, int every, IsLeftOut&& is_left_out) {
     const PerspectiveSetup setup = perspective_setup(c.on_screen, c.clipped);
-    MappedBarycentrics mapped({{}, every}, c.on_screen, c.clipped);
+    MappedBarycentrics mapped({every}, c.on_screen, c.clipped);
     const auto length = static_cast<std::size_t>(every);
     int within = 0;
     for (const std::vector<Fragment>& row : rows_of(c.on_screen)) {
@@ -132,7 +133,7 @@ Image<u8vec4> random_picture(ivec2 picture_size) {
 Image<u8vec4> picture(std::vector<std::string> arguments) {
     const std::string out = (fresh_folder("texture_knobs") / "picture.bmp").string();
     arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
-    const ProcessResult run = run_program("05_textures", arguments);
+    const ProcessResult run = run_program("lab_05_textures", arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     return read_image(out);
@@ -149,7 +150,7 @@ long difference(const Image<u8vec4>& a, const Image<u8vec4>& b) {
 
 }  // namespace
 
-TEST(TextureVariants, PerspectiveIsPerspectiveCorrect) {
+TEST(LabTextures, PerspectiveIsPerspectiveCorrect) {
     for (const Case& c : random_cases(100, 50)) {
         MappedBarycentrics mapped({}, c.on_screen, c.clipped);
         const PerspectiveSetup setup = perspective_setup(c.on_screen, c.clipped);
@@ -160,9 +161,9 @@ TEST(TextureVariants, PerspectiveIsPerspectiveCorrect) {
     }
 }
 
-TEST(TextureVariants, AffineIsWhatTheScreenHas) {
+TEST(LabTextures, AffineIsWhatTheScreenHas) {
     for (const Case& c : random_cases(100, 50)) {
-        MappedBarycentrics mapped({{}, affine}, c.on_screen, c.clipped);
+        MappedBarycentrics mapped({affine}, c.on_screen, c.clipped);
         const mat3 whole_from_piece(c.clipped[0].barycentrics, c.clipped[1].barycentrics,
                                     c.clipped[2].barycentrics);
         for (const auto& row : rows_of(c.on_screen))
@@ -182,7 +183,7 @@ TEST(TextureVariants, AffineIsWhatTheScreenHas) {
     }
 }
 
-TEST(TextureVariants, SpansAreExactAtTheirEndsAndStraightBetween) {
+TEST(LabTextures, SpansAreExactAtTheirEndsAndStraightBetween) {
     int within = 0;
     for (const Case& c : random_cases(200, 50))
         for (const int every : spans) {
@@ -192,7 +193,7 @@ TEST(TextureVariants, SpansAreExactAtTheirEndsAndStraightBetween) {
     EXPECT_GT(within, 100'000);
 }
 
-TEST(TextureVariants, SpansBeginWherePixelsWereLeftOut) {
+TEST(LabTextures, SpansBeginWherePixelsWereLeftOut) {
     std::mt19937 random(1);
     std::bernoulli_distribution is_left_out(0.9);  // often more of them than a span is long
     int within = 0;
@@ -204,11 +205,11 @@ TEST(TextureVariants, SpansBeginWherePixelsWereLeftOut) {
     EXPECT_GT(within, 10'000);
 }
 
-TEST(TextureVariants, SpansBeginAnewInEachRow) {
+TEST(LabTextures, SpansBeginAnewInEachRow) {
     int begun = 0;
     for (const Case& c : random_cases(200, 50))
         for (const int every : spans) {
-            const MappedBarycentrics fresh({{}, every}, c.on_screen, c.clipped);
+            const MappedBarycentrics fresh({every}, c.on_screen, c.clipped);
             MappedBarycentrics mapped = fresh, of_row = fresh;
             int row = -1;
             // Also of tiles, one after the other: then a row is begun again.
@@ -225,11 +226,11 @@ TEST(TextureVariants, SpansBeginAnewInEachRow) {
     EXPECT_GT(begun, 10'000);
 }
 
-TEST(TextureVariants, BarycentricsStaySharesHoweverDeepATriangleIs) {
+TEST(LabTextures, BarycentricsStaySharesHoweverDeepATriangleIs) {
     for (const float greatest_w : {1e3f, 1e12f})
         for (const Case& c : random_cases(100, greatest_w))
             for (const int every : spans) {
-                MappedBarycentrics mapped({{}, every}, c.on_screen, c.clipped);
+                MappedBarycentrics mapped({every}, c.on_screen, c.clipped);
                 fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
                     const vec3 here = mapped.at(pixel, screen_barycentrics).here;
                     ASSERT_GE(std::min({here.x, here.y, here.z}), -in_span_tolerance);
@@ -238,12 +239,12 @@ TEST(TextureVariants, BarycentricsStaySharesHoweverDeepATriangleIs) {
             }
 }
 
-TEST(TextureVariants, AffineIsWrongByNineElevenths) {
+TEST(LabTextures, AffineIsWrongByNineElevenths) {
     // Where w runs from 1 to 100, u = x / (100 - 99x), and x - u is greatest at x = 10/11.
     const Case c(whole({vec4(-1, -1, 0, 1), vec4(100, -100, 0, 100), vec4(-1, 1, 0, 1)}));
     std::vector<float> worst;
     for (const int mapping : {affine, 64, 32, 16, 8, 4, 1}) {
-        MappedBarycentrics mapped({{}, mapping}, c.on_screen, c.clipped);
+        MappedBarycentrics mapped({mapping}, c.on_screen, c.clipped);
         worst.push_back(0);
         fill_triangle(c.on_screen, size, [&](ivec2 pixel, vec3 screen_barycentrics) {
             const float x = (static_cast<float>(pixel.x) + 0.5f) / static_cast<float>(size.x);
@@ -256,7 +257,7 @@ TEST(TextureVariants, AffineIsWrongByNineElevenths) {
     EXPECT_LT(worst.back(), 32 * ulp);  // of x and u
 }
 
-TEST(TextureVariants, BytesDecodedWhenReadGiveWhatDecodingAtOnceGives) {
+TEST(LabTextures, BytesDecodedWhenReadGiveWhatDecodingAtOnceGives) {
     const DecodingTable table;
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
         const Image<u8vec4> texels = random_picture({7, 5});
@@ -272,7 +273,7 @@ TEST(TextureVariants, BytesDecodedWhenReadGiveWhatDecodingAtOnceGives) {
     }
 }
 
-TEST(TextureVariants, DecodingTheMeanIsExactInCentresAndTooDarkBetween) {
+TEST(LabTextures, DecodingTheMeanIsExactInCentresAndTooDarkBetween) {
     constexpr float tolerance = 8 * ulp;  // of a power of 2.4 and its argument
     const Image<u8vec4> texels = random_picture({7, 5});
     const EncodedLevel encoded = make_encoded_level(texels, Wrap::repeat);
@@ -303,7 +304,7 @@ TEST(TextureVariants, DecodingTheMeanIsExactInCentresAndTooDarkBetween) {
     EXPECT_NEAR(gray.r, 0.21404f, 1e-5f);
 }
 
-TEST(TextureVariants, EveryKnobDraws) {
+TEST(LabTextures, EveryKnobDraws) {
     const Image<u8vec4> usual = picture({});
     EXPECT_EQ(difference(usual, picture({"--mapping", "perspective", "--filter", "trilinear",
                                          "--wrap", "repeat", "--srgb", "decoded"})),
