@@ -13,7 +13,7 @@
 #include "06_phong/light.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/any_size.hpp"
 #include "support/light_in_words.hpp"
 #include "support/near.hpp"

@@ -12,12 +12,12 @@
 
 #include <gtest/gtest.h>
 
-#include "06_phong/shading_variants.hpp"
 #include "common/app/counters.hpp"
 #include "common/image/backdrop.hpp"
 #include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
 #include "common/model/obj.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/first_difference.hpp"
 #include "support/golden.hpp"
 #include "support/lesson_06.hpp"
@@ -113,8 +113,6 @@ float brightest(const Image<vec3>& picture) {
     return most;
 }
 
-constexpr std::array all_shadings = {Shading::flat, Shading::gouraud, Shading::phong};
-
 }  // namespace
 
 TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
@@ -149,26 +147,23 @@ TEST(Phong, HardCase_OnlyWhatMaterialsCallForIsComputed) {
         const PhongAssets as_called_for = lesson_06::make_assets(scene, options);
         options.shading.all_effects = true;
         const PhongAssets with_all = lesson_06::make_assets(scene, options);
-        for (const Shading shading : all_shadings) {
-            options.shading.shading = shading;
-            const Drawn usual = drawn_of(as_called_for, options);
-            const auto shaded = usual.count(Counter::fragments_shaded);
-            const std::string where = std::string(name_of(shading)) + " of " + what;
-            ASSERT_GT(shaded, 1000u) << where;
-            ASSERT_EQ(usual.count(Counter::fragments_lit), has_light ? shaded : 0) << where;
-            ASSERT_EQ(usual.count(Counter::highlights) > 0, has_highlights) << where;
-            ASSERT_LE(usual.count(Counter::highlights), shaded) << where;
-            ASSERT_EQ(usual.count(Counter::texture_samples) > 0, has_textures) << where;
-            ASSERT_LE(usual.count(Counter::texture_samples), shaded) << where;
+        const Drawn usual = drawn_of(as_called_for, options);
+        const auto shaded = usual.count(Counter::fragments_shaded);
+        const std::string& where = what;
+        ASSERT_GT(shaded, 1000u) << where;
+        ASSERT_EQ(usual.count(Counter::fragments_lit), has_light ? shaded : 0) << where;
+        ASSERT_EQ(usual.count(Counter::highlights) > 0, has_highlights) << where;
+        ASSERT_LE(usual.count(Counter::highlights), shaded) << where;
+        ASSERT_EQ(usual.count(Counter::texture_samples) > 0, has_textures) << where;
+        ASSERT_LE(usual.count(Counter::texture_samples), shaded) << where;
 
-            const Drawn all = drawn_of(with_all, options);
-            ASSERT_EQ(all.count(Counter::fragments_lit), has_light ? shaded : 0)
-                << "--all-effects, " << where;
-            ASSERT_EQ(all.count(Counter::highlights), has_light ? shaded : 0)
-                << "--all-effects, " << where;
-            ASSERT_EQ(all.count(Counter::texture_samples), has_light ? 3 * shaded : 2 * shaded)
-                << "--all-effects, " << where;
-        }
+        const Drawn all = drawn_of(with_all, options);
+        ASSERT_EQ(all.count(Counter::fragments_lit), has_light ? shaded : 0)
+            << "--all-effects, " << where;
+        ASSERT_EQ(all.count(Counter::highlights), has_light ? shaded : 0)
+            << "--all-effects, " << where;
+        ASSERT_EQ(all.count(Counter::texture_samples), has_light ? 3 * shaded : 2 * shaded)
+            << "--all-effects, " << where;
     }
 }
 
@@ -185,15 +180,9 @@ TEST(Phong, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
         const PhongAssets as_called_for = lesson_06::make_assets(scene, options);
         options.shading.all_effects = true;
         const PhongAssets with_all = lesson_06::make_assets(scene, options);
-        for (const Shading shading : all_shadings)
-            for (const Highlight highlight : {Highlight::phong, Highlight::blinn}) {
-                options.shading.shading = shading;
-                options.shading.highlight = highlight;
-                const Image<vec3> picture = lesson_06::render(options, as_called_for);
-                ASSERT_TRUE(are_the_same_bits(picture, lesson_06::render(options, with_all)))
-                    << name << ", " << name_of(shading) << ", " << name_of(highlight);
-                EXPECT_FALSE(is_backdrop(picture)) << name;
-            }
+        const Image<vec3> picture = lesson_06::render(options, as_called_for);
+        ASSERT_TRUE(are_the_same_bits(picture, lesson_06::render(options, with_all))) << name;
+        EXPECT_FALSE(is_backdrop(picture)) << name;
     }
 }
 
@@ -352,21 +341,18 @@ TEST(Phong, HardCase_BacksOfFaces) {
     lesson_06::Options options = before_the_square();
     options.orbit.yaw_degrees = -150;
     EXPECT_TRUE(is_backdrop(picture_of(scene, options)));
-    for (const Shading shading : all_shadings)
-        for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
-            options.shading.shading = shading;
-            options.shading.key_light = kind;
-            options.shading.two_sided = false;
-            const Image<vec3> front = picture_of(turned, options);
-            options.shading.two_sided = true;
-            const Image<vec3> back = picture_of(scene, options);
-            EXPECT_GT(brightest(back), 0.2f);
-            ASSERT_EQ(share_that_differs(back, front), 0)
-                << name_of(shading) << ", " << name_of(kind) << ": the share of pixels";
-            // The front of what has two sides is as before.
-            ASSERT_TRUE(are_equal(picture_of(turned, options), front))
-                << name_of(shading) << ", " << name_of(kind) << ", --two-sided";
-        }
+    for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
+        options.shading.key_light = kind;
+        options.shading.two_sided = false;
+        const Image<vec3> front = picture_of(turned, options);
+        options.shading.two_sided = true;
+        const Image<vec3> back = picture_of(scene, options);
+        EXPECT_GT(brightest(back), 0.2f);
+        ASSERT_EQ(share_that_differs(back, front), 0) << name_of(kind) << ": the share of pixels";
+        // The front of what has two sides is as before.
+        ASSERT_TRUE(are_equal(picture_of(turned, options), front))
+            << name_of(kind) << ", --two-sided";
+    }
 }
 
 TEST(Phong, HardCase_MoreLightThanAFileHolds) {
@@ -393,33 +379,29 @@ TEST(Phong, HardCase_ModelsOfAllSizes) {
         }
         return other;
     };
-    for (const Shading shading : all_shadings)
-        for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
-            if (shading == Shading::flat && kind != LightKind::point)
-                continue;  // light is the same
-            lesson_06::Options options = small_picture();
-            options.size = {160, 90};
-            options.shading.shading = shading;
-            options.shading.key_light = kind;
-            const Image<vec3> expected = picture_of(scene, options);
-            EXPECT_TRUE(is_finite(expected));
-            // Powers of two scale exactly; roots are taken another way for small and great squares.
-            for (const float factor : {0x1p-100f, 0x1p-40f, 0x1p60f, 0x1p120f}) {
-                const Image<vec3> picture = picture_of(scaled(factor), options);
-                ASSERT_TRUE(is_finite(picture)) << factor;
-                ASSERT_EQ(share_that_differs(expected, picture), 0)
-                    << "the share of pixels; the teapot " << factor << " times as large, "
-                    << name_of(shading) << ", " << name_of(kind);
-            }
-            // Others round each position: some pixel's centre changes sides, or its light's.
-            for (const float factor : {1e-30f, 1e-10f, 1e10f, 1e36f}) {
-                const Image<vec3> picture = picture_of(scaled(factor), options);
-                ASSERT_TRUE(is_finite(picture)) << factor;
-                ASSERT_LT(share_that_differs(expected, picture), 0.005)
-                    << "the share of pixels; the teapot " << factor << " times as large, "
-                    << name_of(shading) << ", " << name_of(kind);
-            }
+    for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
+        lesson_06::Options options = small_picture();
+        options.size = {160, 90};
+        options.shading.key_light = kind;
+        const Image<vec3> expected = picture_of(scene, options);
+        EXPECT_TRUE(is_finite(expected));
+        // Powers of two scale exactly; roots are taken another way for small and great squares.
+        for (const float factor : {0x1p-100f, 0x1p-40f, 0x1p60f, 0x1p120f}) {
+            const Image<vec3> picture = picture_of(scaled(factor), options);
+            ASSERT_TRUE(is_finite(picture)) << factor;
+            ASSERT_EQ(share_that_differs(expected, picture), 0)
+                << "the share of pixels; the teapot " << factor << " times as large, "
+                << name_of(kind);
         }
+        // Others round each position: some pixel's centre changes sides, or its light's.
+        for (const float factor : {1e-30f, 1e-10f, 1e10f, 1e36f}) {
+            const Image<vec3> picture = picture_of(scaled(factor), options);
+            ASSERT_TRUE(is_finite(picture)) << factor;
+            ASSERT_LT(share_that_differs(expected, picture), 0.005)
+                << "the share of pixels; the teapot " << factor << " times as large, "
+                << name_of(kind);
+        }
+    }
 }
 
 TEST(Phong, HardCase_NormalsOfTheFileAreTurnedToLengthOne) {
@@ -436,15 +418,15 @@ TEST(Phong, HardCase_NormalsOfTheFileAreTurnedToLengthOne) {
 TEST(Phong, PictureOfTheScene) { EXPECT_TRUE(equals_golden("06_phong", "06_phong")); }
 
 TEST(Phong, PictureOfFlatShading) {
-    EXPECT_TRUE(equals_golden("06_phong", "06_phong_flat", {"--shading", "flat"}));
+    EXPECT_TRUE(equals_golden("lab_06_phong", "06_phong_flat", {"--shading", "flat"}));
 }
 
 TEST(Phong, PictureOfGouraudShading) {
-    EXPECT_TRUE(equals_golden("06_phong", "06_phong_gouraud", {"--shading", "gouraud"}));
+    EXPECT_TRUE(equals_golden("lab_06_phong", "06_phong_gouraud", {"--shading", "gouraud"}));
 }
 
 TEST(Phong, PictureOfBlinnsHighlights) {
-    EXPECT_TRUE(equals_golden("06_phong", "06_phong_blinn", {"--highlight", "blinn"}));
+    EXPECT_TRUE(equals_golden("lab_06_phong", "06_phong_blinn", {"--highlight", "blinn"}));
 }
 
 TEST(Phong, PictureOfASpot) {

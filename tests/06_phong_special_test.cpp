@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
 #include "06_phong/studio_lights.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/light_in_words.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
@@ -141,7 +141,7 @@ TEST(Phong, HardCase_SpecialNumbersOfReflectedLight) {
         const SurfacePoint<float> point{mix.place(), mix.direction(), mix.direction()};
         const auto highlight = static_cast<Highlight>(mix.below(2));
         const ReflectedLight light = reflected_light(
-            lights, point, VariantHighlight{true, shininess, highlight, Power::polynomial});
+            lights, point, HighlightBy{true, shininess, highlight, Power::polynomial});
         if (highlight == Highlight::phong) {
             ASSERT_EQ(reflected_light(lights, point, PhongHighlight{true, shininess}).specular,
                       light.specular)
@@ -186,7 +186,7 @@ TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
         for (const vec3 normal : mesh.normals)
             ASSERT_TRUE(is_direction(normal)) << "seed 5, case " << i;
 
-        ShadingVariant& variant = triangle.variant();
+        ShadingMethod& variant = triangle.variant();
         variant.shading = static_cast<Shading>(mix.below(3));
         variant.highlight = static_cast<Highlight>(mix.below(2));
         variant.power = static_cast<Power>(mix.below(4));

@@ -13,8 +13,8 @@
 #include "06_phong/light.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
 #include "common/math/color.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/light_in_words.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
@@ -64,7 +64,7 @@ class Directions {
 /// The light of several lights with an exponent of 8 for highlights.
 ReflectedLight light_on(const SurfacePoint<float>& point, std::span<const Light> lights,
                         Highlight highlight) {
-    return reflected_light(lights, point, VariantHighlight{true, 8, highlight, Power::squarings});
+    return reflected_light(lights, point, HighlightBy{true, 8, highlight, Power::squarings});
 }
 
 ReflectedLight light_on(const SurfacePoint<float>& point, const Light& light, float shininess) {
@@ -424,7 +424,7 @@ TEST(Phong, Eq6_8_AnExampleOfNormalsBetweenVertices) {
     const vec3 middle(0.5f, 0, 0.5f);
     const std::array light = {sun(up)};
     const auto at_middle = [&](double apart, NormalScaling scaling) {
-        ShadingVariant variant;
+        ShadingMethod variant;
         variant.normals = scaling;
         const OneTriangle triangle(vertices_of_floor, {from_up(-apart / 2), up, from_up(apart / 2)},
                                    shining(90), variant);
@@ -459,7 +459,7 @@ TEST(Phong, Eq6_8_PositionsBetweenVertices) {
 TEST(Phong, Eq6_8_LightAtTheVerticesOrAtEachPixel) {
     // Each vertex sees 10 degrees between mirror direction and eye, the middle none; the eye and
     // the light are very far.
-    ShadingVariant variant;
+    ShadingMethod variant;
     std::array<vec3, 3> normals;
     for (std::size_t i = 0; i < 3; ++i) {
         const double turn = glm::radians(120.0) * static_cast<double>(i);
@@ -482,7 +482,7 @@ TEST(Phong, Eq6_8_LightAtTheVerticesOrAtEachPixel) {
 }
 
 TEST(Phong, Eq6_9_FlatShadingTakesTheNormalOfTheFace) {
-    ShadingVariant variant;
+    ShadingMethod variant;
     variant.shading = Shading::flat;
     const std::array light = {sun(up)};
     const auto shaded =
@@ -497,7 +497,7 @@ TEST(Phong, Eq6_8_GouraudMixesTheLightOfTheVertices) {
     Directions any(10);
     for (int i = 0; i < 1000; ++i) {
         const std::array<vec3, 3> normals = {any.direction(), any.direction(), any.direction()};
-        ShadingVariant gouraud;
+        ShadingMethod gouraud;
         gouraud.shading = Shading::gouraud;
         const OneTriangle mixed(vertices_of_floor, normals, shining(5), gouraud);
         const OneTriangle exact(vertices_of_floor, normals, shining(5));
@@ -631,7 +631,7 @@ TEST(Phong, HardCase_NormalsThatCancel) {
     look_up("Eq. 6.8");
     for (const NormalScaling scaling :
          {NormalScaling::exact, NormalScaling::approximate, NormalScaling::none}) {
-        ShadingVariant variant;
+        ShadingMethod variant;
         variant.normals = scaling;
         const OneTriangle triangle(vertices_of_floor, {up, up, -up}, shining(90), variant);
         const std::array light = {sun(up)};
@@ -685,7 +685,7 @@ TEST(Phong, HardCase_BacksAreLitAsFrontsWithEverythingMirrored) {
     const auto mirrored = [](vec3 v) { return vec3(v.x, -v.y, v.z); };
     int lit = 0;
     for (int i = 0; i < 10'000; ++i) {
-        ShadingVariant variant;
+        ShadingMethod variant;
         variant.shading = static_cast<Shading>(i % 3);
         variant.highlight = static_cast<Highlight>(i % 2);
         const auto leaning = [&] { return unit_or(up + 0.3f * any.vector(), up); };

@@ -450,8 +450,8 @@ TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAKnobShows) {
     for (const auto& [lesson, knob, equation] :
          {Case{"05_textures", {"lab", "--mapping", "affine"}, "Eq. 5.2"},
           Case{"05_textures", {"--filter", "bilinear"}, "Eq. 5.7 and 5.8"},
-          Case{"06_phong", {"--normals", "none"}, "Eq. 6.8"},
-          Case{"06_phong", {"--highlight", "blinn"}, "Eq. 6.3 and 6.4"},
+          Case{"06_phong", {"lab", "--normals", "none"}, "Eq. 6.8"},
+          Case{"06_phong", {"lab", "--highlight", "blinn"}, "Eq. 6.3 and 6.4"},
           Case{"07_toon", {"--outline-width", "6"}, "Eq. 7.14"},
           Case{"08_normal_maps", {"--green", "down"}, "Eq. 8.1 and 8.5"},
           Case{"08_normal_maps", {"--normal-map", "object"}, "Eq. 8.7"},

@@ -8,9 +8,21 @@
 
 #include "05_textures/texture_options.hpp"
 #include "06_phong/effects.hpp"
+#include "06_phong/light_options.hpp"
+#include "common/app/lesson_app.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
+
+struct PhongOptions : LessonOptions {
+    Orbit orbit;
+    bool show_depth = false;
+    TextureOptions texture;
+    LightOptions shading;
+
+    PhongOptions() { model = "scene.obj"; }
+    void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
+};
 
 /// What is made once, before the first picture.
 struct PhongAssets {
@@ -23,9 +35,7 @@ struct PhongAssets {
 /// @throws InputError  When an image cannot be read.
 PhongAssets make_phong_assets(Scene scene, const TextureOptions& texture, bool all_effects);
 
-/// @param options  Has TextureOptions `texture` and LightOptions `shading`.
-template <typename Options>
-PhongAssets make_phong_assets(Scene scene, const Options& options) {
+inline PhongAssets load_phong_scene(Scene scene, const PhongOptions& options) {
     return make_phong_assets(std::move(scene), options.texture, options.shading.all_effects);
 }
 

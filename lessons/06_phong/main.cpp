@@ -7,7 +7,6 @@
 #include "04_mvp/projection.hpp"
 #include "06_phong/assets.hpp"
 #include "06_phong/probe.hpp"
-#include "06_phong/shading_variants.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "common/app/lesson_app.hpp"
@@ -15,17 +14,7 @@
 
 using namespace rasterbook;
 
-struct Options : LessonOptions {
-    Orbit orbit;
-    bool show_depth = false;
-    TextureOptions texture;
-    ShadingVariant shading;
-
-    Options() { model = "scene.obj"; }
-    void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
-};
-
-static Image<vec3> render(const Options& options, const PhongAssets& assets) {
+static Image<vec3> render(const PhongOptions& options, const PhongAssets& assets) {
     const auto& [scene, textures, effects] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -37,9 +26,6 @@ static Image<vec3> render(const Options& options, const PhongAssets& assets) {
         const TriangleSurface surface =
             triangle_surface(scene, textures, effects[projected.triangle.material], projected);
         const PerspectiveSetup setup = perspective_setup(projected);
-        const VariantHighlight highlight = highlight_of(options.shading, surface);
-        const VertexLighting at_vertices =
-            light_vertices(options.shading, lights, camera.position_world, surface, projected);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
             count(Counter::fragments_tested);
@@ -53,12 +39,9 @@ static Image<vec3> render(const Options& options, const PhongAssets& assets) {
                 return;
             }
             const vec3 normal = interpolate(surface.normals_world, on_surface.here);
-            SurfacePoint<float> point =
+            const SurfacePoint<float> point =
                 surface_point(surface, on_surface.here, normal, camera.position_world);
-            scale_normal(options.shading, normal, point);
-            const ReflectedLight reflected = at_vertices.is_used()
-                                                 ? at_vertices.at(on_surface.here)
-                                                 : reflected_light(lights, point, highlight);
+            const ReflectedLight reflected = reflected_light(lights, point, highlight_of(surface));
             color[pixel] = phong(base_color, ambient_light, reflected);
         });
     };
@@ -69,7 +52,7 @@ static Image<vec3> render(const Options& options, const PhongAssets& assets) {
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "06_phong", "Draws a scene with Phong lighting.",
-                               make_phong_assets<Options>, render,
-                               [](auto&... of) { return phong_probe(of...); });
+    return run_lesson<PhongOptions>(argc, argv, "06_phong", "Draws a scene with Phong lighting.",
+                                    load_phong_scene, render,
+                                    [](auto&... of) { return phong_probe(of...); });
 }

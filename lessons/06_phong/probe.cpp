@@ -11,14 +11,14 @@
 
 namespace rasterbook {
 
-PixelProbe phong_probe(const PhongProbeOptions& options, const PhongAssets& assets) {
+PixelProbe phong_probe(const PhongOptions& options, const PhongAssets& assets) {
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
-    return [options, &assets, camera,
+    return [&options, &assets, camera,
             triangles = projected_triangles(assets.scene, camera.clip_from_world(options.size),
                                             options.size)](ivec2 pixel, PixelReport& report) {
         const Scene& scene = assets.scene;
-        const ShadingVariant& shading = options.shading;
-        const auto seen = report_triangles(report, triangles, shading.culling(), scene, pixel);
+        const auto seen =
+            report_triangles(report, triangles, options.shading.culling(), scene, pixel);
         if (!seen) return report_backdrop(report, pixel, options.size);
         const ProjectedTriangle& projected = *seen->projected;
         const EffectMask effects = assets.effects[projected.triangle.material];
@@ -26,22 +26,15 @@ PixelProbe phong_probe(const PhongProbeOptions& options, const PhongAssets& asse
             report, *seen, triangle_surface(scene, assets.textures, effects, projected),
             options.texture.filter);
         if (!effects[Effect::light]) return report_unlit(report, base_color);
-        const std::array lights = studio_lights(shading.key_light, scene.bounds());
-        const VertexLighting at_vertices =
-            light_vertices(shading, lights, camera.position_world, surface, projected);
-        if (at_vertices.is_used()) {
-            report.line("light", "computed for the face or its vertices");
-            return report_phong(report, base_color, ambient_light, at_vertices.at(on_surface.here));
-        }
+        const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
         const vec3 normal = interpolate(surface.normals_world, on_surface.here);
-        SurfacePoint<float> point =
+        const SurfacePoint<float> point =
             surface_point(surface, on_surface.here, normal, camera.position_world);
-        scale_normal(shading, normal, point);
         report_point(report, point, scene.origin);
-        const VariantHighlight highlight = highlight_of(shading, surface);
-        report_lights(report, lights, point, highlight, [](std::size_t) { return 1.0f; });
+        report_lights(report, lights, point, highlight_of(surface),
+                      [](std::size_t) { return 1.0f; });
         return report_phong(report, base_color, ambient_light,
-                            reflected_light(lights, point, highlight));
+                            reflected_light(lights, point, highlight_of(surface)));
     };
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "05_textures/interpolation.hpp"
-#include "06_phong/shading_variants.hpp"
+#include "06_phong/light_options.hpp"
 #include "06_phong/surface.hpp"
 #include "07_toon/outline.hpp"
 #include "07_toon/toon.hpp"

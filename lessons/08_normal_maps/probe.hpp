@@ -4,7 +4,7 @@
 #pragma once
 
 #include "05_textures/textures.hpp"
-#include "06_phong/shading_variants.hpp"
+#include "06_phong/light_options.hpp"
 #include "08_normal_maps/assets.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "common/app/lesson_app.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "04_mvp/camera.hpp"
-#include "06_phong/shading_variants.hpp"
+#include "06_phong/surface.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "09_shadow_maps/assets.hpp"
 #include "09_shadow_maps/probe.hpp"

@@ -15,7 +15,7 @@
 #include "05_textures/texture_options.hpp"
 #include "06_phong/effects.hpp"
 #include "06_phong/light.hpp"
-#include "06_phong/shading_variants.hpp"
+#include "06_phong/light_options.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "10_threading/binned_triangles.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "05_textures/texture_options.hpp"
-#include "06_phong/shading_variants.hpp"
+#include "06_phong/light_options.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
 #include "09_shadow_maps/shadow_variants.hpp"
 #include "10_threading/thread_options.hpp"

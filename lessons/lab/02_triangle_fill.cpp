@@ -47,15 +47,13 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
     return color;
 }
 
-/// Explains the lesson's own method alone.
-static PixelProbe probe(const Options& options, const Scene& scene) {
-    return is_another_method(options.fill) ? PixelProbe() : fill_probe(options, scene);
-}
-
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>("lab_02_triangle_fill", "Other numbers for lesson 02.",
-                                       just_the_scene<Options>, render, probe);
+        return lesson_program<Options>(
+            "lab_02_triangle_fill", "Other numbers for lesson 02.", just_the_scene<Options>, render,
+            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
+                return is_another_method(options.fill) ? PixelProbe() : fill_probe(options, assets);
+            });
     };
     return run_lab(make, "--edges int64 --subpixel-bits 16", argc, argv);
 }

@@ -54,16 +54,14 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
     return color;
 }
 
-/// Explains the lesson's own method alone.
-static PixelProbe probe(const Options& options, const Scene& scene) {
-    return options.depth != DepthMethod{} ? PixelProbe() : depth_probe(options, scene);
-}
-
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>("lab_03_z_buffer",
-                                       "Other formats for depths, for lesson 03.",
-                                       just_the_scene<Options>, render, probe);
+        return lesson_program<Options>(
+            "lab_03_z_buffer", "Other formats for depths, for lesson 03.", just_the_scene<Options>,
+            render,
+            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
+                return options.depth != DepthMethod{} ? PixelProbe() : depth_probe(options, assets);
+            });
     };
     return run_lab(make, "--format float --range 1", argc, argv);
 }

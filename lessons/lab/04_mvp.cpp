@@ -58,18 +58,17 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
     return color;
 }
 
-/// Explains the lesson's own method alone.
-static PixelProbe probe(const Options& options, const Scene& scene) {
-    return options.mvp != MvpMethod{}
-               ? PixelProbe()
-               : mvp_probe(options, scene,
-                           instances_of(scene, world_from_pot(options.turn_degrees)));
-}
-
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>("lab_04_mvp", "Other numbers and clipping, for lesson 04.",
-                                       just_the_scene<Options>, render, probe);
+        return lesson_program<Options>(
+            "lab_04_mvp", "Other numbers and clipping, for lesson 04.", just_the_scene<Options>,
+            render,
+            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
+                return options.mvp != MvpMethod{}
+                           ? PixelProbe()
+                           : mvp_probe(options, assets,
+                                       instances_of(assets, world_from_pot(options.turn_degrees)));
+            });
     };
     return run_lab(make, "--precision double --offset 0 --clip six --view camera", argc, argv);
 }

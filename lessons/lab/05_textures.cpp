@@ -56,16 +56,14 @@ static Image<vec3> render(const Options& options, const TexturedScene& assets) {
     return color;
 }
 
-/// Explains the lesson's own method alone.
-static PixelProbe probe(const Options& options, const TexturedScene& assets) {
-    return options.method.mapping != 1 ? PixelProbe() : texture_probe(options, assets);
-}
-
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>("lab_05_textures",
-                                       "Other mappings and filters, for lesson 05.",
-                                       load_textured_scene, render, probe);
+        return lesson_program<Options>(
+            "lab_05_textures", "Other mappings and filters, for lesson 05.", load_textured_scene,
+            render,
+            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
+                return options.method.mapping != 1 ? PixelProbe() : texture_probe(options, assets);
+            });
     };
     return run_lab(make, "--mapping perspective --filter trilinear --srgb decoded", argc, argv);
 }

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "06_phong/shading_variants.hpp"
 #include "accuracy/accuracy.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/lit_sphere.hpp"
 
 using namespace rasterbook;
@@ -35,7 +35,7 @@ void add_places() {
                                         {"Gouraud", Shading::gouraud},
                                         {"Phong", Shading::phong}})
         for (const LitSphere* sphere : {&coarse(), &fine()}) {
-            const ShadingVariant variant{.shading = shading};
+            const ShadingMethod variant{.shading = shading};
             const LightErrors errors = light_errors(*sphere, variant);
             add_variant("places", name + std::string(sphere == &fine() ? ", fine" : ", coarse"),
                         errors.fragments,
@@ -139,7 +139,7 @@ void add_normals(const char* name, NormalScaling scaling, Scale scale) {
         const long double x = v.x, y = v.y, z = v.z;
         greatest = std::max(greatest, std::abs(std::sqrt(x * x + y * y + z * z) - 1));
     }
-    const ShadingVariant variant{.normals = scaling};
+    const ShadingMethod variant{.normals = scaling};
     add_variant("normals", name, static_cast<double>(normals.size()),
                 {{"error of the length, millionths", static_cast<double>(1e6L * greatest)},
                  {"RMS, coarse", light_errors(coarse(), variant).rms},

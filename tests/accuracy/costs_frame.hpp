@@ -65,9 +65,9 @@ void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const
         normal_map =
             triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
     ShadowBiasCache shadow_biases(surface.positions_world);
-    ShadingVariant variant;
+    ShadingMethod variant;
     variant.power = power;
-    const VariantHighlight highlight = highlight_of(variant, surface);
+    const HighlightBy highlight = highlight_of(variant, surface);
     const auto light_at = [&](Barycentrics at, vec3 own_normal, vec3 normal) {
         const SurfacePoint<float> point = surface_point(surface, at, normal, frame.eye_world);
         return reflected_light(lights, point, highlight, [&](std::size_t l) {

@@ -22,8 +22,8 @@
 #include "04_mvp/projection.hpp"
 #include "05_textures/interpolation.hpp"
 #include "06_phong/assets.hpp"
+#include "06_phong/light_options.hpp"
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "common/app/counters.hpp"
@@ -167,7 +167,7 @@ void triangles_through_the_camera(benchmark::State& state) {
 /// What lessons 05 and 06 are told on the command line.
 struct PictureKnobs {
     TextureOptions texture;
-    ShadingVariant shading;
+    LightOptions shading;
     Orbit orbit;
 };
 
@@ -177,7 +177,8 @@ constexpr int large = 0, scene_obj = 1;  ///< What a picture of textured triangl
 /// pixels; or the lessons' own scene, as they show it.
 PhongAssets assets_to_draw(int what, PictureKnobs& knobs) {
     const std::filesystem::path models = RASTERBOOK_ASSETS "/models";
-    if (what == scene_obj) return make_phong_assets(load_obj(models / "scene.obj"), knobs);
+    if (what == scene_obj)
+        return make_phong_assets(load_obj(models / "scene.obj"), knobs.texture, false);
     Scene scene;
     Material tiles;
     tiles.specular = vec3(0.2f), tiles.shininess = 60;
@@ -192,7 +193,7 @@ PhongAssets assets_to_draw(int what, PictureKnobs& knobs) {
     quad.triangles = {{{a, b, c}, 0}, {{a, c, d}, 0}};
     scene.meshes.push_back(quad);
     knobs.orbit = {.pitch_degrees = 60, .distance = 0.35f};
-    return make_phong_assets(scene, knobs);
+    return make_phong_assets(scene, knobs.texture, false);
 }
 
 /// Textured fragments, or such lit by two lights, drawn as lessons 05 and 06 do. Arguments:

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "06_phong/shading_variants.hpp"
+#include "06_phong/light_options.hpp"
 #include "08_normal_maps/normal_map_variants.hpp"
 #include "11_scenes/scene_assets.hpp"
 #include "benchmarks/unused_effects.hpp"

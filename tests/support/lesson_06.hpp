@@ -13,7 +13,6 @@
 #include "04_mvp/projection.hpp"
 #include "06_phong/assets.hpp"
 #include "06_phong/probe.hpp"
-#include "06_phong/shading_variants.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "common/app/lesson_app.hpp"
@@ -27,8 +26,9 @@
 namespace lesson_06 {
 using rasterbook::test::run_lesson;
 #include "lessons/06_phong/main.cpp"
+using Options = PhongOptions;
 inline auto make_assets(Scene scene, const Options& options) {
-    return make_phong_assets(std::move(scene), options);
+    return load_phong_scene(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
 #undef render

@@ -11,7 +11,7 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
-#include "06_phong/shading_variants.hpp"
+#include "06_phong/light_options.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"

@@ -8,7 +8,7 @@
 
 #include "06_phong/light.hpp"
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/near.hpp"
 
 namespace rasterbook::test {

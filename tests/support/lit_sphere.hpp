@@ -20,9 +20,9 @@
 #include "06_phong/effects.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
 #include "common/math/types.hpp"
 #include "common/model/mesh.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/one_triangle.hpp"
 
 namespace rasterbook::test {
@@ -71,10 +71,10 @@ struct LitSphere {
 
     const Mesh& mesh() const { return scene.meshes[0]; }
 
-    LitTriangle lit(const ProjectedTriangle& projected, const ShadingVariant& variant) const {
+    LitTriangle lit(const ProjectedTriangle& projected, const ShadingMethod& variant) const {
         return {variant, lights, camera.position_world, scene, textures, effects, projected};
     }
-    LitTriangle lit(const Triangle& triangle, const ShadingVariant& variant,
+    LitTriangle lit(const Triangle& triangle, const ShadingMethod& variant,
                     bool is_back = false) const {
         return lit(not_on_screen(mesh(), triangle, is_back), variant);
     }
@@ -82,9 +82,9 @@ struct LitSphere {
     /// Draws the sphere as the lesson does, without a depth buffer: of a sphere, no front faces
     /// cover each other. Calls emit(pixel, light) for each fragment.
     template <typename Emit>
-    void draw(const ShadingVariant& variant, Emit&& emit) const {
+    void draw(const ShadingMethod& variant, Emit&& emit) const {
         for_each_visible_triangle(
-            scene, camera.clip_from_world(size), size, variant.culling(),
+            scene, camera.clip_from_world(size), size, Culling::back_faces,
             [&](const ProjectedTriangle& projected) {
                 const LitTriangle triangle = lit(projected, variant);
                 const PerspectiveSetup setup =
@@ -177,7 +177,7 @@ struct LightErrors {
     double rms = 0, greatest = 0, fragments = 0, brightest = 0;
 };
 
-inline LightErrors light_errors(const LitSphere& sphere, const ShadingVariant& variant) {
+inline LightErrors light_errors(const LitSphere& sphere, const ShadingMethod& variant) {
     const ExactSphere exact(sphere);
     LightErrors errors;
     double sum_of_squares = 0, compared = 0;

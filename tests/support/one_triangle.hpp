@@ -13,8 +13,8 @@
 #include "06_phong/effects.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
 #include "06_phong/surface.hpp"
+#include "lab/shading_methods.hpp"
 
 namespace rasterbook::test {
 
@@ -43,7 +43,7 @@ inline ProjectedTriangle not_on_screen(const Mesh& mesh, const Triangle& triangl
 class LitTriangle {
   public:
     /// @param scene  As complete_normals() leaves its meshes. It and the lights have to stay.
-    LitTriangle(const ShadingVariant& variant, std::span<const Light> lights, vec3 eye_world,
+    LitTriangle(const ShadingMethod& variant, std::span<const Light> lights, vec3 eye_world,
                 const Scene& scene, const SurfaceTextures& textures, EffectMask effects,
                 const ProjectedTriangle& projected)
         : variant_(variant),
@@ -64,18 +64,18 @@ class LitTriangle {
     }
 
   private:
-    ShadingVariant variant_;
+    ShadingMethod variant_;
     std::span<const Light> lights_;
     vec3 eye_world_;
     TriangleSurface surface_;
-    VariantHighlight highlight_;
+    HighlightBy highlight_;
     VertexLighting at_vertices_;
 };
 
 class OneTriangle {
   public:
     OneTriangle(const std::array<vec3, 3>& positions, const std::array<vec3, 3>& normals,
-                const Material& material, const ShadingVariant& variant = {})
+                const Material& material, const ShadingMethod& variant = {})
         : variant_(variant), scene_(scene_of(positions, normals, material)) {}
 
     ReflectedLight light_at(Barycentrics barycentrics, std::span<const Light> lights, vec3 eye,
@@ -88,7 +88,7 @@ class OneTriangle {
 
     Mesh& mesh() { return scene_.meshes[0]; }
     Material& material() { return scene_.materials[0]; }
-    ShadingVariant& variant() { return variant_; }
+    ShadingMethod& variant() { return variant_; }
 
   private:
     static Scene scene_of(const std::array<vec3, 3>& positions, const std::array<vec3, 3>& normals,
@@ -103,7 +103,7 @@ class OneTriangle {
         return scene;
     }
 
-    ShadingVariant variant_;
+    ShadingMethod variant_;
     Scene scene_;
     SurfaceTextures textures_{MaterialTextures(1), MaterialTextures(1), MaterialTextures(1)};
     EffectMask effects_ = plan_effects(scene_, textures_, false)[0];

@@ -14,8 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "06_phong/phong.hpp"
-#include "06_phong/shading_variants.hpp"
 #include "common/image/image_io.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/lesson_process.hpp"
 #include "support/lit_sphere.hpp"
 #include "support/one_triangle.hpp"
@@ -76,7 +76,7 @@ int differing_pixels(const Image<u8vec4>& a, const Image<u8vec4>& b) {
 Image<u8vec4> picture(std::vector<std::string> arguments) {
     const std::string out = (fresh_folder("shading_knobs") / "picture.bmp").string();
     arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
-    const ProcessResult run = run_program("06_phong", arguments);
+    const ProcessResult run = run_program("lab_06_phong", arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
     EXPECT_EQ(run.err, "");
     return read_image(out);
@@ -84,7 +84,7 @@ Image<u8vec4> picture(std::vector<std::string> arguments) {
 
 }  // namespace
 
-TEST(ShadingVariants, OfALightArrivesWhatIsVisible) {
+TEST(LabPhong, OfALightArrivesWhatIsVisible) {
     const std::array lights{Light{LightKind::point, vec3(1, 2, 3), vec3(0), vec3(0, 2, 0)},
                             Light{LightKind::directional, vec3(4), vec3(0, 1, 0)}};
     for (int x = 0; x < 3; ++x) {
@@ -111,11 +111,11 @@ TEST(ShadingVariants, OfALightArrivesWhatIsVisible) {
     }
 }
 
-TEST(ShadingVariants, TheDefaultIsPhongsHighlight) {
-    constexpr ShadingVariant variant;
+TEST(LabPhong, TheDefaultIsPhongsHighlight) {
+    constexpr ShadingMethod variant;
     for (const float shininess : {0.0f, 1.0f, 7.5f, 90.0f, 1000.0f}) {
         const PhongHighlight usual{true, shininess};
-        const VariantHighlight highlight{true, shininess, variant.highlight, variant.power};
+        const HighlightBy highlight{true, shininess, variant.highlight, variant.power};
         for (int i = 0; i <= inputs; ++i) {
             const SurfacePoint<float> point =
                 seen_at_cosine(static_cast<float>(i) / static_cast<float>(inputs));
@@ -124,7 +124,7 @@ TEST(ShadingVariants, TheDefaultIsPhongsHighlight) {
     }
 }
 
-TEST(ShadingVariants, EveryShadingIsThatOfTheSurfaceWhereItIsComputed) {
+TEST(LabPhong, EveryShadingIsThatOfTheSurfaceWhereItIsComputed) {
     // A highlight of 90 makes 90 of each half ulp that its cosine is off, and that has a dozen.
     constexpr double tolerance = 1e-4;
     const ExactSphere exact(sphere());
@@ -149,7 +149,7 @@ TEST(ShadingVariants, EveryShadingIsThatOfTheSurfaceWhereItIsComputed) {
     }
 }
 
-TEST(ShadingVariants, BetweenTheVerticesFlatStaysAndGouraudIsStraight) {
+TEST(LabPhong, BetweenTheVerticesFlatStaysAndGouraudIsStraight) {
     constexpr float tolerance = 1e-6f;  // 3 products and 2 sums of numbers below 2
     for (const Triangle& triangle : sphere().mesh().triangles) {
         const LitTriangle flat = sphere().lit(triangle, {.shading = Shading::flat});
@@ -169,7 +169,7 @@ TEST(ShadingVariants, BetweenTheVerticesFlatStaysAndGouraudIsStraight) {
     }
 }
 
-TEST(ShadingVariants, BacksAreLitOnlyWhereFrontsAreDark) {
+TEST(LabPhong, BacksAreLitOnlyWhereFrontsAreDark) {
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong})
         for (const Triangle& triangle : sphere().mesh().triangles) {
             const LitTriangle front = sphere().lit(triangle, {.shading = shading}, false);
@@ -182,7 +182,7 @@ TEST(ShadingVariants, BacksAreLitOnlyWhereFrontsAreDark) {
         }
 }
 
-TEST(ShadingVariants, ThePlaceDecidesHowNearThePictureComes) {
+TEST(LabPhong, ThePlaceDecidesHowNearThePictureComes) {
     // What the page says: each place is worse than the next, and the finer mesh is better.
     static const LitSphere coarse(16, 32), fine(64, 128);
     double coarser = 1;
@@ -199,7 +199,7 @@ TEST(ShadingVariants, ThePlaceDecidesHowNearThePictureComes) {
     EXPECT_GT(phong.brightest, 0.8);
 }
 
-TEST(ShadingVariants, PowersAreWithinTheirBounds) {
+TEST(LabPhong, PowersAreWithinTheirBounds) {
     for (const float exponent : {1.0f, 2.0f, 7.0f, 32.0f, 90.0f, 1000.0f}) {
         for (int i = 0; i <= inputs; ++i) {
             const float x = static_cast<float>(i) / inputs;
@@ -221,7 +221,7 @@ TEST(ShadingVariants, PowersAreWithinTheirBounds) {
     }
 }
 
-TEST(ShadingVariants, SchlicksCurveLiesAboveThePower) {
+TEST(LabPhong, SchlicksCurveLiesAboveThePower) {
     float greatest = 0;
     for (const float exponent : {1.0f, 2.0f, 7.0f, 32.0f, 90.0f, 1000.0f, 1e4f}) {
         float before = 0;
@@ -240,13 +240,13 @@ TEST(ShadingVariants, SchlicksCurveLiesAboveThePower) {
     EXPECT_GT(greatest, 0.2f) << "the bound is no wider than it has to be";
 }
 
-TEST(ShadingVariants, NoHighlightIsLeftOutThatCanBeSeen) {
+TEST(LabPhong, NoHighlightIsLeftOutThatCanBeSeen) {
     constexpr float least_seen = 1.0f / 255 / 13 / 2;  // half of the first code of sRGB
     for (const Power how : {Power::polynomial, Power::in_double, Power::squarings, Power::schlick})
         for (const float exponent : {0.0f, 1.0f, 7.0f, 32.0f, 90.0f, 1000.0f})
             for (int i = 0; i <= inputs; ++i) {
                 const float cosine = static_cast<float>(i) / inputs;
-                const VariantHighlight highlight{true, exponent, Highlight::phong, how};
+                const HighlightBy highlight{true, exponent, Highlight::phong, how};
                 const float result = highlight(seen_at_cosine(cosine), straight_up);
                 const float power = power_as(how, cosine, exponent);
                 if (result == power) continue;
@@ -257,7 +257,7 @@ TEST(ShadingVariants, NoHighlightIsLeftOutThatCanBeSeen) {
             }
 }
 
-TEST(ShadingVariants, PowersTakeWhatMaterialsAndRoundingBring) {
+TEST(LabPhong, PowersTakeWhatMaterialsAndRoundingBring) {
     const float above_one = std::nextafter(1.0f, 2.0f);
     for (const Power how :
          {Power::polynomial, Power::in_double, Power::squarings, Power::schlick}) {
@@ -274,7 +274,7 @@ TEST(ShadingVariants, PowersTakeWhatMaterialsAndRoundingBring) {
     EXPECT_EQ(power_by_squarings(0.5f, 1e30f), 0.0f);
 }
 
-TEST(ShadingVariants, ApproximateNormalsHaveNearlyLength1AndTheirDirection) {
+TEST(LabPhong, ApproximateNormalsHaveNearlyLength1AndTheirDirection) {
     constexpr double documented = 0.0018;
     std::mt19937 random(1);
     std::uniform_real_distribution<float> any(-1, 1), power(-12, 12);
@@ -295,7 +295,7 @@ TEST(ShadingVariants, ApproximateNormalsHaveNearlyLength1AndTheirDirection) {
     EXPECT_EQ(unit_approximate(vec3(0)), vec3(0));
 }
 
-TEST(ShadingVariants, NormalsAreScaledAsTheVariantSays) {
+TEST(LabPhong, NormalsAreScaledAsTheVariantSays) {
     // Light that is evenly reflected is proportional to the normal's length.
     const Triangle& triangle = sphere().mesh().triangles[50];
     for (const vec3 barycentrics : barycentrics_in_triangles(100)) {
@@ -315,7 +315,7 @@ TEST(ShadingVariants, NormalsAreScaledAsTheVariantSays) {
     }
 }
 
-TEST(ShadingVariants, EveryKnobDraws) {
+TEST(LabPhong, EveryKnobDraws) {
     const Image<u8vec4> usual = picture({});
     const auto changed = [&](const std::vector<std::string>& arguments) {
         return differing_pixels(usual, picture(arguments));

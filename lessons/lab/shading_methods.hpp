@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where light is computed and how exactly, to be seen with `--shading`, `--highlight`, `--power`
-/// and `--normals`, and measured in docs/accuracy/06_phong.md.
+/// Other places to compute the light of lesson 06 in, and other highlights; measured in
+/// docs/accuracy/06_phong.md.
 #pragma once
 
 #include <algorithm>
@@ -32,27 +32,7 @@ enum class Power { polynomial, in_double, squarings, schlick };
 /// root, or nothing.
 enum class NormalScaling { exact, approximate, none };
 
-/// What every scene with lights can be asked for, in this lesson and all later ones.
-struct LightOptions {
-    LightKind key_light = LightKind::point;
-    bool two_sided = false;
-    bool all_effects = false;
-
-    Culling culling() const { return two_sided ? Culling::none : Culling::back_faces; }
-
-    void declare(Knobs& knobs) {
-        knobs.choice("--light", key_light,
-                     {{"directional", LightKind::directional},
-                      {"point", LightKind::point},
-                      {"spot", LightKind::spot}},
-                     "What the scene is lit by");
-        knobs.flag("--two-sided", two_sided, "Draw the backs of faces, too");
-        knobs.flag("--all-effects", all_effects,
-                   "Compute each effect also where it can change nothing");
-    }
-};
-
-struct ShadingVariant : LightOptions {
+struct ShadingMethod {
     Shading shading = Shading::phong;
     Highlight highlight = Highlight::phong;
     Power power = Power::polynomial;
@@ -77,8 +57,9 @@ struct ShadingVariant : LightOptions {
                       {"approximate", NormalScaling::approximate},
                       {"none", NormalScaling::none}},
                      "How an interpolated normal is scaled to length 1");
-        LightOptions::declare(knobs);
     }
+
+    bool operator==(const ShadingMethod&) const = default;
 };
 
 /// x * x * ... as often as `exponent` says, rounded to a whole number, at most 1e6.
@@ -137,8 +118,8 @@ inline float blinn_cosine(const SurfacePoint<float>& point, vec3 toward_light) {
     return clamp(glm::dot(point.normal_world, halfway), 0.0f, 1.0f);
 }
 
-/// PhongHighlight, or what the variant puts in its place.
-struct VariantHighlight {
+/// PhongHighlight, or what the method puts in its place.
+struct HighlightBy {
     bool is_on;
     float shininess;
     Highlight highlight;
@@ -153,19 +134,17 @@ struct VariantHighlight {
     }
 };
 
-inline VariantHighlight highlight_of(const ShadingVariant& variant,
-                                     const TriangleSurface& surface) {
-    return {surface.effects[Effect::highlight], surface.material.shininess, variant.highlight,
-            variant.power};
+inline HighlightBy highlight_of(const ShadingMethod& method, const TriangleSurface& surface) {
+    return {surface.effects[Effect::highlight], surface.material.shininess, method.highlight,
+            method.power};
 }
 
-/// Scales a point's normal as the variant has it, in place of Eq. 6.8.
+/// Scales a point's normal as the method has it, in place of Eq. 6.8.
 ///
 /// @param normal  Interpolated.
-inline void scale_normal(const ShadingVariant& variant, vec3 normal, SurfacePoint<float>& point) {
-    if (variant.normals == NormalScaling::none) point.normal_world = normal;
-    if (variant.normals == NormalScaling::approximate)
-        point.normal_world = unit_approximate(normal);
+inline void scale_normal(const ShadingMethod& method, vec3 normal, SurfacePoint<float>& point) {
+    if (method.normals == NormalScaling::none) point.normal_world = normal;
+    if (method.normals == NormalScaling::approximate) point.normal_world = unit_approximate(normal);
 }
 
 /// For flat and Gouraud shading: light that is computed before the pixels are visited, once, or at
@@ -182,19 +161,19 @@ struct VertexLighting {
     }
 };
 
-inline VertexLighting light_vertices(const ShadingVariant& variant, std::span<const Light> lights,
+inline VertexLighting light_vertices(const ShadingMethod& method, std::span<const Light> lights,
                                      vec3 eye_world, const TriangleSurface& surface,
                                      const ProjectedTriangle& projected) {
-    VertexLighting result{variant.shading};
+    VertexLighting result{method.shading};
     if (!surface.effects[Effect::light] || !result.is_used()) return result;
     const Uncounted vertices;  // only fragments are counted
     const auto light = [&](std::size_t i, Barycentrics at, vec3 normal) {
         SurfacePoint<float> point = surface_point(surface, at, normal, eye_world);
         point.normal_world = normal;  // it has length 1 already
-        const ReflectedLight sum = reflected_light(lights, point, highlight_of(variant, surface));
+        const ReflectedLight sum = reflected_light(lights, point, highlight_of(method, surface));
         result.diffuse[i] = sum.diffuse, result.specular[i] = sum.specular;
     };
-    if (variant.shading == Shading::flat) {
+    if (method.shading == Shading::flat) {
         const vec3 front = face_normal(projected.mesh, projected.triangle);
         light(0, Barycentrics(1.0f / 3), projected.is_back_facing ? -front : front);
         return result;

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Lesson 06's light, computed elsewhere or otherwise.
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/projection.hpp"
+#include "06_phong/assets.hpp"
+#include "06_phong/probe.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
+#include "lab/lab.hpp"
+#include "lab/shading_methods.hpp"
+
+using namespace rasterbook;
+
+struct Options : PhongOptions {
+    ShadingMethod method;
+
+    void declare(Knobs& knobs) { declare_all(knobs, method, texture, shading); }
+};
+
+static Image<vec3> render(const Options& options, const PhongAssets& assets) {
+    const auto& [scene, textures, effects] = assets;
+    const Camera camera = orbit_camera(options.orbit, scene.bounds());
+    const mat4 clip_from_world = camera.clip_from_world(options.size);
+    const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
+    Image<vec3> color = backdrop(options.size);
+    DepthBuffer depth(options.size);
+
+    const auto draw = [&](const ProjectedTriangle& projected) {
+        const TriangleSurface surface =
+            triangle_surface(scene, textures, effects[projected.triangle.material], projected);
+        const PerspectiveSetup setup = perspective_setup(projected);
+        const HighlightBy highlight = highlight_of(options.method, surface);
+        const VertexLighting at_vertices =
+            light_vertices(options.method, lights, camera.position_world, surface, projected);
+
+        fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
+            count(Counter::fragments_tested);
+            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+            count(Counter::fragments_shaded);
+            const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
+            const SurfaceColor base_color =
+                surface_color(surface, on_surface, options.texture.filter);
+            if (!surface.effects[Effect::light]) {
+                color[pixel] = unlit(base_color);
+                return;
+            }
+            const vec3 normal = interpolate(surface.normals_world, on_surface.here);
+            SurfacePoint<float> point =
+                surface_point(surface, on_surface.here, normal, camera.position_world);
+            scale_normal(options.method, normal, point);
+            const ReflectedLight reflected = at_vertices.is_used()
+                                                 ? at_vertices.at(on_surface.here)
+                                                 : reflected_light(lights, point, highlight);
+            color[pixel] = phong(base_color, ambient_light, reflected);
+        });
+    };
+    for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
+                              draw);
+    if (options.show_depth) return depth_picture(depth);
+    return color;
+}
+
+int main(int argc, char** argv) {
+    const auto make = [] {
+        return lesson_program<Options>(
+            "lab_06_phong", "Other ways to light, for lesson 06.", load_phong_scene, render,
+            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
+                return options.method != ShadingMethod{} ? PixelProbe()
+                                                         : phong_probe(options, assets);
+            });
+    };
+    return run_lab(make, "--shading phong --highlight phong --power double --normals exact", argc,
+                   argv);
+}
