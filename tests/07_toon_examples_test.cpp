@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "07_toon/outline.hpp"
-#include "07_toon/toon_variants.hpp"
+#include "lab/toon_methods.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"
 #include "support/printers.hpp"

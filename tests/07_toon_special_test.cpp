@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "07_toon/outline.hpp"
-#include "07_toon/toon_variants.hpp"
+#include "lab/toon_methods.hpp"
 #include "support/look_up.hpp"
 #include "support/printers.hpp"
 #include "support/special_numbers.hpp"
@@ -106,7 +106,6 @@ TEST(Toon, HardCase_SpecialNumbersInPictures) {
         options.size = {48, 27};
         options.shading.outline = static_cast<Outline>(mix.below(4));
         options.shading.key_light = static_cast<LightKind>(mix.below(3));
-        options.shading.smooth = mix.below(2) == 0;
         options.shading.two_sided = mix.below(2) == 0;
         options.shading.tones = 1 + static_cast<int>(mix.below(max_tones));
         options.shading.outline_width_px = mix.below(2) == 0 ? 2.0f : 64.0f;
@@ -134,14 +133,12 @@ TEST(Toon, HardCase_SilhouettesAreNeverNaN) {
         return figure;
     }();
     for (const Outline outline : {Outline::facing, Outline::hull, Outline::edges})
-        for (const bool smooth : {false, true})
-            for (int yaw = 0; yaw < 90; yaw += 15) {
-                lesson_07::Options options = small_toon();
-                options.orbit = {static_cast<float>(yaw), 0, 3, 36};
-                options.shading.outline = outline;
-                options.shading.smooth = smooth;
-                const Image<vec3> picture = toon_picture(scene, options);
-                for (const vec3 color : picture.pixels())
-                    ASSERT_TRUE(is_finite(color) && color.x >= 0 && color.x <= 1);
-            }
+        for (int yaw = 0; yaw < 90; yaw += 15) {
+            lesson_07::Options options = small_toon();
+            options.orbit = {static_cast<float>(yaw), 0, 3, 36};
+            options.shading.outline = outline;
+            const Image<vec3> picture = toon_picture(scene, options);
+            for (const vec3 color : picture.pixels())
+                ASSERT_TRUE(is_finite(color) && color.x >= 0 && color.x <= 1);
+        }
 }

@@ -14,8 +14,8 @@
 #include <gtest/gtest.h>
 
 #include "07_toon/toon.hpp"
-#include "07_toon/toon_variants.hpp"
 #include "common/math/numerics.hpp"
+#include "lab/toon_methods.hpp"
 #include "support/cases.hpp"
 #include "support/look_up.hpp"
 #include "support/near.hpp"

@@ -197,40 +197,34 @@ TEST(Allocations, OfLesson05DoNotDependOnTriangles) {
 }
 
 TEST(Allocations, OfLesson06DoNotDependOnTriangles) {
-    for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
-        lesson_06::Options knobs;
-        knobs.shading.shading = shading;
-        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options,
-                                                           const Scene& scene) {
-            Scene shiny = scene;
-            shiny.materials[1].specular = vec3(0.5f), shiny.materials[1].shininess = 10;
-            PhongAssets assets = lesson_06::make_assets(shiny, options);
-            assets.textures.diffuse[1] = texture_of(vec4(0.5f));
-            assets.effects[1].set(Effect::texture);
-            const test::CountedSince counters;
-            const std::size_t count = allocations_of([&] { lesson_06::render(options, assets); });
-            expect_many(counters, Counter::highlights);
-            expect_many(counters, Counter::texture_samples);
-            return count;
-        }));
-    }
+    lesson_06::Options knobs;
+    EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
+        Scene shiny = scene;
+        shiny.materials[1].specular = vec3(0.5f), shiny.materials[1].shininess = 10;
+        PhongAssets assets = lesson_06::make_assets(shiny, options);
+        assets.textures.diffuse[1] = texture_of(vec4(0.5f));
+        assets.effects[1].set(Effect::texture);
+        const test::CountedSince counters;
+        const std::size_t count = allocations_of([&] { lesson_06::render(options, assets); });
+        expect_many(counters, Counter::highlights);
+        expect_many(counters, Counter::texture_samples);
+        return count;
+    }));
 }
 
 TEST(Allocations, OfLesson07DoNotDependOnTriangles) {
-    for (const Outline outline : {Outline::none, Outline::facing, Outline::hull, Outline::edges})
-        for (const bool smooth : {false, true}) {
-            lesson_07::Options knobs;
-            knobs.orbit = {}, knobs.shading.outline = outline, knobs.shading.smooth = smooth;
-            EXPECT_TRUE(
-                does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-                    const ToonAssets assets = lesson_07::make_assets(scene, options);
-                    const test::CountedSince counters;
-                    const std::size_t count =
-                        allocations_of([&] { lesson_07::render(options, assets); });
-                    expect_many(counters, Counter::toon_fragments);
-                    return count;
-                }));
-        }
+    for (const Outline outline : {Outline::none, Outline::facing, Outline::hull, Outline::edges}) {
+        ToonOptions knobs;
+        knobs.orbit = {}, knobs.shading.outline = outline;
+        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options,
+                                                           const Scene& scene) {
+            const ToonAssets assets = lesson_07::make_assets(scene, options);
+            const test::CountedSince counters;
+            const std::size_t count = allocations_of([&] { lesson_07::render(options, assets); });
+            expect_many(counters, Counter::toon_fragments);
+            return count;
+        }));
+    }
 }
 
 TEST(Allocations, OfLesson08DoNotDependOnTriangles) {

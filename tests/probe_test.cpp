@@ -122,11 +122,10 @@ TEST(Probe, Lesson06SaysWhatThePictureHas) {
 }
 
 TEST(Probe, Lesson07SaysWhatThePictureHas) {
-    lesson_07::Options edges, hull, facing, none, smooth_tones, wide, smooth;
+    ToonOptions edges, hull, facing, none, wide, smooth;
     hull.shading.outline = Outline::hull;
     facing.shading.outline = Outline::facing;
     none.shading.outline = Outline::none;
-    smooth_tones.shading.smooth = true, smooth_tones.shading.tones = 2;
     wide.shading.outline_width_px = 40;
     smooth.samples_per_side = 2, smooth.shading.outline = Outline::hull;
     const auto expect = [&](const auto& options, const char* model, int pixels) {
@@ -137,7 +136,7 @@ TEST(Probe, Lesson07SaysWhatThePictureHas) {
     };
     expect(edges, "figure.obj", 300);
     expect(edges, "scene.obj", 100);
-    for (const auto& options : {hull, facing, none, smooth_tones, wide, smooth})
+    for (const auto& options : {hull, facing, none, wide, smooth})
         expect(options, "figure.obj", 100);
     edges.samples_per_side = 2;
     expect(edges, "figure.obj", 100);

@@ -7,10 +7,10 @@
 
 namespace rasterbook {
 
-ToonAssets make_toon_assets(Scene scene, const TextureOptions& texture,
-                            const ToonVariant& shading) {
-    PhongAssets made = make_phong_assets(std::move(scene), texture, shading.all_effects);
-    HullNormals hull_normals = make_hull_normals(made.scene, shading.outline);
+ToonAssets load_toon_scene(Scene scene, const ToonOptions& options) {
+    PhongAssets made =
+        make_phong_assets(std::move(scene), options.texture, options.shading.all_effects);
+    HullNormals hull_normals = make_hull_normals(made.scene, options.shading.outline);
     return {std::move(made.scene), std::move(made.textures), std::move(made.effects),
             std::move(hull_normals)};
 }

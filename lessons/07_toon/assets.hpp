@@ -8,10 +8,21 @@
 
 #include "05_textures/texture_options.hpp"
 #include "06_phong/effects.hpp"
-#include "07_toon/toon_variants.hpp"
+#include "07_toon/toon_options.hpp"
+#include "common/app/lesson_app.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
+
+struct ToonOptions : LessonOptions {
+    Orbit orbit;
+    bool show_depth = false;
+    TextureOptions texture;
+    ToonShading shading;
+
+    ToonOptions() { model = "figure.obj", orbit.distance = 2.75f, orbit.pitch_degrees = 13; }
+    void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
+};
 
 /// What is made once, before the first picture.
 struct ToonAssets {
@@ -22,12 +33,6 @@ struct ToonAssets {
 };
 
 /// @throws InputError  When an image cannot be read.
-ToonAssets make_toon_assets(Scene scene, const TextureOptions& texture, const ToonVariant& shading);
-
-/// @param options  As of make_phong_assets(), with ToonVariant `shading`.
-template <typename Options>
-ToonAssets make_toon_assets(Scene scene, const Options& options) {
-    return make_toon_assets(std::move(scene), options.texture, options.shading);
-}
+ToonAssets load_toon_scene(Scene scene, const ToonOptions& options);
 
 }  // namespace rasterbook

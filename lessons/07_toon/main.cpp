@@ -9,23 +9,12 @@
 #include "06_phong/surface.hpp"
 #include "07_toon/assets.hpp"
 #include "07_toon/probe.hpp"
-#include "07_toon/toon_variants.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 
 using namespace rasterbook;
 
-struct Options : LessonOptions {
-    Orbit orbit;
-    bool show_depth = false;
-    TextureOptions texture;
-    ToonVariant shading;
-
-    Options() { model = "figure.obj", orbit.distance = 2.75f, orbit.pitch_degrees = 13; }
-    void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
-};
-
-static Image<vec3> render(const Options& options, const ToonAssets& assets) {
+static Image<vec3> render(const ToonOptions& options, const ToonAssets& assets) {
     const auto& [scene, textures, effects, hull_normals] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -39,12 +28,6 @@ static Image<vec3> render(const Options& options, const ToonAssets& assets) {
         const TriangleSurface surface =
             triangle_surface(scene, textures, effects[projected.triangle.material], projected);
         const PerspectiveSetup setup = perspective_setup(projected);
-        const auto light_at = [&](Barycentrics at) {
-            const vec3 normal = interpolate(surface.normals_world, at);
-            const SurfacePoint<float> point =
-                surface_point(surface, at, normal, camera.position_world);
-            return reflected_light(lights, point, highlight_of(surface));
-        };
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
             count(Counter::fragments_tested);
@@ -56,13 +39,13 @@ static Image<vec3> render(const Options& options, const ToonAssets& assets) {
             color[pixel] = unlit(base_color);
             if (surface.effects[Effect::light]) {
                 count(Counter::toon_fragments);
-                const int tones = options.shading.tones;
+                const vec3 normal = interpolate(surface.normals_world, on_surface.here);
+                const SurfacePoint<float> point =
+                    surface_point(surface, on_surface.here, normal, camera.position_world);
+                const ReflectedLight reflected =
+                    reflected_light(lights, point, highlight_of(surface));
                 color[pixel] =
-                    options.shading.smooth
-                        ? smooth_toon(base_color, toon_ambient_light, light_at(on_surface.here),
-                                      light_at(on_surface.here + on_surface.ddx),
-                                      light_at(on_surface.here + on_surface.ddy), tones)
-                        : toon(base_color, toon_ambient_light, light_at(on_surface.here), tones);
+                    toon(base_color, toon_ambient_light, reflected, options.shading.tones);
             }
             add_to_outline(options.shading, surface, on_surface.here, camera.position_world, pixel,
                            normals, color);
@@ -77,7 +60,7 @@ static Image<vec3> render(const Options& options, const ToonAssets& assets) {
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "07_toon", "Draws a scene as a comic does.",
-                               make_toon_assets<Options>, render,
-                               [](auto&... of) { return toon_probe(of...); });
+    return run_lesson<ToonOptions>(argc, argv, "07_toon", "Draws a scene as a comic does.",
+                                   load_toon_scene, render,
+                                   [](auto&... of) { return toon_probe(of...); });
 }

@@ -14,7 +14,6 @@
 #include "06_phong/report.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
-#include "07_toon/toon_variants.hpp"
 
 namespace rasterbook {
 
@@ -114,55 +113,46 @@ void report_hulls(PixelReport& report, const Scene& scene, const HullNormals& hu
 }
 
 /// Says how the light of a fragment becomes paint.
-vec3 report_paint(PixelReport& report, const ToonProbeOptions& options, const Scene& scene,
+vec3 report_paint(PixelReport& report, const ToonOptions& options, const Scene& scene,
                   vec3 eye_world, const SeenSurface& seen) {
     const auto& [surface, on_surface, base_color] = seen;
     const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
-    const auto point_at = [&, &of = surface](Barycentrics at) {
-        return surface_point(of, at, interpolate(of.normals_world, at), eye_world);
-    };
-    const auto light_at = [&, &of = surface](Barycentrics at) {
-        return reflected_light(lights, point_at(at), highlight_of(of));
-    };
-    const SurfacePoint<float> point = point_at(on_surface.here);
-    const ReflectedLight light = light_at(on_surface.here);
+    const vec3 normal = interpolate(surface.normals_world, on_surface.here);
+    const SurfacePoint<float> point = surface_point(surface, on_surface.here, normal, eye_world);
+    const ReflectedLight light = reflected_light(lights, point, highlight_of(surface));
     const int tones = options.shading.tones;
     report_point(report, point, scene.origin);
     report_lights(report, lights, point, highlight_of(surface), [](std::size_t) { return 1.0f; });
     report_tone(report, base_color, light, tones);
-    const vec3 color = options.shading.smooth
-                           ? smooth_toon(base_color, toon_ambient_light, light,
-                                         light_at(on_surface.here + on_surface.ddx),
-                                         light_at(on_surface.here + on_surface.ddy), tones)
-                           : toon(base_color, toon_ambient_light, light, tones);
-    report.line("paint", color, options.shading.smooth ? "Eq. 7.5" : "Eq. 7.4");
+    const vec3 color = toon(base_color, toon_ambient_light, light, tones);
+    report.line("paint", color, "Eq. 7.4");
     return color;
 }
 
 /// Says whether the facing ratio makes an outline.
-void report_facing(PixelReport& report, const ToonVariant& variant, vec3 eye_world,
+void report_facing(PixelReport& report, const ToonShading& shading, vec3 eye_world,
                    const SeenSurface& seen, vec3& color) {
     const auto& [surface, on_surface, base_color] = seen;
     const vec3 normal = unit_or(interpolate(surface.normals_world, on_surface.here), vec3(0));
     const vec3 position = interpolate(surface.positions_world, on_surface.here);
     report.line("facing ratio",
                 words(facing_ratio(normal, unit_or(eye_world - position, normal))) +
-                    "; ink below " + words(variant.min_facing),
+                    "; ink below " + words(shading.min_facing),
                 "Eq. 7.6");
     Image<vec3> one(ivec2(1), color), no_normals;
-    add_to_outline(variant, surface, on_surface.here, eye_world, ivec2(0), no_normals, one);
+    add_to_outline(shading, surface, on_surface.here, eye_world, ivec2(0), no_normals, one);
     color = one[ivec2(0)];
 }
 
 }  // namespace
 
-PixelProbe toon_probe(const ToonProbeOptions& options, const ToonAssets& assets) {
+PixelProbe toon_probe(const ToonOptions& options, const ToonAssets& assets) {
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
-    return [options, &assets, camera,
+    return [&options, &assets, camera,
             triangles = projected_triangles(assets.scene, camera.clip_from_world(options.size),
                                             options.size)](ivec2 pixel, PixelReport& report) {
         const Scene& scene = assets.scene;
-        const ToonVariant& shading = options.shading;
+        const ToonShading& shading = options.shading;
         const vec3 eye_world = camera.position_world;
         const auto surface_of = [&](const SeenFragment& of) {
             const EffectMask effects = assets.effects[of.projected->triangle.material];

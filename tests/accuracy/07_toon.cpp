@@ -15,7 +15,7 @@
 #include "accuracy/accuracy.hpp"
 #include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
-#include "support/lesson_07.hpp"
+#include "support/lab_07.hpp"
 #include "support/lit_sphere.hpp"
 
 using namespace rasterbook;
@@ -96,21 +96,21 @@ int meets(dvec3 eye, dvec3 ray) {
     return body;
 }
 
-lesson_07::Options options_of(Outline outline, bool smooth) {
-    lesson_07::Options options;
+lab_07::Options options_of(Outline outline, bool smooth) {
+    lab_07::Options options;
     options.size = size;
     options.orbit = {};
     options.shading.outline = outline;
-    options.shading.smooth = smooth;
+    options.smooth = smooth;
     return options;
 }
 
 /// The level of light in each pixel, as the lesson draws it with so many samples a side.
 Image<float> drawn_levels(const ToonAssets& assets, bool smooth, int samples) {
-    lesson_07::Options options = options_of(Outline::none, smooth);
+    lab_07::Options options = options_of(Outline::none, smooth);
     options.size = samples * size;
     options.samples_per_side = samples;
-    const Image<vec3> picture = averaged(lesson_07::render(options, assets), samples);
+    const Image<vec3> picture = averaged(lab_07::render(options, assets), samples);
     Image<float> levels(size);
     for (std::size_t i = 0; i < levels.pixels().size(); ++i)
         levels.pixels()[i] = picture.pixels()[i].g;
@@ -150,7 +150,7 @@ std::vector<std::optional<double>> exact_levels(const Camera& camera,
 
 void add_tones() {
     static const ToonAssets assets =
-        lesson_07::make_assets(bodies(false), options_of(Outline::none, false));
+        load_toon_scene(bodies(false), options_of(Outline::none, false));
     const Bounds bounds = assets.scene.bounds();
     const Camera camera = orbit_camera({}, bounds);
     const auto lights = studio_lights(LightKind::directional, bounds);
@@ -203,7 +203,7 @@ void add_outlines() {
     constexpr int near_edge = 3;  // pixels: as far as a line of 3 may lie from its edge
     Image<int> met(size);
     static const ToonAssets assets =
-        lesson_07::make_assets(bodies(true), options_of(Outline::hull, false));
+        load_toon_scene(bodies(true), options_of(Outline::hull, false));
     const Bounds bounds = assets.scene.bounds();
     const Rays rays(orbit_camera({}, bounds), dvec3(bounds.center()));
     for (int y = 0; y < size.y; ++y)
@@ -224,8 +224,8 @@ void add_outlines() {
                                                         {"hull", Outline::hull},
                                                         {"edges", Outline::edges}};
     for (const auto& [name, outline] : outlines) {
-        const lesson_07::Options options = options_of(outline, false);
-        const Image<vec3> picture = lesson_07::render(options, assets);
+        const lab_07::Options options = options_of(outline, false);
+        const Image<vec3> picture = lab_07::render(options, assets);
         const auto is_ink = [&](ivec2 p) { return picture[p] == ink; };
         double edges = 0, missing = 0, inked = 0, wrong = 0;
         for (int y = near_edge; y < size.y - near_edge - 1; ++y)
@@ -237,7 +237,7 @@ void add_outlines() {
         add_variant("outlines", name, double(size.x) * size.y,
                     {{"missing, %", 100 * missing / edges},
                      {"false, %", inked > 0 ? 100 * wrong / inked : 0}},
-                    [=] { lesson_07::render(options, assets); });
+                    [=] { lab_07::render(options, assets); });
     }
 }
 

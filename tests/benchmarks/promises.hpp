@@ -84,17 +84,17 @@ float light_visibility(const ShadowMaps&, const Arguments&...) {
 #ifdef WITHOUT_outline
 #define add_to_outline add_to_outline_anyway
 #define draw_outlines draw_outlines_anyway
-#include "07_toon/toon_variants.hpp"
+#include "07_toon/toon_options.hpp"
 #undef add_to_outline
 #undef draw_outlines
 
 namespace rasterbook {
 
 template <typename... Arguments>
-void add_to_outline(const ToonVariant&, const Arguments&...) {}
+void add_to_outline(const ToonShading&, const Arguments&...) {}
 
 template <typename... Arguments>
-void draw_outlines(const ToonVariant&, const Arguments&...) {}
+void draw_outlines(const ToonShading&, const Arguments&...) {}
 
 }  // namespace rasterbook
 #endif

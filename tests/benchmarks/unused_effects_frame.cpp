@@ -7,7 +7,7 @@
 #include <memory>
 
 // All types that the functions below name, whichever lesson it is.
-#include "07_toon/toon_variants.hpp"
+#include "07_toon/toon_options.hpp"
 #include "11_scenes/scene_program.hpp"
 
 #include LESSON_HEADER

@@ -15,7 +15,6 @@
 #include "06_phong/surface.hpp"
 #include "07_toon/assets.hpp"
 #include "07_toon/probe.hpp"
-#include "07_toon/toon_variants.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "support/run_no_lesson.hpp"
@@ -27,8 +26,9 @@
 namespace lesson_07 {
 using rasterbook::test::run_lesson;
 #include "lessons/07_toon/main.cpp"
+using Options = ToonOptions;
 inline auto make_assets(Scene scene, const Options& options) {
-    return make_toon_assets(std::move(scene), options);
+    return load_toon_scene(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
 #undef render

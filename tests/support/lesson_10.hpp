@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "04_mvp/camera.hpp"
-#include "06_phong/surface.hpp"
 #include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
 #include "09_shadow_maps/assets.hpp"
 #include "09_shadow_maps/probe.hpp"
 #include "10_threading/binned_triangles.hpp"

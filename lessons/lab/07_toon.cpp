@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Lesson 07's tones with smooth borders.
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/projection.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "07_toon/assets.hpp"
+#include "07_toon/probe.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
+#include "lab/lab.hpp"
+#include "lab/toon_methods.hpp"
+
+using namespace rasterbook;
+
+struct Options : ToonOptions {
+    bool smooth = false;  ///< Borders of tones are one pixel wide, not hard.
+
+    void declare(Knobs& knobs) {
+        knobs.choice("--smooth", smooth, {{"no", false}, {"yes", true}},
+                     "Smooth the borders of tones over one pixel: light is computed three times");
+        ToonOptions::declare(knobs);
+    }
+};
+
+static Image<vec3> render(const Options& options, const ToonAssets& assets) {
+    const auto& [scene, textures, effects, hull_normals] = assets;
+    const Camera camera = orbit_camera(options.orbit, scene.bounds());
+    const mat4 clip_from_world = camera.clip_from_world(options.size);
+    const std::array lights = studio_lights(options.shading.key_light, scene.bounds());
+    Image<vec3> color(options.size, paper_color);
+    DepthBuffer depth(options.size);
+    Image<vec3> normals;
+    if (options.shading.outline == Outline::edges) normals = Image<vec3>(options.size, vec3(0));
+
+    const auto draw = [&](const ProjectedTriangle& projected) {
+        const TriangleSurface surface =
+            triangle_surface(scene, textures, effects[projected.triangle.material], projected);
+        const PerspectiveSetup setup = perspective_setup(projected);
+        const auto light_at = [&](Barycentrics at) {
+            const vec3 normal = interpolate(surface.normals_world, at);
+            const SurfacePoint<float> point =
+                surface_point(surface, at, normal, camera.position_world);
+            return reflected_light(lights, point, highlight_of(surface));
+        };
+
+        fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
+            count(Counter::fragments_tested);
+            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+            count(Counter::fragments_shaded);
+            const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
+            const SurfaceColor base_color =
+                surface_color(surface, on_surface, options.texture.filter);
+            color[pixel] = unlit(base_color);
+            if (surface.effects[Effect::light]) {
+                count(Counter::toon_fragments);
+                const int tones = options.shading.tones;
+                color[pixel] =
+                    options.smooth
+                        ? smooth_toon(base_color, toon_ambient_light, light_at(on_surface.here),
+                                      light_at(on_surface.here + on_surface.ddx),
+                                      light_at(on_surface.here + on_surface.ddy), tones)
+                        : toon(base_color, toon_ambient_light, light_at(on_surface.here), tones);
+            }
+            add_to_outline(options.shading, surface, on_surface.here, camera.position_world, pixel,
+                           normals, color);
+        });
+    };
+    for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
+                              draw);
+    draw_outlines(options.shading, scene, hull_normals, camera, options.samples_per_side, normals,
+                  depth, color);
+    if (options.show_depth) return depth_picture(depth);
+    return color;
+}
+
+int main(int argc, char** argv) {
+    const auto make = [] {
+        return lesson_program<Options>(
+            "lab_07_toon", "Tones with smooth borders, and outlines, for lesson 07.",
+            load_toon_scene, render,
+            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
+                return options.smooth ? PixelProbe() : toon_probe(options, assets);
+            });
+    };
+    return run_lab(make, "--smooth yes --outline edges", argc, argv);
+}
