@@ -18,6 +18,7 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "08_normal_maps/vertex_tangents.hpp"
+#include "lab/normal_map_methods.hpp"
 #include "support/cases.hpp"
 #include "support/look_up.hpp"
 #include "support/one_triangle.hpp"
@@ -263,10 +264,10 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
         for (std::uint32_t k = 0; k < 3; ++k)
             mesh.triangles[0].vertices[k].normal = mix.below(16) == 0 ? no_index : k;
         complete_normals(mesh);
-        NormalMapVariant variant;
-        variant.frame = static_cast<FrameOf>(mix.below(3));
-        variant.orthonormal = static_cast<Orthonormal>(mix.below(2));
-        variant.channels = static_cast<Channels>(mix.below(2));
+        NormalMapMethod method;
+        method.frame = static_cast<FrameOf>(mix.below(3));
+        method.orthonormal = static_cast<Orthonormal>(mix.below(2));
+        method.channels = static_cast<Channels>(mix.below(2));
         mapped.maps.spaces[0] = static_cast<MapSpace>(mix.below(2));
         mapped.scene.materials[0].normal_map.bump_multiplier = mix.any();
         mapped.scene.materials[0].bump_map.bump_multiplier = mix.any();
@@ -276,16 +277,16 @@ TEST(NormalMaps, HardCase_SpecialNumbersOfPoints) {
 
         const bool is_back = mix.below(2) == 0;
         const TriangleSurface surface = mapped.surface(is_back);
-        const TriangleNormalMap map =
-            triangle_normal_map(variant, mapped.scene, mapped.maps, mapped.seen(is_back));
+        const NormalMapOf map =
+            triangle_normal_map(method, mapped.scene, mapped.maps, mapped.seen(is_back));
         const vec3 eye = mix.place();
         const auto filter = static_cast<Filter>(mix.below(3));
         for (int k = 0; k < 8; ++k) {
             const float x = static_cast<float>(mix.below(5)) / 4;
             const float y = (1 - x) * static_cast<float>(mix.below(5)) / 4;
             const FragmentBarycentrics at{{x, y, 1 - x - y}, mix.any_three(), mix.any_three()};
-            const vec3 normal = normal_mapped(map, variant, at,
-                                              interpolate(surface.normals_world, at.here), filter);
+            const vec3 normal =
+                normal_mapped(method, map, at, interpolate(surface.normals_world, at.here), filter);
             const SurfacePoint<float> point = surface_point(surface, at.here, normal, eye);
             const ReflectedLight found =
                 reflected_light(std::span(lights), point, highlight_of(surface));
@@ -317,12 +318,12 @@ TEST(NormalMaps, Eq8_6_TheNormalOfAFragmentTakesTheStepsOfTheText) {
         if (i % 7 == 0) mapped.set_uvs({vec2(0), vec2(0), vec2(0)});  // it has no handedness
         complete_normals(mesh);
         mapped.make_tangents();
-        NormalMapVariant variant;
-        if (i % 2) variant.frame = FrameOf::pixel;
+        NormalMapMethod method;
+        if (i % 2) method.frame = FrameOf::pixel;
         const bool is_back = i % 3 == 0;
         const float side = is_back ? -1.0f : 1.0f;
-        const TriangleNormalMap map =
-            triangle_normal_map(variant, mapped.scene, mapped.maps, mapped.seen(is_back));
+        const NormalMapOf map =
+            triangle_normal_map(method, mapped.scene, mapped.maps, mapped.seen(is_back));
         const UvDirections of_face =
             uv_directions({mesh.positions[0], mesh.positions[1], mesh.positions[2]}, mapped.uvs());
         std::array<vec3, 3> tangents, vertex_normals;
@@ -334,7 +335,7 @@ TEST(NormalMaps, Eq8_6_TheNormalOfAFragmentTakesTheStepsOfTheText) {
             const float x = 0.05f * static_cast<float>(k), y = (1 - x) * 0.3f;
             const FragmentBarycentrics at{{x, y, 1 - x - y}, vec3(0), vec3(0)};
             const vec3 normal = interpolate(vertex_normals, at.here);
-            const vec3 found = normal_mapped(map, variant, at, normal, Filter::nearest);
+            const vec3 found = normal_mapped(method, map, at, normal, Filter::nearest);
 
             const vec3 tangent = interpolate(tangents, at.here);
             const TangentFrame frame = tangent_frame(

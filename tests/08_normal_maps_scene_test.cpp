@@ -20,7 +20,7 @@
 #include "common/model/obj.hpp"
 #include "support/first_difference.hpp"
 #include "support/golden.hpp"
-#include "support/lesson_08.hpp"
+#include "support/lab_08.hpp"
 #include "support/lesson_process.hpp"
 #include "support/look_up.hpp"
 #include "support/picture_difference.hpp"
@@ -35,19 +35,19 @@ namespace {
 
 const std::string textures = (fs::path(RASTERBOOK_ASSETS) / "textures").string() + "/";
 
-lesson_08::Options small_picture() {
-    lesson_08::Options options;
+lab_08::Options small_picture() {
+    lab_08::Options options;
     options.size = {320, 180};
     return options;
 }
 
-Drawn drawn_scene(const Scene& scene, const lesson_08::Options& options) {
-    return drawn(options, lesson_08::make_assets(scene, options),
-                 [](auto&... arguments) { return lesson_08::render(arguments...); });
+Drawn drawn_scene(const Scene& scene, const lab_08::Options& options) {
+    return drawn(options, lab_08::load(scene, options),
+                 [](auto&... arguments) { return lab_08::render(arguments...); });
 }
 
-Image<vec3> picture_of(const Scene& scene, const lesson_08::Options& options) {
-    return lesson_08::render(options, lesson_08::make_assets(scene, options));
+Image<vec3> picture_of(const Scene& scene, const lab_08::Options& options) {
+    return lab_08::render(options, lab_08::load(scene, options));
 }
 
 bool is_finite(const Image<vec3>& picture) {
@@ -84,8 +84,8 @@ Scene square_of(const std::string& material, const std::string& obj = square) {
 }
 
 /// Looks at the square from the front, and a little from the side.
-lesson_08::Options before_the_square() {
-    lesson_08::Options options = small_picture();
+lab_08::Options before_the_square() {
+    lab_08::Options options = small_picture();
     options.size = {160, 90};
     options.orbit.yaw_degrees = -20;
     return options;
@@ -155,11 +155,11 @@ TEST(NormalMaps, HardCase_NoFrameWithoutAMap) {
           Row{"unlit norm", square_of("illum 0\n" + norm), false},
           Row{"unlit bump", square_of("illum 0\n" + bump), false},
           Row{"diffuse norm", square_of("illum 1\n" + norm), true}}) {
-        lesson_08::Options options = small_picture();
+        lab_08::Options options = small_picture();
         options.size /= 2;
         for (const FrameOf frame : all_frames) {
-            options.normal_map.frame = frame;
-            const NormalMapAssets assets = lesson_08::make_assets(scene, options);
+            options.method.frame = frame;
+            const NormalMapAssets assets = lab_08::load(scene, options);
             for (const Mesh& mesh : assets.scene.meshes) {
                 const bool calls_for_one =
                     std::ranges::any_of(mesh.triangles, [&](const Triangle& triangle) {
@@ -175,7 +175,7 @@ TEST(NormalMaps, HardCase_NoFrameWithoutAMap) {
                 << name;
             EXPECT_LE(with.count(Counter::normal_map_samples), with.count(Counter::fragments_lit));
         }
-        options.normal_map = {};
+        options.method = {};
         options.normal_map.space = MapSpace::none;
         const Drawn without = drawn_scene(scene, options);
         EXPECT_EQ(without.count(Counter::normal_map_samples), 0u) << name;
@@ -196,9 +196,9 @@ TEST(NormalMaps, HardCase_OnlyMeshesWithMapsHaveTangents) {
         "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
         "g first\nusemtl m\nf 1/1 2/2 3/3\ng second\nusemtl plain\nf 1/1 3/3 4/4\n";
     const Scene scene = square_of("norm " + textures + "brick_normal.png\nnewmtl plain\n", two);
-    lesson_08::Options options = before_the_square();
+    lab_08::Options options = before_the_square();
     ASSERT_EQ(scene.meshes.size(), 2u);
-    const NormalMapAssets assets = lesson_08::make_assets(scene, options);
+    const NormalMapAssets assets = lab_08::load(scene, options);
     EXPECT_EQ(assets.scene.meshes[0].tangents.size(), 3u);
     EXPECT_EQ(assets.scene.meshes[1].tangents.size(), 0u);
     EXPECT_EQ(drawn_scene(scene, options).count(Counter::meshes_with_tangents), 1u);
@@ -211,10 +211,10 @@ TEST(NormalMaps, HardCase_AFlatMapChangesNothing) {
     const std::string shiny = "Ks 0.5 0.5 0.5\nNs 20\n";
     for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
         for (const FrameOf frame : all_frames) {
-            lesson_08::Options options = before_the_square();
+            lab_08::Options options = before_the_square();
             options.texture.filter = filter;
-            options.normal_map.frame = frame;
-            options.normal_map.format = NormalFormat::snorm;  // no UNORM value is exactly 0
+            options.method.frame = frame;
+            options.method.format = NormalFormat::snorm;  // no UNORM value is exactly 0
             options.shading.two_sided = true;
             for (const float yaw : {-20.0f, 160.0f}) {
                 options.orbit.yaw_degrees = yaw;
@@ -236,8 +236,8 @@ TEST(NormalMaps, HardCase_EffectsThatAreNotCalledForWouldChangeNothing) {
         const Scene scene = loaded(model);
         for (const FrameOf frame : all_frames)
             for (const MapSpace space : {MapSpace::tangent, MapSpace::object, MapSpace::none}) {
-                lesson_08::Options options = small_picture();
-                options.normal_map.frame = frame;
+                lab_08::Options options = small_picture();
+                options.method.frame = frame;
                 options.normal_map.space = space;
                 options.shading.two_sided = frame == FrameOf::pixel;
                 const Image<vec3> picture = picture_of(scene, options);
@@ -266,9 +266,9 @@ TEST(NormalMaps, HardCase_AMapOfOneNormalIsASlantedSurface) {
     for (const LightKind kind : {LightKind::directional, LightKind::point})
         for (const FrameOf frame : all_frames)
             for (const Filter filter : {Filter::nearest, Filter::trilinear}) {
-                lesson_08::Options options = before_the_square();
+                lab_08::Options options = before_the_square();
                 options.shading.key_light = kind;
-                options.normal_map.frame = frame;
+                options.method.frame = frame;
                 options.texture.filter = filter;
                 EXPECT_EQ(share_that_differs(picture_of(square_of(right), options),
                                              picture_of(slanted_square({s, o, c}), options)),
@@ -312,9 +312,9 @@ TEST(NormalMaps, HardCase_ObjectSpaceMapsNeedNoFrame) {
         "mtllib m.mtl\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
         "usemtl m\nf 1/1 2/2 3/3 4/4\n";
     const std::string flat = "norm " + plain_picture("flat_up.png", {128, 255, 128}) + "\n";
-    lesson_08::Options options = before_the_square();
+    lab_08::Options options = before_the_square();
     options.normal_map.space = MapSpace::object;
-    options.normal_map.format = NormalFormat::snorm;  // (128, 255, 128) is exactly (0, 1, 0)
+    options.method.format = NormalFormat::snorm;  // (128, 255, 128) is exactly (0, 1, 0)
     const Image<vec3> plain = picture_of(square_of("", floor), options);
     EXPECT_EQ(share_that_differs(picture_of(square_of(flat, floor), options), plain), 0);
     EXPECT_EQ(drawn_scene(square_of(flat, floor), options).count(Counter::meshes_with_tangents),
@@ -339,8 +339,8 @@ TEST(NormalMaps, HardCase_BacksOfFaces) {
         "mtllib m.mtl\nv 1 -1 0\nv -1 -1 0\nv -1 1 0\nv 1 1 0\n"
         "vt 1 0\nvt 0 0\nvt 0 1\nvt 1 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n";
     for (const FrameOf frame : all_frames) {
-        lesson_08::Options options = before_the_square();
-        options.normal_map.frame = frame;
+        lab_08::Options options = before_the_square();
+        options.method.frame = frame;
         options.orbit.yaw_degrees = 160;
         const Image<vec3> front = picture_of(square_of("norm -bm -1 " + map, from_behind), options);
         EXPECT_FALSE(is_backdrop(front));
@@ -374,11 +374,11 @@ TEST(NormalMaps, HardCase_WrongHandednessShowsOnMirroredHalves) {
     look_up("Eq. 8.4, The mirror");
     const Scene shield = loaded("shield_mirrored_uvs.obj");
     for (const FrameOf frame : {FrameOf::vertex, FrameOf::pixel}) {
-        lesson_08::Options options = small_picture();
+        lab_08::Options options = small_picture();
         options.orbit.distance = 2.7f;
-        options.normal_map.frame = frame;
+        options.method.frame = frame;
         const Image<vec3> right = picture_of(shield, options);
-        options.normal_map.handedness = Handedness::ignored;
+        options.method.handedness = Handedness::ignored;
         const Image<vec3> wrong = picture_of(shield, options);
         // 38% of the shield's pixels, and 18%.
         EXPECT_GT(share_that_is_other(right, wrong, 4), 0.35)
@@ -410,9 +410,9 @@ TEST(NormalMaps, HardCase_MirroredHalvesLookLikeAWholeTexture) {
         }
     ASSERT_GT(changed, 100);
     for (const FrameOf frame : all_frames) {
-        lesson_08::Options options = small_picture();
+        lab_08::Options options = small_picture();
         options.orbit.distance = 2.7f;
-        options.normal_map.frame = frame;
+        options.method.frame = frame;
         EXPECT_LT(share_that_is_other(picture_of(mirrored, options), picture_of(whole, options), 2),
                   0.001)
             << "of the shield's pixels differ, one half of it mirrored in the texture or not";
@@ -421,7 +421,7 @@ TEST(NormalMaps, HardCase_MirroredHalvesLookLikeAWholeTexture) {
 
 TEST(NormalMaps, HardCase_NormalsOrHeightsInMapBump) {
     look_up("Eq. 8.9");
-    const lesson_08::Options options = before_the_square();
+    const lab_08::Options options = before_the_square();
     const std::string normals = textures + "brick_normal.png\n";
     const std::string heights = "map_Bump -bm 0.014 " + textures + "brick_height.png\n";
     const Image<vec3> as_norm = picture_of(square_of("norm " + normals), options);
@@ -496,8 +496,8 @@ TEST(NormalMaps, HardCase_DegenerateUvs) {
             for (const char* steepness : {"", "-bm 1e37 ", "-bm 0 ", "-bm 1e-40 "}) {
                 std::string material = map;
                 material.insert(material.find("norm ") + 5, steepness);
-                lesson_08::Options options = before_the_square();
-                options.normal_map.frame = frame;
+                lab_08::Options options = before_the_square();
+                options.method.frame = frame;
                 const Image<vec3> picture = picture_of(
                     square_of(material, begin + uvs + "usemtl m\n" +
                                             (uvs.empty() ? "f 1 2 3 4\n" : "f 1/1 2/2 3/3 4/4\n")),
@@ -510,10 +510,10 @@ TEST(NormalMaps, HardCase_DegenerateUvs) {
 TEST(NormalMaps, HardCase_ModelsOfAllSizes) {
     look_up("Eq. 8.3");
     const Scene scene = loaded("scene_bumpy.obj");
-    lesson_08::Options options = small_picture();
+    lab_08::Options options = small_picture();
     options.size = {160, 90};
     for (const FrameOf frame : all_frames) {
-        options.normal_map.frame = frame;
+        options.method.frame = frame;
         const Image<vec3> expected = picture_of(scene, options);
         EXPECT_TRUE(is_finite(expected));
         for (const float factor : {0x1p-100f, 0x1p-40f, 0x1p60f, 0x1p120f}) {
@@ -570,7 +570,7 @@ TEST(NormalMaps, HardCase_UvsMovedByWholeNumbersLookTheSame) {
         for (const Filter filter : {Filter::nearest, Filter::trilinear})
             for (const int decimals : {3, 0})
                 for (const std::string options : {"", "-s 3 2 1 -o 0.3 -0.7 0 "}) {
-                    lesson_08::Options with = small_picture();
+                    lab_08::Options with = small_picture();
                     with.size = {120, 90};
                     with.texture.wrap = wrap, with.texture.filter = filter;
                     with.orbit.yaw_degrees = 0;

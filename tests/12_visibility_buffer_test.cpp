@@ -86,7 +86,7 @@ Image<int> ids_drawn(const std::vector<ProjectedTriangle>& triangles, const Tili
     const ShadowMaps no_maps{};
     Image<vec3> color(tiling.size());
     DepthBuffer depth(tiling.size());
-    const Frame<ShadowMaps> frame{assets, {}, Filter::nearest, vec3(0), no_maps, color, depth};
+    const Frame<ShadowMaps> frame{assets, Filter::nearest, vec3(0), no_maps, color, depth};
     Image<int> numbers(tiling.size(), -1);
     TileVisibility visible(no_limit);
     for (std::size_t i = 0; i < tiling.count(); ++i) {

@@ -983,7 +983,7 @@ TEST(Simd, Eq13_4_BatchesOfTheWorkedExample) {
     Image<vec3> color(size);
     DepthBuffer depth(size);
     const Frame<ShadowMapsOnDemand> frame{
-        triangles.assets, {}, Filter::nearest, vec3(0), maps, color, depth};
+        triangles.assets, Filter::nearest, vec3(0), maps, color, depth};
     // 20 pixels in rows of 2 to 6 pixels: all of one triangle, or the first rows of another.
     const std::array runs = {PixelRun{{2, 0}, 2}, PixelRun{{1, 1}, 3}, PixelRun{{1, 2}, 4},
                              PixelRun{{0, 3}, 5}, PixelRun{{0, 4}, 6}};
@@ -1035,9 +1035,9 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
             Image<vec3> expected(size, vec3(-1)), actual = expected;
             DepthBuffer depth(size);
             const Frame<ShadowMapsOnDemand> before{
-                triangles.assets, {}, Filter::nearest, vec3(0), maps, expected, depth};
+                triangles.assets, Filter::nearest, vec3(0), maps, expected, depth};
             const Frame<ShadowMapsOnDemand> frame{
-                triangles.assets, {}, Filter::nearest, vec3(0), maps, actual, depth};
+                triangles.assets, Filter::nearest, vec3(0), maps, actual, depth};
             std::vector<VisibleTriangle> visible;
             for (std::size_t t = 0; t < runs.size(); ++t) {
                 visible.push_back({&projected.at(t), runs.at(t)});

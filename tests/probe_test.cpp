@@ -143,12 +143,10 @@ TEST(Probe, Lesson07SaysWhatThePictureHas) {
 }
 
 TEST(Probe, Lesson08SaysWhatThePictureHas) {
-    lesson_08::Options exact, face, pixel, at_vertices, xy, green, smooth;
-    face.normal_map.frame = FrameOf::face, face.shading.two_sided = true;
-    pixel.normal_map.frame = FrameOf::pixel;
-    at_vertices.normal_map.orthonormal = Orthonormal::at_vertices;
-    xy.normal_map.channels = Channels::xy, xy.normal_map.bits = 4;
-    green.normal_map.green = Green::down, green.normal_map.handedness = Handedness::ignored;
+    NormalMapSceneOptions exact, behind, object, green, smooth;
+    behind.shading.two_sided = true;
+    object.normal_map.space = MapSpace::object;
+    green.normal_map.green = Green::down;
     smooth.samples_per_side = 2;
     const auto expect = [&](const auto& options, const char* model, int pixels) {
         const auto assets = lesson_08::make_assets(loaded(model), options);
@@ -159,7 +157,7 @@ TEST(Probe, Lesson08SaysWhatThePictureHas) {
     expect(exact, "scene_bumpy.obj", 200);
     expect(exact, "shield_mirrored_uvs.obj", 100);
     expect(exact, "crate_bump.obj", 100);
-    for (const auto& options : {face, pixel, at_vertices, xy, green, smooth})
+    for (const auto& options : {behind, object, green, smooth})
         expect(options, "scene_bumpy.obj", 80);
 }
 

@@ -411,7 +411,7 @@ function buildCommands() {
   if (isSandbox) return;
   commands.replaceChildren(...shownSides().map((i) => {
     const side = sides[i];
-    const isLab = lesson.methods.some((name) => name in side);
+    const isLab = lesson.methods?.some((name) => name in side);
     const words = [`./lessons/run ${own ? "--mine " : isLab ? "lab " : ""}${lessonName.slice(0, 2)}`];
     if (size !== usualSize) words.push(`--size ${size}`);
     if (probed && i === probedSide) words.push(`--probe ${probed.join()}`);

@@ -10,11 +10,12 @@
 namespace rasterbook {
 
 NormalMapAssets make_normal_map_assets(Scene scene, const TextureOptions& texture, bool all_effects,
-                                       const NormalMapVariant& normal_map) {
+                                       const NormalMapOptions& normal_map) {
     complete_normals(scene);
     SurfaceTextures textures = load_surface_textures(scene, texture);
-    NormalMaps normal_maps = load_normal_maps(scene, texture, normal_map, all_effects);
-    make_tangents(scene, normal_maps, normal_map);
+    NormalMaps normal_maps =
+        load_normal_maps(scene, texture, normal_map.space, all_effects, normal_map);
+    make_tangents(scene, normal_maps);
     if (all_effects) add_neutral_inputs(scene, textures);
     auto effects = plan_effects(scene, textures, normal_maps, all_effects);
     return {std::move(scene), std::move(textures), std::move(normal_maps), std::move(effects)};

@@ -11,7 +11,7 @@
 #include "05_textures/load_textures.hpp"
 #include "06_phong/effects.hpp"
 #include "06_phong/load_surface_textures.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
+#include "08_normal_maps/normal_map_options.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "08_normal_maps/vertex_tangents.hpp"
 #include "common/model/mesh.hpp"
@@ -19,28 +19,30 @@
 namespace rasterbook {
 
 /// @param all_effects  A lit material without a map is given one that changes nothing.
+/// @param decoder      Makes normals of images, as NormalMapOptions does.
 /// @throws InputError  As load_textures() has it.
-inline NormalMaps load_normal_maps(Scene& scene, const TextureOptions& options,
-                                   const NormalMapVariant& variant, bool all_effects) {
+template <typename Decoder>
+NormalMaps load_normal_maps(Scene& scene, const TextureOptions& options, MapSpace space,
+                            bool all_effects, const Decoder& decoder) {
     const auto calls_for_map = [&](const Material& material) {
-        return is_lit(material) && variant.space != MapSpace::none;
+        return is_lit(material) && space != MapSpace::none;
     };
     NormalMaps maps{
         load_textures(
             scene, &Material::normal_map, "norm", options,
-            [&](const Image<u8vec4>& image, WrapModes) { return variant.normals(image); },
+            [&](const Image<u8vec4>& image, WrapModes) { return decoder.normals(image); },
             calls_for_map),
         std::vector<MapSpace>(scene.materials.size(), MapSpace::tangent)};
     const MaterialTextures bumps = load_textures(
         scene, &Material::bump_map, "map_Bump", options,
         [&](const Image<u8vec4>& image, WrapModes wrap) {
-            return variant.normals_of_bumps(image, wrap);
+            return decoder.normals_of_bumps(image, wrap);
         },
         [&](const Material& material) {
             return calls_for_map(material) && material.normal_map.file.empty();
         });
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (maps.textures[i]) maps.spaces[i] = variant.space;
+        if (maps.textures[i]) maps.spaces[i] = space;
         if (bumps[i]) maps.textures[i] = bumps[i];
         if (!maps.textures[i] && is_lit(scene.materials[i]) && all_effects)
             maps.textures[i] = constant_texture(vec4(0, 0, 1, 1));
@@ -49,8 +51,7 @@ inline NormalMaps load_normal_maps(Scene& scene, const TextureOptions& options,
 }
 
 /// Gives tangents to each mesh that a normal map in tangent space calls for.
-inline void make_tangents(Scene& scene, const NormalMaps& maps, const NormalMapVariant& variant) {
-    if (variant.frame != FrameOf::vertex) return;
+inline void make_tangents(Scene& scene, const NormalMaps& maps) {
     for (Mesh& mesh : scene.meshes)
         if (std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
                         [&](const Triangle& triangle) {

@@ -5,7 +5,6 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
-#include "06_phong/light_options.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/assets.hpp"
@@ -16,18 +15,7 @@
 
 using namespace rasterbook;
 
-struct Options : LessonOptions {
-    Orbit orbit;
-    bool show_depth = false;
-    TextureOptions texture;
-    LightOptions shading;
-    NormalMapVariant normal_map;
-
-    Options() { model = "scene_bumpy.obj"; }
-    void declare(Knobs& knobs) { declare_all(knobs, texture, shading, normal_map); }
-};
-
-static Image<vec3> render(const Options& options, const NormalMapAssets& assets) {
+static Image<vec3> render(const NormalMapSceneOptions& options, const NormalMapAssets& assets) {
     const auto& [scene, textures, normal_maps, effects] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -39,8 +27,7 @@ static Image<vec3> render(const Options& options, const NormalMapAssets& assets)
         const TriangleSurface surface =
             triangle_surface(scene, textures, effects[projected.triangle.material], projected);
         const PerspectiveSetup setup = perspective_setup(projected);
-        const TriangleNormalMap normal_map =
-            triangle_normal_map(options.normal_map, scene, normal_maps, projected);
+        const TriangleNormalMap normal_map = triangle_normal_map(scene, normal_maps, projected);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
             count(Counter::fragments_tested);
@@ -53,7 +40,7 @@ static Image<vec3> render(const Options& options, const NormalMapAssets& assets)
                 color[pixel] = unlit(base_color);
                 return;
             }
-            const vec3 normal = normal_mapped(normal_map, options.normal_map, on_surface,
+            const vec3 normal = normal_mapped(normal_map, on_surface,
                                               interpolate(surface.normals_world, on_surface.here),
                                               options.texture.filter);
             const SurfacePoint<float> point =
@@ -69,7 +56,7 @@ static Image<vec3> render(const Options& options, const NormalMapAssets& assets)
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "08_normal_maps", "Draws a scene with normal maps.",
-                               make_normal_map_assets<Options>, render,
-                               [](auto&... of) { return normal_map_probe(of...); });
+    return run_lesson<NormalMapSceneOptions>(
+        argc, argv, "08_normal_maps", "Draws a scene with normal maps.", load_normal_map_scene,
+        render, [](auto&... of) { return normal_map_probe(of...); });
 }

@@ -12,9 +12,9 @@
 
 namespace rasterbook {
 
-PixelProbe normal_map_probe(const NormalMapProbeOptions& options, const NormalMapAssets& assets) {
+PixelProbe normal_map_probe(const NormalMapSceneOptions& options, const NormalMapAssets& assets) {
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
-    return [options, &assets, camera,
+    return [&options, &assets, camera,
             triangles = projected_triangles(assets.scene, camera.clip_from_world(options.size),
                                             options.size)](ivec2 pixel, PixelReport& report) {
         const Scene& scene = assets.scene;
@@ -27,10 +27,9 @@ PixelProbe normal_map_probe(const NormalMapProbeOptions& options, const NormalMa
         const auto [surface, on_surface, base_color] = report_surface(
             report, *seen, triangle_surface(scene, assets.textures, effects, projected), filter);
         if (!effects[Effect::light]) return report_unlit(report, base_color);
-        const vec3 normal = report_normal(
-            report, triangle_normal_map(options.normal_map, scene, assets.normal_maps, projected),
-            options.normal_map, on_surface, interpolate(surface.normals_world, on_surface.here),
-            filter);
+        const vec3 normal =
+            report_normal(report, triangle_normal_map(scene, assets.normal_maps, projected),
+                          on_surface, interpolate(surface.normals_world, on_surface.here), filter);
         const SurfacePoint<float> point =
             surface_point(surface, on_surface.here, normal, camera.position_world);
         report_point(report, point, scene.origin);

@@ -8,7 +8,7 @@
 namespace rasterbook {
 
 ShadowAssets make_shadow_assets(Scene scene, const TextureOptions& texture, bool all_effects,
-                                const NormalMapVariant& normal_map) {
+                                const NormalMapOptions& normal_map) {
     NormalMapAssets made =
         make_normal_map_assets(std::move(scene), texture, all_effects, normal_map);
     const ShadowBounds bounds = shadow_bounds(made.scene);

@@ -25,7 +25,7 @@ struct ShadowAssets {
 
 /// @throws InputError  When an image cannot be read.
 ShadowAssets make_shadow_assets(Scene scene, const TextureOptions& texture, bool all_effects,
-                                const NormalMapVariant& normal_map);
+                                const NormalMapOptions& normal_map);
 
 /// @param options  As of make_normal_map_assets().
 template <typename Options>

@@ -22,7 +22,7 @@ struct Options : LessonOptions {
     bool show_depth = false;
     TextureOptions texture;
     LightOptions shading{.key_light = LightKind::directional};
-    NormalMapVariant normal_map;
+    NormalMapOptions normal_map;
     ShadowVariant shadow;
 
     Options() { model = "scene_bumpy.obj"; }
@@ -43,8 +43,7 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets) {
         const TriangleSurface surface =
             triangle_surface(scene, textures, effects[projected.triangle.material], projected);
         const PerspectiveSetup setup = perspective_setup(projected);
-        const TriangleNormalMap normal_map =
-            triangle_normal_map(options.normal_map, scene, normal_maps, projected);
+        const TriangleNormalMap normal_map = triangle_normal_map(scene, normal_maps, projected);
         ShadowBiasCache shadow_biases(surface.positions_world);
 
         fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
@@ -59,8 +58,8 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets) {
                 return;
             }
             const vec3 smooth_normal = interpolate(surface.normals_world, on_surface.here);
-            const vec3 normal = normal_mapped(normal_map, options.normal_map, on_surface,
-                                              smooth_normal, options.texture.filter);
+            const vec3 normal =
+                normal_mapped(normal_map, on_surface, smooth_normal, options.texture.filter);
             const SurfacePoint<float> point =
                 surface_point(surface, on_surface.here, normal, camera.position_world);
             const auto visibility = [&](std::size_t light) {

@@ -34,9 +34,9 @@ PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& a
             report, *seen, triangle_surface(scene, assets.textures, effects, projected), filter);
         if (!effects[Effect::light]) return report_unlit(report, base_color);
         const vec3 smooth_normal = interpolate(surface.normals_world, on_surface.here);
-        const vec3 normal = report_normal(
-            report, triangle_normal_map(options.normal_map, scene, assets.normal_maps, projected),
-            options.normal_map, on_surface, smooth_normal, filter);
+        const vec3 normal =
+            report_normal(report, triangle_normal_map(scene, assets.normal_maps, projected),
+                          on_surface, smooth_normal, filter);
         const SurfacePoint<float> point =
             surface_point(surface, on_surface.here, normal, camera.position_world);
         report_point(report, point, scene.origin);

@@ -19,7 +19,7 @@ struct ShadowProbeOptions {
     const Orbit& orbit;
     const TextureOptions& texture;
     const LightOptions& shading;
-    const NormalMapVariant& normal_map;
+    const NormalMapOptions& normal_map;
     const ShadowVariant& shadow;
 };
 

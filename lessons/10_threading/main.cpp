@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "04_mvp/camera.hpp"
-#include "06_phong/surface.hpp"
 #include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
 #include "09_shadow_maps/assets.hpp"
 #include "09_shadow_maps/probe.hpp"
 #include "10_threading/binned_triangles.hpp"
@@ -21,7 +21,7 @@ struct Options : LessonOptions {
     bool show_depth = false;
     TextureOptions texture;
     LightOptions shading{.key_light = LightKind::directional};
-    NormalMapVariant normal_map;
+    NormalMapOptions normal_map;
     ShadowVariant shadow;
     ThreadOptions threads;
 
@@ -46,8 +46,7 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Wo
         const TriangleSurface surface =
             triangle_surface(scene, textures, effects[projected.triangle.material], projected);
         const PerspectiveSetup setup = perspective_setup(projected);
-        const TriangleNormalMap normal_map =
-            triangle_normal_map(options.normal_map, scene, normal_maps, projected);
+        const TriangleNormalMap normal_map = triangle_normal_map(scene, normal_maps, projected);
         ShadowBiasCache shadow_biases(surface.positions_world);
 
         fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
@@ -62,8 +61,8 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Wo
                 return;
             }
             const vec3 smooth_normal = interpolate(surface.normals_world, on_surface.here);
-            const vec3 normal = normal_mapped(normal_map, options.normal_map, on_surface,
-                                              smooth_normal, options.texture.filter);
+            const vec3 normal =
+                normal_mapped(normal_map, on_surface, smooth_normal, options.texture.filter);
             const SurfacePoint<float> point =
                 surface_point(surface, on_surface.here, normal, camera.position_world);
             const auto visibility = [&](std::size_t light) {

@@ -67,8 +67,7 @@ void report_stages(PixelReport& report, const Frame<>& frame, const SeenFragment
         return;
     }
     const vec3 own_normal = interpolate(surface.normals_world, at.here);
-    const vec3 normal =
-        report_normal(report, inputs.normal_map, frame.normal_map, at, own_normal, frame.filter);
+    const vec3 normal = report_normal(report, inputs.normal_map, at, own_normal, frame.filter);
     const SurfacePoint<float> point = surface_point(surface, at.here, normal, frame.eye_world);
     report_point(report, point, frame.assets.scene.origin);
     const std::span<const Light> lights = frame.assets.lit_by.lights;

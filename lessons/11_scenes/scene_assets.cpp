@@ -193,7 +193,7 @@ ScenePlan plan_scene(const Scene& scene, const SurfaceTextures& textures,
 }
 
 SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
-                              const LightOptions& shading, const NormalMapVariant& normal_map,
+                              const LightOptions& shading, const NormalMapOptions& normal_map,
                               int shadow_size) {
     const bool all_effects = shading.all_effects;
     NormalMapAssets made = make_normal_map_assets(with_outline_materials(std::move(from)), texture,

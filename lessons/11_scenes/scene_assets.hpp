@@ -66,10 +66,10 @@ std::vector<OutlineHull> outline_hulls(const Scene& scene);
 ///
 /// @param shadow_size  Texels along a shadow map's side.
 SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
-                              const LightOptions& shading, const NormalMapVariant& normal_map,
+                              const LightOptions& shading, const NormalMapOptions& normal_map,
                               int shadow_size);
 
-/// @param options  Has TextureOptions `texture`, NormalMapVariant `normal_map`, LightOptions
+/// @param options  Has TextureOptions `texture`, NormalMapOptions `normal_map`, LightOptions
 ///                 `shading` and ShadowVariant `shadow`.
 template <typename Options>
 SceneAssets make_scene_assets(Scene from, const Options& options) {

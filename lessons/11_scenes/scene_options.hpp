@@ -8,7 +8,7 @@
 
 #include "05_textures/texture_options.hpp"
 #include "06_phong/light_options.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
+#include "08_normal_maps/normal_map_options.hpp"
 #include "09_shadow_maps/shadow_variants.hpp"
 #include "10_threading/thread_options.hpp"
 #include "common/app/lesson_app.hpp"
@@ -41,7 +41,7 @@ struct SceneRendererOptions : LessonOptions {
     SceneOptions scene;
     TextureOptions texture;
     LightOptions shading{.key_light = LightKind::directional};
-    NormalMapVariant normal_map;
+    NormalMapOptions normal_map;
     ShadowVariant shadow;
     ThreadOptions threads;
 

@@ -30,7 +30,6 @@ namespace rasterbook {
 template <typename Maps = ShadowMaps>
 struct Frame {
     const SceneAssets& assets;
-    NormalMapVariant normal_map;
     Filter filter;
     vec3 eye_world;
     const Maps& shadow_maps;
@@ -42,13 +41,7 @@ struct Frame {
 template <typename Options, typename Maps>
 Frame<Maps> make_frame(const Options& options, const SceneAssets& assets, const Camera& camera,
                        const Maps& shadow_maps, Image<vec3>& color, DepthBuffer& depth) {
-    return {assets,
-            options.normal_map,
-            options.texture.filter,
-            camera.position_world,
-            shadow_maps,
-            color,
-            depth};
+    return {assets, options.texture.filter, camera.position_world, shadow_maps, color, depth};
 }
 
 /// The colors of a triangle's vertices.
@@ -122,8 +115,7 @@ TriangleInputs triangle_inputs(const Permutation& with, const Frame<Maps>& frame
             surface.material.toon->shade;  // toon paint has no ambient colour
     TriangleNormalMap normal_map;
     if (with.normal_map)
-        normal_map =
-            triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
+        normal_map = triangle_normal_map(assets.scene, assets.normal_maps, projected);
     return {surface, perspective_setup(projected), vertex_colors(effects, projected), normal_map,
             ShadowBiasCache(surface.positions_world)};
 }
@@ -149,8 +141,7 @@ Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBaryce
         const Vec3<F> own_normal = interpolate(surface.normals_world, at.here);
         Vec3<F> normal = own_normal;
         if constexpr (with.normal_map)
-            normal =
-                normal_mapped(inputs.normal_map, frame.normal_map, at, own_normal, frame.filter);
+            normal = normal_mapped(inputs.normal_map, at, own_normal, frame.filter);
         const SurfacePoint<F> point = surface_point(surface, at.here, normal, frame.eye_world);
         const auto visibility = [&](std::size_t l, auto... mask) {
             if constexpr (with.shadow)

@@ -83,7 +83,7 @@ struct LaneInputs {
     /// Gives a triangle's own inputs to some lanes: as many as shading reads.
     ///
     /// @param slot  0 to N: the triangle's number among those that lanes have.
-    void set(Mask<N> lanes, TriangleInputs& triangle, FrameOf frame, int slot) {
+    void set(Mask<N> lanes, TriangleInputs& triangle, int slot) {
         const TriangleSurface& own = triangle.surface;
         if (own.effects[Effect::texture]) blend(lanes, surface.uvs, own.uvs);
         if (own.effects[Effect::specular_map]) blend(lanes, surface.specular_uvs, own.specular_uvs);
@@ -99,11 +99,6 @@ struct LaneInputs {
             blend(lanes, normal_map.uvs, map.uvs);
             blend(lanes, normal_map.tangents, map.tangents);
             blend(lanes, normal_map.handedness, map.handedness);
-            if (frame == FrameOf::face) {
-                blend(lanes, normal_map.face.tangent, map.face.tangent);
-                blend(lanes, normal_map.face.bitangent, map.face.bitangent);
-                blend(lanes, normal_map.face.normal, map.face.normal);
-            }
         }
         if constexpr (with.shadow) shadow_biases.set(lanes, triangle.shadow_biases, slot);
     }
@@ -176,8 +171,7 @@ class PixelBatch {
         const Mask<N> own = !first_lanes<F>(first_);
         at_ = {select(own, at.here, at_.here), select(own, at.ddx, at_.ddx),
                select(own, at.ddy, at_.ddy)};
-        if (!is_in_all_lanes_)
-            inputs_.set(own, current().inputs, frame_.normal_map.frame, static_cast<int>(slot_));
+        if (!is_in_all_lanes_) inputs_.set(own, current().inputs, static_cast<int>(slot_));
         is_in_all_lanes_ = first_ == 0;
         first_ = count_;
     }

@@ -128,7 +128,7 @@ void shade_fragments(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTria
         constexpr std::size_t N = width_of<F>;
         TriangleInputs triangle = triangle_inputs(with, frame, projected);
         LaneInputs<with, N> inputs(triangle);
-        inputs.set(first_lanes<F>(N), triangle, frame.normal_map.frame, 0);
+        inputs.set(first_lanes<F>(N), triangle, 0);
         for (std::size_t first = 0; first < fragments.size(); first += N) {
             const std::span<FragmentToShade> some =
                 fragments.subspan(first, std::min(N, fragments.size() - first));

@@ -25,7 +25,7 @@ namespace {
 
 struct Way {
     const char* name;
-    NormalMapVariant variant;
+    NormalMapMethod variant;
 };
 
 const std::array<Way, 4> ways{{{"face", {.frame = FrameOf::face}},

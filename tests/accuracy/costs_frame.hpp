@@ -18,6 +18,8 @@
 #include "11_scenes/explain.hpp"
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/shaders.hpp"
+#include "lab/normal_map_methods.hpp"
+#include "lab/shading_methods.hpp"
 #include "support/lesson_13.hpp"
 #include "support/pictures.hpp"
 
@@ -26,6 +28,9 @@ namespace rasterbook::test {
 /// Lesson 11's shader for all materials, if it is not null; it lets render() draw with two choices
 /// of lesson 06.
 inline Shaders::Shader chosen_shader = nullptr;
+
+/// How that shader's normal maps are applied.
+inline NormalMapMethod chosen_normals;
 
 /// Takes the place of Shaders.
 class ChosenShaders {
@@ -60,10 +65,10 @@ void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const
     const TriangleSurface surface =
         triangle_surface(assets.scene, assets.textures, effects, projected);
     const PerspectiveSetup setup = perspective_setup(projected.on_screen, projected.clipped);
-    TriangleNormalMap normal_map;
+    NormalMapOf normal_map;
     if constexpr (shading == Shading::phong)
         normal_map =
-            triangle_normal_map(frame.normal_map, assets.scene, assets.normal_maps, projected);
+            triangle_normal_map(chosen_normals, assets.scene, assets.normal_maps, projected);
     ShadowBiasCache shadow_biases(surface.positions_world);
     ShadingMethod variant;
     variant.power = power;
@@ -100,7 +105,7 @@ void draw_lit_by(const Frame<>& frame, const ProjectedTriangle& projected, const
             const vec3 own_normal = interpolate(surface.normals_world, at.here);
             light =
                 light_at(at.here, own_normal,
-                         normal_mapped(normal_map, frame.normal_map, at, own_normal, frame.filter));
+                         normal_mapped(chosen_normals, normal_map, at, own_normal, frame.filter));
         } else {
             light = at_vertices.at(at.here);
         }
@@ -113,8 +118,9 @@ namespace {  // as the lesson's options are
 /// A place on each knob.
 struct Settings : lesson_13::Options {
     bool is_by_lesson_11 = false;
-    Shading light = Shading::phong;  ///< Lesson 06's --shading and --power: only by lesson 11.
+    Shading light = Shading::phong;  ///< By lesson 06's lab: only by lesson 11.
     Power power = Power::polynomial;
+    NormalMapMethod normals;  ///< Likewise.
     bool has_shadows = true;
     bool is_moved = false;  ///< The camera: by half a pixel or so.
 };
@@ -126,15 +132,15 @@ constexpr vec2 way_radians(0.00045f, 0.0003f);
 const SceneAssets& assets_of(const Settings& settings) {
     using Key = std::tuple<std::filesystem::path, Decoding, MapSpace, FrameOf, int, bool, bool>;
     static std::map<Key, SceneAssets> known;
-    const Key key{settings.model,
-                  settings.texture.decoding,
-                  settings.normal_map.space,
-                  settings.normal_map.frame,
-                  settings.normal_map.bits,
-                  settings.has_shadows,
+    const Key key{settings.model,         settings.texture.decoding, settings.normal_map.space,
+                  settings.normals.frame, settings.normals.bits,     settings.has_shadows,
                   settings.is_moved};
     if (const auto same = known.find(key); same != known.end()) return same->second;
     SceneAssets assets = make_scene_assets(loaded(settings.model.string()), settings);
+    if (settings.normals != NormalMapMethod())
+        assets.normal_maps =
+            load_normal_maps(assets.scene, settings.texture, settings.normal_map.space, false,
+                             NormalsBy{settings.normals, settings.normal_map.green});
     if (!settings.has_shadows) {
         assets.lit_by.casts.fill(false);
         for (MaterialPlan& plan : assets.plan.materials) plan.effects.set(Effect::shadow, false);
@@ -164,6 +170,7 @@ Image<vec3> samples_by_11(const Settings& settings, ThreadPool& pool, Shaders::S
     lesson_11::Options options = of_samples(settings);
     options.threads = lesson_11::Options().threads;  // its own tiles
     chosen_shader = shader;
+    chosen_normals = settings.normals;
     StepClock clock;
     return lesson_11::render(options, assets_of(settings), pool, clock);
 }
@@ -275,14 +282,16 @@ const std::vector<Knob>& knobs() {
          2,
          2,
          {{"none", [](S& s) { s.normal_map.space = MapSpace::none; }},
-          {"tangents of faces", [](S& s) { s.normal_map.frame = FrameOf::face; }},
-          {"of vertices", [](S& s) { s.normal_map.frame = FrameOf::vertex; }}}},
+          {"tangents of faces", [](S& s) { s.normals.frame = FrameOf::face; }},
+          {"of vertices", [](S& s) { s.normals.frame = FrameOf::vertex; }}},
+         true},
         {"bits per normal",
          "08",
          1,
          1,
-         {{"4", [](S& s) { s.normal_map.bits = 4; }},
-          {"8", [](S& s) { s.normal_map.bits = bits_of_file; }}}}};
+         {{"4", [](S& s) { s.normals.bits = 4; }},
+          {"8", [](S& s) { s.normals.bits = bits_of_file; }}},
+         true}};
     return all;
 }
 

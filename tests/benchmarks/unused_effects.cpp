@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "06_phong/light_options.hpp"
-#include "08_normal_maps/normal_map_variants.hpp"
+#include "08_normal_maps/normal_map_options.hpp"
 #include "11_scenes/scene_assets.hpp"
 #include "benchmarks/unused_effects.hpp"
 #include "common/app/memory.hpp"
@@ -83,7 +83,7 @@ void add_rows_of_lesson_11(const char* name, std::vector<Row>& rows) {
     struct {
         TextureOptions texture;
         LightOptions shading;
-        NormalMapVariant normal_map;
+        NormalMapOptions normal_map;
         ShadowVariant shadow;
     } const options;
     const ScenePlan plan = make_scene_assets(scene, options).plan;

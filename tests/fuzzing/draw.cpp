@@ -209,14 +209,8 @@ Options any_options(Numbers& numbers, ivec2 size, bool show_depth) {
     options.texture.decoding = numbers.one_of({Decoding::srgb, Decoding::ignored});
     options.shading = {numbers.one_of({LightKind::directional, LightKind::point, LightKind::spot}),
                        numbers.flag(), numbers.flag()};
-    options.normal_map = {numbers.one_of({FrameOf::face, FrameOf::vertex, FrameOf::pixel}),
-                          numbers.one_of({Orthonormal::at_pixels, Orthonormal::at_vertices}),
-                          numbers.one_of({Handedness::of_uvs, Handedness::ignored}),
-                          numbers.one_of({MapSpace::tangent, MapSpace::object, MapSpace::none}),
-                          numbers.one_of({Green::up, Green::down}),
-                          numbers.one_of({NormalFormat::unorm, NormalFormat::snorm}),
-                          numbers.one_of({Channels::xyz, Channels::xy}),
-                          numbers.one_of({bits_of_file, 4, 8})};
+    options.normal_map = {numbers.one_of({MapSpace::tangent, MapSpace::object, MapSpace::none}),
+                          numbers.one_of({Green::up, Green::down})};
     options.shadow = {
         numbers.whole(16, 32),
         numbers.one_of({Bias::none, Bias::constant, Bias::slope, Bias::plane, Bias::normal}),

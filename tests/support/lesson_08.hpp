@@ -11,7 +11,6 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
-#include "06_phong/light_options.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/assets.hpp"
@@ -28,8 +27,9 @@
 namespace lesson_08 {
 using rasterbook::test::run_lesson;
 #include "lessons/08_normal_maps/main.cpp"
+using Options = NormalMapSceneOptions;
 inline auto make_assets(Scene scene, const Options& options) {
-    return make_normal_map_assets(std::move(scene), options);
+    return load_normal_map_scene(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
 #undef render

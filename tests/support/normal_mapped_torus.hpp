@@ -22,6 +22,7 @@
 #include "08_normal_maps/normal_mapping.hpp"
 #include "common/math/types.hpp"
 #include "common/model/mesh.hpp"
+#include "lab/normal_map_methods.hpp"
 
 namespace rasterbook::test {
 
@@ -123,16 +124,16 @@ struct NormalMappedTorus {
     static constexpr ivec2 map_size{2048, 1024};
     static constexpr ivec2 size{416, 300};
 
-    NormalMapVariant variant;
+    NormalMapMethod method;
     Scene scene;
     NormalMaps maps;
     Camera camera =
         orbit_camera({.yaw_degrees = 0, .pitch_degrees = 42, .distance = 1.95f}, scene.bounds());
 
-    NormalMappedTorus(int around, int across, const NormalMapVariant& how = {})
-        : variant(how), scene(scene_of(torus_mesh(around, across))), maps(exact_map()) {
+    NormalMappedTorus(int around, int across, const NormalMapMethod& how = {})
+        : method(how), scene(scene_of(torus_mesh(around, across))), maps(exact_map()) {
         complete_normals(scene);
-        make_tangents(scene, maps, variant);
+        make_tangents(method, scene, maps);
     }
 
     /// Draws the torus as the lesson does up to its normals; no light is computed. Calls
@@ -146,12 +147,12 @@ struct NormalMappedTorus {
             const TriangleSurface surface = triangle_surface(scene, no_textures, {}, projected);
             const PerspectiveSetup setup =
                 perspective_setup(projected.on_screen, projected.clipped);
-            const TriangleNormalMap map = triangle_normal_map(variant, scene, maps, projected);
+            const NormalMapOf map = triangle_normal_map(method, scene, maps, projected);
             fill_triangle(projected.on_screen, size, [&](ivec2 pixel, Barycentrics on_screen) {
                 if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
                 const FragmentBarycentrics at = perspective_correct(setup, on_screen);
                 const vec3 normal = interpolate(surface.normals_world, at.here);
-                emit(pixel, normal_mapped(map, variant, at, normal, Filter::bilinear),
+                emit(pixel, normal_mapped(method, map, at, normal, Filter::bilinear),
                      interpolate(map.uvs, at.here));
             });
         };

@@ -83,7 +83,7 @@ struct LaneInputs {
     /// Gives a triangle's own inputs to some lanes: as many as shading reads.
     ///
     /// @param slot  0 to N: the triangle's number among those that lanes have.
-    void set(Mask<N> lanes, TriangleInputs& triangle, FrameOf frame, int slot) {
+    void set(Mask<N> lanes, TriangleInputs& triangle, int slot) {
         const TriangleSurface& own = triangle.surface;
         if (own.effects[Effect::texture]) blend(lanes, surface.uvs, own.uvs);
         if (own.effects[Effect::specular_map]) blend(lanes, surface.specular_uvs, own.specular_uvs);
@@ -99,11 +99,6 @@ struct LaneInputs {
             blend(lanes, normal_map.uvs, map.uvs);
             blend(lanes, normal_map.tangents, map.tangents);
             blend(lanes, normal_map.handedness, map.handedness);
-            if (frame == FrameOf::face) {
-                blend(lanes, normal_map.face.tangent, map.face.tangent);
-                blend(lanes, normal_map.face.bitangent, map.face.bitangent);
-                blend(lanes, normal_map.face.normal, map.face.normal);
-            }
         }
         if constexpr (with.shadow) shadow_biases.set(lanes, triangle.shadow_biases, slot);
     }
@@ -167,8 +162,8 @@ class PixelBatch {
         // TODO: step 1: unless the triangle has no pixel in the batch: current() has its planes and
         // its inputs.setup, of which perspective_correct() makes coordinates for all lanes.
         // select() puts them into at_ from lane first_ on, so where first_lanes<F>(first_) does not
-        // hold. inputs_.set() does so with the triangle's inputs; it takes frame_.normal_map.frame
-        // and the number slot_, too. If is_in_all_lanes_, they are there from the batch before.
+        // hold. inputs_.set() does so with the triangle's inputs; it takes the number slot_,
+        // too. If is_in_all_lanes_, they are there from the batch before.
         // After this, they are in all lanes if first_ is 0. The next triangle's pixels begin at
         // count_.
     }

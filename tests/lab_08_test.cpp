@@ -14,8 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include "08_normal_maps/normal_map_variants.hpp"
 #include "common/image/image_io.hpp"
+#include "lab/normal_map_methods.hpp"
 #include "support/lesson_process.hpp"
 #include "support/normal_mapped_torus.hpp"
 #include "support/printers.hpp"
@@ -26,24 +26,24 @@ using namespace rasterbook::test;
 
 namespace {
 
-NormalErrors errors_of(int around, int across, const NormalMapVariant& variant) {
+NormalErrors errors_of(int around, int across, const NormalMapMethod& variant) {
     return normal_errors(NormalMappedTorus(around, across, variant));
 }
 
-constexpr NormalMapVariant face{.frame = FrameOf::face}, vertex{},
+constexpr NormalMapMethod face{.frame = FrameOf::face}, vertex{},
     interpolated{.orthonormal = Orthonormal::at_vertices}, pixel{.frame = FrameOf::pixel};
 
 /// The picture that the lesson draws with these options.
 Image<u8vec4> drawn(std::vector<std::string> options) {
     const auto file = fresh_folder("variants") / "out.png";
     options.insert(options.end(), {"--size", "320x180", "--out", file.string()});
-    EXPECT_EQ(run_program("08_normal_maps", options).exit_status, 0);
+    EXPECT_EQ(run_program("lab_08_normal_maps", options).exit_status, 0);
     return read_image(file);
 }
 
 }  // namespace
 
-TEST(NormalMapVariants, TheReferenceNormalIsOrthogonalToTheBumpySurface) {
+TEST(LabNormalMaps, TheReferenceNormalIsOrthogonalToTheBumpySurface) {
     // Differences of positions on the surface itself, apart from the formula for its derivatives.
     using real = long double;
     const auto surface_at = [](real u, real v) {
@@ -67,8 +67,8 @@ TEST(NormalMapVariants, TheReferenceNormalIsOrthogonalToTheBumpySurface) {
     }
 }
 
-TEST(NormalMapVariants, AllFramesAreMoreAccurateOnFinerMeshes) {
-    for (const NormalMapVariant& variant : {face, vertex, interpolated, pixel}) {
+TEST(LabNormalMaps, AllFramesAreMoreAccurateOnFinerMeshes) {
+    for (const NormalMapMethod& variant : {face, vertex, interpolated, pixel}) {
         const NormalErrors coarse = errors_of(16, 8, variant), fine = errors_of(64, 32, variant);
         EXPECT_GT(coarse.fragments, 10'000);
         EXPECT_GT(fine.rms, 0.01) << "the map itself has steps";
@@ -78,7 +78,7 @@ TEST(NormalMapVariants, AllFramesAreMoreAccurateOnFinerMeshes) {
     }
 }
 
-TEST(NormalMapVariants, VertexTangentsAreTheMostAccurate) {
+TEST(LabNormalMaps, VertexTangentsAreTheMostAccurate) {
     const double of_face = errors_of(64, 32, face).rms, of_vertex = errors_of(64, 32, vertex).rms,
                  of_pixel = errors_of(64, 32, pixel).rms;
     EXPECT_LT(2 * of_vertex, of_pixel);
@@ -86,7 +86,7 @@ TEST(NormalMapVariants, VertexTangentsAreTheMostAccurate) {
     EXPECT_LT(errors_of(16, 8, vertex).rms, errors_of(16, 8, interpolated).rms);
 }
 
-TEST(NormalMapVariants, SnormHasItsZeroInTheMiddle) {
+TEST(LabNormalMaps, SnormHasItsZeroInTheMiddle) {
     EXPECT_EQ(component_from_snorm(128), 0.0f);
     EXPECT_EQ(component_from_snorm(255), 1.0f);
     EXPECT_EQ(component_from_snorm(1), -1.0f);
@@ -109,18 +109,18 @@ TEST(NormalMapVariants, SnormHasItsZeroInTheMiddle) {
     EXPECT_EQ(normals_from_snorm(slanted, Green::down)[ivec2(0)], vec4(64, -32, 112, 127) / 127.0f);
 }
 
-TEST(NormalMapVariants, FilesAreReadAsUnormUnlessAskedOtherwise) {
+TEST(LabNormalMaps, FilesAreReadAsUnormUnlessAskedOtherwise) {
     const Image<u8vec4> image({1, 1}, {64, 128, 192, 255});
     const vec4 unorm(component_from_unorm(64), component_from_unorm(128), component_from_unorm(192),
                      1);
     const vec4 snorm(component_from_snorm(64), 0, component_from_snorm(192), 1);
-    EXPECT_EQ(NormalMapVariant{}.normals(image)[ivec2(0)], unorm);
-    EXPECT_EQ(NormalMapVariant{}.normals_of_bumps(image, Wrap::repeat)[ivec2(0)], unorm)
+    EXPECT_EQ(NormalMapMethod{}.normals(image)[ivec2(0)], unorm);
+    EXPECT_EQ(NormalMapMethod{}.normals_of_bumps(image, Wrap::repeat)[ivec2(0)], unorm)
         << "coloured";
-    EXPECT_EQ(NormalMapVariant{.format = NormalFormat::snorm}.normals(image)[ivec2(0)], snorm);
+    EXPECT_EQ(NormalMapMethod{.format = NormalFormat::snorm}.normals(image)[ivec2(0)], snorm);
 }
 
-TEST(NormalMapVariants, EncodersFindTheNearestValue) {
+TEST(LabNormalMaps, EncodersFindTheNearestValue) {
     EXPECT_EQ(unorm_from_component(-0.498f, 8), 64u);  // the worked example
     EXPECT_EQ(unorm_from_component(0, 8), 128u) << "halves upwards";
     EXPECT_EQ(snorm_from_component(-0.504f, 8), 64u);
@@ -173,7 +173,7 @@ struct StorageErrors {
     }
 };
 
-TEST(NormalMapVariants, TheLargestAnglesAreThoseOfThePage) {
+TEST(LabNormalMaps, TheLargestAnglesAreThoseOfThePage) {
     // Half a step in each of three directions, across the normal at most: sqrt(3)/2 of a step.
     for (const int bits : {8, 10, 16}) {
         const auto bound = [](double step) {
@@ -190,7 +190,7 @@ TEST(NormalMapVariants, TheLargestAnglesAreThoseOfThePage) {
     }
 }
 
-TEST(NormalMapVariants, ADecodingThatIsNotTheEncodersDoublesTheError) {
+TEST(LabNormalMaps, ADecodingThatIsNotTheEncodersDoublesTheError) {
     const StorageErrors pair(8, unorm_from_component, component_from_unorm);
     EXPECT_NEAR(pair.rms, 0.184, 0.001);
     EXPECT_NEAR(pair.mean.x, 0, 0.0001);
@@ -203,7 +203,7 @@ TEST(NormalMapVariants, ADecodingThatIsNotTheEncodersDoublesTheError) {
     EXPECT_NEAR(as_unorm.mean.x, 0.0039, 0.0001);
 }
 
-TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
+TEST(LabNormalMaps, OptionsChangeThePictureAndDefaultsDoNot) {
     const Image<u8vec4> plain = drawn({});
     for (const std::vector<std::string>& same : {std::vector<std::string>{"--frame", "vertex"},
                                                  {"--orthonormal", "pixels"},
@@ -231,15 +231,15 @@ TEST(NormalMapVariants, OptionsChangeThePictureAndDefaultsDoNot) {
               drawn({"--model", mirrored}));
 }
 
-TEST(NormalMapVariants, FewerBitsAreLessAccurate) {
+TEST(LabNormalMaps, FewerBitsAreLessAccurate) {
     const Image<u8vec4> image =
         read_image(std::filesystem::path(RASTERBOOK_ASSETS) / "textures/hammered_normal.png");
     for (const NormalFormat format : {NormalFormat::unorm, NormalFormat::snorm}) {
-        const Image<vec4> exact = NormalMapVariant{.format = format}.normals(image);
+        const Image<vec4> exact = NormalMapMethod{.format = format}.normals(image);
         double last = 0;
         for (const int bits : {8, 6, 5, 4}) {
             const Image<vec4> stored =
-                NormalMapVariant{.format = format, .bits = bits}.normals(image);
+                NormalMapMethod{.format = format, .bits = bits}.normals(image);
             double squares = 0;
             for (std::size_t i = 0; i < exact.pixels().size(); ++i) {
                 const vec4 off = stored.pixels()[i] - exact.pixels()[i];
@@ -251,7 +251,7 @@ TEST(NormalMapVariants, FewerBitsAreLessAccurate) {
     }
 }
 
-TEST(NormalMapVariants, HardCase_MillionsOfTrianglesMayShareAVertex) {
+TEST(LabNormalMaps, HardCase_MillionsOfTrianglesMayShareAVertex) {
     if (is_sanitized) GTEST_SKIP() << "takes a gigabyte there";
     const std::array<vec2, 3> uvs = {vec2(0, 0), vec2(1, 0), vec2(-1, 0.01f)};
     const auto tangents_of = [&](std::size_t triangles) {  // nearly pi at the first vertex

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Lesson 08's normal maps, read and applied otherwise.
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/projection.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "08_normal_maps/assets.hpp"
+#include "08_normal_maps/normal_mapping.hpp"
+#include "08_normal_maps/probe.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
+#include "lab/lab.hpp"
+#include "lab/normal_map_methods.hpp"
+
+using namespace rasterbook;
+
+struct Options : NormalMapSceneOptions {
+    NormalMapMethod method;
+
+    void declare(Knobs& knobs) { declare_all(knobs, method, texture, shading, normal_map); }
+};
+
+static NormalMapAssets load(Scene scene, const Options& options) {
+    return load_normal_map_scene(options.method, std::move(scene), options);
+}
+
+static Image<vec3> render(const Options& options, const NormalMapAssets& assets) {
+    const auto& [scene, textures, normal_maps, effects] = assets;
+    const Camera camera = orbit_camera(options.orbit, scene.bounds());
+    const mat4 clip_from_world = camera.clip_from_world(options.size);
+    const std::array lights = studio_lights(options.shading.key_light, scene.bounds(), low_key);
+    Image<vec3> color = backdrop(options.size);
+    DepthBuffer depth(options.size);
+
+    const auto draw = [&](const ProjectedTriangle& projected) {
+        const TriangleSurface surface =
+            triangle_surface(scene, textures, effects[projected.triangle.material], projected);
+        const PerspectiveSetup setup = perspective_setup(projected);
+        const NormalMapOf normal_map =
+            triangle_normal_map(options.method, scene, normal_maps, projected);
+
+        fill_triangle(projected.on_screen, options.size, [&](ivec2 pixel, Barycentrics on_screen) {
+            count(Counter::fragments_tested);
+            if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
+            count(Counter::fragments_shaded);
+            const FragmentBarycentrics on_surface = perspective_correct(setup, on_screen);
+            const SurfaceColor base_color =
+                surface_color(surface, on_surface, options.texture.filter);
+            if (!surface.effects[Effect::light]) {
+                color[pixel] = unlit(base_color);
+                return;
+            }
+            const vec3 normal = normal_mapped(options.method, normal_map, on_surface,
+                                              interpolate(surface.normals_world, on_surface.here),
+                                              options.texture.filter);
+            const SurfacePoint<float> point =
+                surface_point(surface, on_surface.here, normal, camera.position_world);
+            const ReflectedLight reflected = reflected_light(lights, point, highlight_of(surface));
+            color[pixel] = phong(base_color, ambient_light, reflected);
+        });
+    };
+    for_each_visible_triangle(scene, clip_from_world, options.size, options.shading.culling(),
+                              draw);
+    if (options.show_depth) return depth_picture(depth);
+    return color;
+}
+
+int main(int argc, char** argv) {
+    const auto make = [] {
+        return lesson_program<Options>(
+            "lab_08_normal_maps", "Other frames and ways to store normals, for lesson 08.", load,
+            render,
+            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
+                return options.method != NormalMapMethod{} ? PixelProbe()
+                                                           : normal_map_probe(options, assets);
+            });
+    };
+    return run_lab(make,
+                   "--frame vertex --orthonormal pixels --handedness uvs --normal-format unorm "
+                   "--channels xyz --bits file",
+                   argc, argv);
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The Options, load() and render() of lesson 08's laboratory, in namespace lab_08.
+#pragma once
+
+// All that it includes, so that what is left of it are its own lines.
+#include "02_triangle_fill/triangle.hpp"
+#include "03_z_buffer/depth_buffer.hpp"
+#include "04_mvp/camera.hpp"
+#include "04_mvp/projection.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "06_phong/surface.hpp"
+#include "08_normal_maps/assets.hpp"
+#include "08_normal_maps/normal_mapping.hpp"
+#include "08_normal_maps/probe.hpp"
+#include "common/app/lesson_app.hpp"
+#include "common/image/backdrop.hpp"
+#include "lab/lab.hpp"
+#include "lab/normal_map_methods.hpp"
+
+#define main static lab_main [[maybe_unused]]
+namespace lab_08 {
+inline int run_lab(const auto&...) { return 0; }
+#include "lessons/lab/08_normal_maps.cpp"
+}  // namespace lab_08
+#undef main
