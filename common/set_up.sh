@@ -119,9 +119,6 @@ quietly() {
     rm -f "$log"
 }
 
-# Prints the program of lesson $1's laboratory; nothing if it has none.
-lab_of() { [ ! -e "lessons/lab/$1.cpp" ] || echo "lab_$1"; }
-
 # Prints the lines "$1: ..." of the comment in the README of lesson $2.
 marks_of() { sed -n "s/^$1: //p" "lessons/$2/README.md"; }
 

@@ -88,7 +88,7 @@ Mesh closed_box(vec3 low, vec3 high) {
 /// a scene's first triangle.
 class FirstTriangle {
   public:
-    FirstTriangle(const Scene& scene, const Light& light, const ShadowVariant& variant)
+    FirstTriangle(const Scene& scene, const Light& light, const ShadowOptions& variant)
         : shadow_maps_(draw_shadow_maps(
               variant, {scene, shadow_bounds(scene), std::array{light, sun({0, 1, 0})}})),
           receiver_(ShadowBiasCache(vertices_in(scene.meshes[0], scene.meshes[0].triangles[0]))) {}
@@ -271,7 +271,7 @@ TEST(ShadowMaps, HardCase_TheOrderOfShadowTestsChangesNothing) {
     scene.meshes.push_back(quad({-2, 1, -2}, {-2, 1, 2}, {2, 1, 2}, {2, 1, -2}));
     scene.materials.resize(1);
     for (const Bias bias : {Bias::slope, Bias::plane, Bias::normal}) {
-        ShadowVariant variant = small_picture().shadow;
+        ShadowOptions variant = small_picture().shadow;
         variant.bias = bias;
         const auto in_order = [&](vec3 first, vec3 second) {
             FirstTriangle floor(scene, sun(glm::normalize(vec3(1, 1, 0))), variant);

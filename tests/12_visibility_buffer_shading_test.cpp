@@ -424,7 +424,7 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
     ThreadPool pool(2);
     for (const auto& [texels, part_side] : {std::pair(100, 32), {40, 3}, {61, 2}, {257, 32}})
         for (const ivec2 size : {ivec2(120, 90), {64, 200}, {257, 257}}) {
-            const ShadowVariant variant{.size = texels};
+            const ShadowOptions variant{.size = texels};
             const ShadowMapsOnDemand on_demand(pool, part_side, variant,
                                                {scene, bounds, lights, false, casts});
             ASSERT_EQ(on_demand.parts().size(), 1u) << "one map of a directional light";
@@ -493,7 +493,7 @@ TEST(VisibilityBuffer, HardCase_PartsOfAMapAreShownAsTheyWereDrawn) {
             EXPECT_GT(std::min({blue, black, gray}), 100)
                 << "pixels that are blue, black, grey: all three are there";
         }
-    const ShadowVariant variant{.size = 64};
+    const ShadowOptions variant{.size = 64};
     const ShadowMapsOnDemand no_maps(pool, 32, variant, {Scene(), ShadowBounds(), {}});
     EXPECT_TRUE(are_equal(picture_of(no_maps, {9, 5}), Image<vec3>({9, 5}, vec3(0))))
         << "without a map all is black";

@@ -499,7 +499,7 @@ TEST(VisibilityBuffer, Eq12_6_ALightsVisibilityIsLesson09sAndTakesThePartsOfItsK
         const LightKind kind = light_kinds[seed % light_kinds.size()];
         const std::array<Light, 2> lights = raking_lights(kind, scene.bounds());
         const ShadowBounds bounds = shadow_bounds(scene);
-        const ShadowVariant variant{.size = 16 + static_cast<int>(dice.below(60)),
+        const ShadowOptions variant{.size = 16 + static_cast<int>(dice.below(60)),
                                     .bias = all_biases[seed % all_biases.size()],
                                     .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
         const int side = 4 + static_cast<int>(dice.below(30));

@@ -430,7 +430,7 @@ TEST(Simd, HardCase_ALightsVisibilityAndItsPartsAreLesson12s) {
             if (seed % 4 == 1)  // amid the casters
                 lights[0].position_world = dice.in_cube(0.3f);
             const ShadowBounds bounds = shadow_bounds(scene);
-            const ShadowVariant variant{.size = 16 + static_cast<int>(dice.below(60)),
+            const ShadowOptions variant{.size = 16 + static_cast<int>(dice.below(60)),
                                         .bias = all_biases[seed % all_biases.size()],
                                         .pcf = 1 + 2 * static_cast<int>(dice.below(4))};
             const int side = 4 + static_cast<int>(dice.below(30));

@@ -978,7 +978,7 @@ TEST(Simd, Eq13_4_BatchesOfTheWorkedExample) {
     const ColoredTriangles triangles;
     const ivec2 size(20, 20);
     ThreadPool pool(1);
-    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{},
+    const ShadowMapsOnDemand maps(pool, 32, ShadowOptions{},
                                   {triangles.assets.scene, ShadowBounds(), {}});
     Image<vec3> color(size);
     DepthBuffer depth(size);
@@ -1012,7 +1012,7 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
     const ColoredTriangles triangles;
     const ivec2 size(80, 40);
     ThreadPool pool(1);
-    const ShadowMapsOnDemand maps(pool, 32, ShadowVariant{},
+    const ShadowMapsOnDemand maps(pool, 32, ShadowOptions{},
                                   {triangles.assets.scene, ShadowBounds(), {}});
     const std::array projected = {triangles.projected(size, 0), triangles.projected(size, 1),
                                   triangles.projected(size, 2)};

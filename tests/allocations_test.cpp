@@ -315,7 +315,7 @@ TEST(Allocations, ThatFailInAnyThreadEndTheProgramInOneLine) {
         "10_threading", [](int argc, char** argv, const auto& begin, const auto& end) {
             using Options = lesson_10::Options;
             return rasterbook::run_lesson<Options>(
-                argc, argv, "10_threading", "", make_shadow_assets<Options>,
+                argc, argv, "10_threading", "", load_shadow_scene,
                 [&](const auto& options, const auto& assets) {
                     ThreadPool pool(options.threads.threads);
                     begin();

@@ -281,8 +281,8 @@ void Knobs::flag(const char* name, bool& value, const char* help) {
 namespace {
 
 template <typename Number>
-void add_number(CLI::App& line, const std::string& name, Number& value, Number least, Number most,
-                const std::string& help) {
+void add_number(CommandLine& line, const std::string& name, Number& value, Number least,
+                Number most, const std::string& help) {
     const auto in_words = [](Number number) {
         std::ostringstream words;
         words << number;
@@ -297,6 +297,7 @@ void add_number(CLI::App& line, const std::string& name, Number& value, Number l
                                                  in_words(least) + " to " + in_words(most));
         value = number;
     };
+    line.choices.push_back({name, help, in_words(value), {}});
     line.add_option_function<std::string>(name, take, help + " [" + in_words(value) + "]")
         ->type_name("NUMBER");
 }

@@ -46,10 +46,10 @@ struct Orbit {
     bool operator==(const Orbit&) const = default;
 };
 
-/// An option that takes one of several words.
+/// An option that takes one of several words, or a number.
 struct Choice {
     std::string name, help, preset;
-    std::vector<std::string> words;
+    std::vector<std::string> words;  ///< None: a number.
 };
 
 /// What takes the knobs' values: a command line, or the controls of a page.
@@ -176,6 +176,17 @@ constexpr bool has_probe = true;
 constexpr bool has_probe = false;
 #endif
 
+/// Whether a program compares what it draws with different options: a lesson's laboratory.
+#ifdef RASTERBOOK_LAB
+constexpr bool is_lab = true;
+#else
+constexpr bool is_lab = false;
+#endif
+
+/// See lab.hpp.
+int run_lab(const std::function<LessonProgram()>& make, const std::string& reference, int argc,
+            char** argv);
+
 /// A lesson's program, with options of its own at their defaults.
 ///
 /// @tparam Options     Derived from LessonOptions; may have `void declare(Knobs&)`, an `Orbit
@@ -247,9 +258,16 @@ template <typename Options, typename MakeAssets, typename Render, typename MakeP
 requires std::is_invocable_v<MakeAssets, Scene, const Options&>
 int run_lesson(int argc, char** argv, std::string name, std::string title, MakeAssets make_assets,
                Render render, MakeProbe make_probe = {}) {
-    return run_lesson_program(
-        lesson_program<Options>(std::move(name), std::move(title), make_assets, render, make_probe),
-        argc, argv);
+    if constexpr (is_lab) {
+        const auto make = [&] {
+            return lesson_program<Options>("lab_" + name, title, make_assets, render, make_probe);
+        };
+        return run_lab(make, "", argc, argv);
+    } else {
+        return run_lesson_program(lesson_program<Options>(std::move(name), std::move(title),
+                                                          make_assets, render, make_probe),
+                                  argc, argv);
+    }
 }
 
 /// Runs a lesson that draws the scene as it was read.

@@ -7,10 +7,9 @@
 
 namespace rasterbook {
 
-ShadowAssets make_shadow_assets(Scene scene, const TextureOptions& texture, bool all_effects,
-                                const NormalMapOptions& normal_map) {
-    NormalMapAssets made =
-        make_normal_map_assets(std::move(scene), texture, all_effects, normal_map);
+ShadowAssets load_shadow_scene(Scene scene, const ShadowSceneOptions& options) {
+    NormalMapAssets made = make_normal_map_assets(std::move(scene), options.texture,
+                                                  options.shading.all_effects, options.normal_map);
     const ShadowBounds bounds = shadow_bounds(made.scene);
     return {std::move(made.scene), std::move(made.textures), std::move(made.normal_maps),
             std::move(made.effects), bounds};

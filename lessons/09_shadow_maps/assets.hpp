@@ -8,11 +8,25 @@
 
 #include "05_textures/texture_options.hpp"
 #include "06_phong/effects.hpp"
+#include "06_phong/light_options.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "09_shadow_maps/shadows.hpp"
+#include "common/app/lesson_app.hpp"
 #include "common/model/mesh.hpp"
 
 namespace rasterbook {
+
+struct ShadowSceneOptions : LessonOptions {
+    Orbit orbit;
+    bool show_depth = false;
+    TextureOptions texture;
+    LightOptions shading{.key_light = LightKind::directional};
+    NormalMapOptions normal_map;
+    ShadowOptions shadow;
+
+    ShadowSceneOptions() { model = "scene_bumpy.obj"; }
+    void declare(Knobs& knobs) { declare_all(knobs, texture, shading, normal_map, shadow); }
+};
 
 /// What is made once, before the first picture.
 struct ShadowAssets {
@@ -24,14 +38,6 @@ struct ShadowAssets {
 };
 
 /// @throws InputError  When an image cannot be read.
-ShadowAssets make_shadow_assets(Scene scene, const TextureOptions& texture, bool all_effects,
-                                const NormalMapOptions& normal_map);
-
-/// @param options  As of make_normal_map_assets().
-template <typename Options>
-ShadowAssets make_shadow_assets(Scene scene, const Options& options) {
-    return make_shadow_assets(std::move(scene), options.texture, options.shading.all_effects,
-                              options.normal_map);
-}
+ShadowAssets load_shadow_scene(Scene scene, const ShadowSceneOptions& options);
 
 }  // namespace rasterbook

@@ -5,7 +5,6 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
-#include "06_phong/light_options.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
@@ -17,19 +16,7 @@
 
 using namespace rasterbook;
 
-struct Options : LessonOptions {
-    Orbit orbit;
-    bool show_depth = false;
-    TextureOptions texture;
-    LightOptions shading{.key_light = LightKind::directional};
-    NormalMapOptions normal_map;
-    ShadowVariant shadow;
-
-    Options() { model = "scene_bumpy.obj"; }
-    void declare(Knobs& knobs) { declare_all(knobs, texture, shading, normal_map, shadow); }
-};
-
-static Image<vec3> render(const Options& options, const ShadowAssets& assets) {
+static Image<vec3> render(const ShadowSceneOptions& options, const ShadowAssets& assets) {
     const auto& [scene, textures, normal_maps, effects, shadow_bounds] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -78,7 +65,7 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets) {
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(argc, argv, "09_shadow_maps", "Draws a scene with shadow maps.",
-                               make_shadow_assets<Options>, render,
-                               [](auto&... of) { return shadow_probe(of...); });
+    return run_lesson<ShadowSceneOptions>(argc, argv, "09_shadow_maps",
+                                          "Draws a scene with shadow maps.", load_shadow_scene,
+                                          render, [](auto&... of) { return shadow_probe(of...); });
 }

@@ -14,10 +14,10 @@
 
 namespace rasterbook {
 
-PixelProbe shadow_probe(const ShadowProbeOptions& options, const ShadowAssets& assets) {
+PixelProbe shadow_probe(const ShadowSceneOptions& options, const ShadowAssets& assets) {
     const Camera camera = orbit_camera(options.orbit, assets.scene.bounds());
     const std::array lights = raking_lights(options.shading.key_light, assets.scene.bounds());
-    return [options, &assets, camera, lights,
+    return [&options, &assets, camera, lights,
             triangles = projected_triangles(assets.scene, camera.clip_from_world(options.size),
                                             options.size),
             shadow_maps = std::make_shared<const ShadowMaps>(draw_shadow_maps(

@@ -21,7 +21,7 @@
 #include "06_phong/light.hpp"
 #include "09_shadow_maps/light_view.hpp"
 #include "09_shadow_maps/shadow_map.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
+#include "09_shadow_maps/shadow_options.hpp"
 
 namespace rasterbook {
 
@@ -139,7 +139,7 @@ struct ShadowScene {
 /// @param draw  Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths, and
 ///              draws the scene's casters, or nothing where a map stays empty.
 template <typename Draw>
-ShadowMaps draw_shadow_maps(const ShadowVariant& variant, const ShadowScene& of, Draw&& draw) {
+ShadowMaps draw_shadow_maps(const ShadowOptions& variant, const ShadowScene& of, Draw&& draw) {
     assert(of.lights.size() <= max_lights && of.casts.size() >= of.lights.size());
     ShadowMaps shadow_maps{variant.radius(), variant.bias,
                            std::vector<LightShadowMaps>(of.lights.size())};
@@ -165,7 +165,7 @@ ShadowMaps draw_shadow_maps(const ShadowVariant& variant, const ShadowScene& of,
 }
 
 /// The shadow maps of a scene, drawn one mesh after the other.
-inline ShadowMaps draw_shadow_maps(const ShadowVariant& variant, const ShadowScene& of) {
+inline ShadowMaps draw_shadow_maps(const ShadowOptions& variant, const ShadowScene& of) {
     const auto casts = [&](std::size_t material) {
         return casts_shadows(of.scene.materials[material]);
     };

@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 10: threads.
-#include <optional>
-
 #include "04_mvp/camera.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
-#include "09_shadow_maps/assets.hpp"
 #include "09_shadow_maps/probe.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
-#include "10_threading/thread_pool.hpp"
 #include "10_threading/threaded_shadows.hpp"
 #include "common/app/lesson_app.hpp"
 
 using namespace rasterbook;
 
-struct Options : LessonOptions {
-    Orbit orbit;
-    bool show_depth = false;
-    TextureOptions texture;
-    LightOptions shading{.key_light = LightKind::directional};
-    NormalMapOptions normal_map;
-    ShadowVariant shadow;
-    ThreadOptions threads;
-
-    Options() { model = "scene_bumpy.obj"; }
-    void declare(Knobs& knobs) {
-        declare_all(knobs, texture, shading, normal_map, shadow, threads);
-    }
-};
-
-static Image<vec3> render(const Options& options, const ShadowAssets& assets, Workers& pool) {
+static Image<vec3> render(const ThreadedSceneOptions& options, const ShadowAssets& assets,
+                          Workers& pool) {
     const auto& [scene, textures, normal_maps, effects, shadow_bounds] = assets;
     const Camera camera = orbit_camera(options.orbit, scene.bounds());
     const mat4 clip_from_world = camera.clip_from_world(options.size);
@@ -89,13 +71,11 @@ static Image<vec3> render(const Options& options, const ShadowAssets& assets, Wo
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<Options>(
+    return run_lesson<ThreadedSceneOptions>(
         argc, argv, "10_threading", "Draws the same picture with several threads.",
-        make_shadow_assets<Options>,
+        load_shadow_scene,
         [](const auto& options, const auto& assets) {
-            thread_local std::optional<ThreadPool> pool;
-            if (!pool) pool.emplace(options.threads.threads);  // once for all frames
-            return render(options, assets, *pool);
+            return render(options, assets, kept_pool(options.threads.threads));
         },
         [](auto&... of) { return shadow_probe(of...); });
 }

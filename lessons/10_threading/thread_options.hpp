@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How many threads draw, how the picture is split among them, and who drew what: to be seen with
-/// `--threads`, `--split`, `--tile` and `--show-threads`, and measured in
-/// docs/accuracy/10_threading.md.
+/// How many threads draw, how the picture is split among them, and who drew what: `--threads`,
+/// `--split`, `--tile` and `--show-threads`; measured in docs/accuracy/10_threading.md.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include <glm/trigonometric.hpp>
 
+#include "09_shadow_maps/assets.hpp"
 #include "10_threading/split.hpp"
+#include "10_threading/thread_pool.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/threads.hpp"
 #include "common/image/image.hpp"
@@ -41,6 +43,23 @@ struct ThreadOptions {
         return {split, size, workers, side};
     }
 };
+
+struct ThreadedSceneOptions : ShadowSceneOptions {
+    ThreadOptions threads;
+
+    void declare(Knobs& knobs) {
+        ShadowSceneOptions::declare(knobs);
+        threads.declare(knobs);
+    }
+};
+
+/// A pool of so many threads, kept from one picture to the next. Each thread that draws pictures
+/// has its own.
+inline ThreadPool& kept_pool(int threads) {
+    thread_local std::optional<ThreadPool> pool;
+    if (!pool || pool->size() != static_cast<std::size_t>(threads)) pool.emplace(threads);
+    return *pool;
+}
 
 /// A worker's colour, linear: all are equally bright to the eye, and hues a golden angle apart, so
 /// that of any few workers in a row no two look alike.

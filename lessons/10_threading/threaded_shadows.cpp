@@ -4,7 +4,7 @@
 namespace rasterbook {
 
 ShadowMaps draw_shadow_maps(Workers& pool, const ThreadOptions& threads,
-                            const ShadowVariant& variant, const ShadowScene& of) {
+                            const ShadowOptions& variant, const ShadowScene& of) {
     const Tiling tiling = threads.tiling_of(ivec2(variant.size), pool.size());
     return draw_shadow_maps(variant, of, [&](ShadowMap& map, bool is_drawn) {
         draw_map(pool, map, of.scene, tiling, is_drawn);

@@ -70,7 +70,7 @@ SceneAssets make_scene_assets(Scene from, const TextureOptions& texture,
                               int shadow_size);
 
 /// @param options  Has TextureOptions `texture`, NormalMapOptions `normal_map`, LightOptions
-///                 `shading` and ShadowVariant `shadow`.
+///                 `shading` and ShadowOptions `shadow`.
 template <typename Options>
 SceneAssets make_scene_assets(Scene from, const Options& options) {
     return make_scene_assets(std::move(from), options.texture, options.shading, options.normal_map,

@@ -9,7 +9,7 @@
 #include "05_textures/texture_options.hpp"
 #include "06_phong/light_options.hpp"
 #include "08_normal_maps/normal_map_options.hpp"
-#include "09_shadow_maps/shadow_variants.hpp"
+#include "09_shadow_maps/shadow_options.hpp"
 #include "10_threading/thread_options.hpp"
 #include "common/app/lesson_app.hpp"
 
@@ -42,7 +42,7 @@ struct SceneRendererOptions : LessonOptions {
     TextureOptions texture;
     LightOptions shading{.key_light = LightKind::directional};
     NormalMapOptions normal_map;
-    ShadowVariant shadow;
+    ShadowOptions shadow;
     ThreadOptions threads;
 
     SceneRendererOptions() { model = "bumpy.glb"; }

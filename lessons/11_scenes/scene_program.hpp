@@ -4,11 +4,10 @@
 /// `--explain`.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 
-#include "10_threading/thread_pool.hpp"
+#include "10_threading/thread_options.hpp"
 #include "11_scenes/explain.hpp"
 #include "11_scenes/probe.hpp"
 #include "11_scenes/scene_assets.hpp"
@@ -27,10 +26,9 @@ int run_scene_lesson(int argc, char** argv, std::string name, std::string title,
     return run_lesson<Options>(
         argc, argv, std::move(name), std::move(title), make_scene_assets<Options>,
         [render](const Options& options, const SceneAssets& assets) {
-            thread_local std::optional<ThreadPool> pool;
-            if (!pool) pool.emplace(options.threads.threads);  // once for all frames
             StepClock clock;
-            Image<vec3> picture = render(options, assets, *pool, clock);
+            Image<vec3> picture =
+                render(options, assets, kept_pool(options.threads.threads), clock);
             if (options.scene.explain)
                 explain(assets.scene, assets.plan, camera_of_picture(options, assets.scene).name,
                         lights_in_words(assets.lit_by, assets.plan), clock);

@@ -98,7 +98,7 @@ class ShadowMapsOnDemand {
     /// @param part_size  Texels along a part's side, at least 1.
     /// @param set_up     Does what project_triangles() of lesson 10 does.
     /// @param with_holes,filter  Of Casters.
-    ShadowMapsOnDemand(Workers& pool, int part_size, const ShadowVariant& variant,
+    ShadowMapsOnDemand(Workers& pool, int part_size, const ShadowOptions& variant,
                        const ShadowScene& of, ProjectTriangles* set_up = project_triangles,
                        const SceneAssets* with_holes = nullptr, Filter filter = {}) {
         const Tiling tiling(Split::tiles, ivec2(variant.size), 1, part_size);

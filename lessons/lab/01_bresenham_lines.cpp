@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 01's wireframe by other lines.
+#include "common/app/lab.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
-#include "lab/lab.hpp"
 #include "lab/line_methods.hpp"
 
 using namespace rasterbook;

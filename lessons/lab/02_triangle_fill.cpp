@@ -4,10 +4,10 @@
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/probe.hpp"
 #include "02_triangle_fill/triangle.hpp"
+#include "common/app/lab.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/fill_methods.hpp"
-#include "lab/lab.hpp"
 
 using namespace rasterbook;
 

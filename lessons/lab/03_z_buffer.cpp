@@ -5,10 +5,10 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "03_z_buffer/probe.hpp"
+#include "common/app/lab.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/depth_formats.hpp"
-#include "lab/lab.hpp"
 
 using namespace rasterbook;
 

@@ -313,7 +313,7 @@ namespace {
 const mat4 upside_down = scaling(vec3(1, -1, 1));
 
 /// The lights' maps as the course fits them, not drawn.
-ShadowMaps fitted_maps(const SceneAssets& assets, const ShadowVariant& variant) {
+ShadowMaps fitted_maps(const SceneAssets& assets, const ShadowOptions& variant) {
     return draw_shadow_maps(variant, shadow_scene(assets, false), [](ShadowMap&, bool) {});
 }
 

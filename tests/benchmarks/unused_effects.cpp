@@ -84,7 +84,7 @@ void add_rows_of_lesson_11(const char* name, std::vector<Row>& rows) {
         TextureOptions texture;
         LightOptions shading;
         NormalMapOptions normal_map;
-        ShadowVariant shadow;
+        ShadowOptions shadow;
     } const options;
     const ScenePlan plan = make_scene_assets(scene, options).plan;
     for (const auto& [effect, without, draw] : all) {

@@ -13,9 +13,9 @@
 #include "08_normal_maps/assets.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "08_normal_maps/probe.hpp"
+#include "common/app/lab.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
-#include "lab/lab.hpp"
 #include "lab/normal_map_methods.hpp"
 
 #define main static lab_main [[maybe_unused]]

@@ -11,7 +11,6 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
-#include "06_phong/light_options.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
@@ -29,8 +28,9 @@
 namespace lesson_09 {
 using rasterbook::test::run_lesson;
 #include "lessons/09_shadow_maps/main.cpp"
+using Options = ShadowSceneOptions;
 inline auto make_assets(Scene scene, const Options& options) {
-    return make_shadow_assets(std::move(scene), options);
+    return load_shadow_scene(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
 #undef render

@@ -5,13 +5,11 @@
 #pragma once
 
 // All that main.cpp includes, so that what is left of it are its own lines.
-#include <optional>
 #include <utility>
 
 #include "04_mvp/camera.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
-#include "09_shadow_maps/assets.hpp"
 #include "09_shadow_maps/probe.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
@@ -27,8 +25,9 @@
 namespace lesson_10 {
 using rasterbook::test::run_lesson;
 #include "lessons/10_threading/main.cpp"
+using Options = ThreadedSceneOptions;
 inline auto make_assets(Scene scene, const Options& options) {
-    return make_shadow_assets(std::move(scene), options);
+    return load_shadow_scene(std::move(scene), options);
 }
 #ifdef RENDER_IS_COMPILED_APART
 [[maybe_unused]] static constexpr auto* named_here =

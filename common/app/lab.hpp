@@ -20,7 +20,7 @@ namespace rasterbook {
 ///
 /// @param make       Called for each picture: a program, with options of its own.
 /// @param reference  Options that draw what errors are measured against, such as
-///                   "--line bresenham".
+///                   "--line bresenham"; nothing: what the program draws unasked.
 /// @return           The exit status: 0, 1 for bad input or what cannot be written, 2 for bad
 ///                   usage; errors are one line on stderr.
 int run_lab(const std::function<LessonProgram()>& make, const std::string& reference, int argc,

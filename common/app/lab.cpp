@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/lab.hpp"
+#include "common/app/lab.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -90,14 +90,20 @@ std::vector<Method> methods_of(const Words& given, const std::vector<Choice>& ch
     return methods;
 }
 
-/// A command line with the reference's choices in place of its own.
-Words with_choices_of(const Words& reference, const Words& line) {
+/// The command line with the reference's choices in place of its own; where the reference has none,
+/// without those that have several words.
+Words line_of_reference(const Words& reference, const Words& given,
+                        const std::vector<Choice>& choices) {
     Words words;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        if (std::ranges::find(reference, line[i]) == reference.end())
-            words.push_back(line[i]);
-        else
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const bool is_list = i + 1 < given.size() && find(choices, given[i]) &&
+                             given[i + 1].find(',') != std::string::npos;
+        const bool is_replaced =
+            reference.empty() ? is_list : std::ranges::count(reference, given[i]) > 0;
+        if (is_replaced)
             ++i;  // and its word
+        else
+            words.push_back(given[i]);
     }
     words.insert(words.end(), reference.begin(), reference.end());
     return words;
@@ -113,7 +119,8 @@ struct Trial {
     void draw() {
         const auto start = std::chrono::steady_clock::now();
         const Image<vec3> drawn =
-            averaged(program.render({program.orbit ? program.orbit->yaw_degrees : 0, 1}),
+            averaged(program.render({program.orbit ? program.orbit->yaw_degrees : 0,
+                                     program.threads ? *program.threads : 1}),
                      program.options.samples_per_side);
         const std::chrono::duration<double, std::milli> elapsed =
             std::chrono::steady_clock::now() - start;
@@ -226,10 +233,11 @@ std::filesystem::path with_name(const std::filesystem::path& file, std::string n
 int compare(const std::function<LessonProgram()>& make, const std::string& reference_text,
             const std::vector<Choice>& choices, const Words& given,
             const std::vector<Method>& methods) {
-    const Words reference_words = split(reference_text, ' ');
+    const Words reference_words = reference_text.empty() ? Words() : split(reference_text, ' ');
+    const std::string what = reference_text.empty() ? "the lesson's own" : reference_text;
     std::deque<Trial> trials;  // the last one is the reference
     std::vector<Method> all = methods;
-    all.push_back({with_choices_of(reference_words, methods.front().line), {}});
+    all.push_back({line_of_reference(reference_words, given, choices), {}});
     for (const Method& method : all) {
         Trial& trial = trials.emplace_back(Trial{make(), joined(method.chosen, " ")});
         trial.program.make_probe = {};
@@ -254,7 +262,7 @@ int compare(const std::function<LessonProgram()>& make, const std::string& refer
     draw_by_turns(trials);
 
     std::vector<Error> errors;
-    int greatest = 1;
+    int greatest = 0;
     for (const Trial& trial : trials) {
         errors.push_back(error_of(trial.picture, reference.picture));
         greatest = std::max(greatest, errors.back().greatest);
@@ -263,15 +271,14 @@ int compare(const std::function<LessonProgram()>& make, const std::string& refer
     for (std::size_t i = 1; i < given.size(); ++i)
         if (find(choices, given[i - 1]) && given[i].find(',') != std::string::npos)
             heading += (heading.empty() ? "" : " ") + given[i - 1];
-    print_table(heading, reference_text, trials, errors);
+    print_table(heading, what, trials, errors);
 
     const std::filesystem::path out = trials.front().program.options.out;
-    const int brightness = 255 / greatest;
+    const int brightness = greatest > 0 ? 255 / greatest : 1;
     for (const Trial& trial : trials) write_image(with_name(out, trial.name), trial.picture);
     write_image(out, side_by_side(trials, reference.picture, brightness));
     std::cout << "wrote " << with_name(out, trials.front().name).string() << " and so on, and "
-              << out.string() << " with all side by side;\nbelow each its difference from "
-              << reference_text
+              << out.string() << " with all side by side;\nbelow each its difference from " << what
               << (brightness > 1 ? ", " + std::to_string(brightness) + " times as bright" : "")
               << '\n';
     return 0;
@@ -294,8 +301,9 @@ void print_choices(const LessonProgram& program, const std::vector<Choice>& choi
            "and times.\n";
     for (const Choice& choice : choices)
         std::cout << '\n'
-                  << choice.name << ' ' << joined(choice.words, ",") << "   [" << choice.preset
-                  << "]\n"
+                  << choice.name << ' '
+                  << (choice.words.empty() ? "NUMBER" : joined(choice.words, ",")) << "   ["
+                  << choice.preset << "]\n"
                   << wrapped(choice.help);
 }
 

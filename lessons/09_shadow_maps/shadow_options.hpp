@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The resolution of depth maps and how they are tested, to be seen with `--shadow-size`, `--bias`
-/// and `--pcf`, and measured in docs/accuracy/09_shadow_maps.md.
+/// The resolution of depth maps and how they are tested: `--shadow-size`, `--bias` and `--pcf`;
+/// measured in docs/accuracy/09_shadow_maps.md.
 #pragma once
 
 #include "09_shadow_maps/shadow_map.hpp"
@@ -9,7 +9,7 @@
 
 namespace rasterbook {
 
-struct ShadowVariant {
+struct ShadowOptions {
     int size = 2048;  ///< Texels a side.
     Bias bias = Bias::slope;
     int pcf = 3;  ///< A shadow test has pcf * pcf taps: 1, 3, 5 or 7.
