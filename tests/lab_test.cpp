@@ -433,3 +433,25 @@ TEST(Lab, WhatCannotBeComparedIsSaidAndNothingIsWritten) {
         1, "there is no such file");
     EXPECT_EQ(files_in(folder).size(), 0u);
 }
+
+TEST(Lab, LessonsWithoutOtherMethodsCompareTheirOptions) {
+    const std::filesystem::path folder = fresh_folder("options");
+    const ProcessResult run =
+        run_program("lab_09_shadow_maps", {"--shadow-size", "16,2048", "--size", "96x54", "--pcf",
+                                           "3", "--out", (folder / "lab.png").string()});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    EXPECT_NE(run.out.find("differs from the lesson's own\n"), std::string::npos) << run.out;
+    const auto row_of = [&](const std::string& method) {
+        std::istringstream row(run.out.substr(run.out.find('\n' + method + ' ') + 1));
+        std::string name;
+        int pixels = -1;
+        row >> name >> pixels;
+        return std::pair(name, pixels);
+    };
+    EXPECT_EQ(row_of("2048"), std::pair(std::string("2048"), 0)) << "what is drawn unasked";
+    EXPECT_GT(row_of("16").second, 100) << run.out;
+    EXPECT_EQ(files_in(folder).at("lab_2048.png"),
+              bytes_of_picture("09_shadow_maps", {"--size", "96x54"}));
+    expect_error(run_program("lab_09_shadow_maps", {"--shadow-size", "16,15"}), 2,
+                 "'15' is not a number from 16 to 8192");
+}

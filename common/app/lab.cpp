@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/app/lab.hpp"
+#include "common/app/lesson_app.hpp"
 
 #include <algorithm>
 #include <chrono>

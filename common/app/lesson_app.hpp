@@ -183,7 +183,19 @@ constexpr bool is_lab = true;
 constexpr bool is_lab = false;
 #endif
 
-/// See lab.hpp.
+/// Runs a lesson's laboratory.
+///
+/// Without arguments it lists what one can choose. Where options are given several words each, as
+/// in
+/// `--line bresenham,wu`, it draws a picture for each combination, by turns, and prints how far
+/// each is from the reference and how long it takes; else it draws one picture, like a lesson's
+/// program.
+///
+/// @param make       Called for each picture: a program, with options of its own.
+/// @param reference  Options that draw what errors are measured against, such as
+///                   "--line bresenham"; nothing: what the program draws unasked.
+/// @return           The exit status: 0, 1 for bad input or what cannot be written, 2 for bad
+///                   usage; errors are one line on stderr.
 int run_lab(const std::function<LessonProgram()>& make, const std::string& reference, int argc,
             char** argv);
 

@@ -27,7 +27,6 @@
 #include "common/model/texture_file.hpp"
 #include "common/probe/pixel_report.hpp"
 #include "docs/live/packed_scene.hpp"
-#include "common/app/lab.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 #define IMPORTED(name) extern "C" __attribute__((import_module("page"), import_name(#name)))

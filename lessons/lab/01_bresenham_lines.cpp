@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 01's wireframe by other lines.
-#include "common/app/lab.hpp"
+#include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/line_methods.hpp"

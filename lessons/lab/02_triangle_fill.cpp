@@ -4,7 +4,7 @@
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/probe.hpp"
 #include "02_triangle_fill/triangle.hpp"
-#include "common/app/lab.hpp"
+#include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/fill_methods.hpp"

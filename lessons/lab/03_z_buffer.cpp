@@ -5,7 +5,7 @@
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "03_z_buffer/probe.hpp"
-#include "common/app/lab.hpp"
+#include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/depth_formats.hpp"

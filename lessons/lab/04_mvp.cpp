@@ -8,7 +8,6 @@
 #include "04_mvp/instance.hpp"
 #include "04_mvp/probe.hpp"
 #include "04_mvp/projection.hpp"
-#include "common/app/lab.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/mvp_methods.hpp"

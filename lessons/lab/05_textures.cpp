@@ -9,7 +9,6 @@
 #include "05_textures/load_textures.hpp"
 #include "05_textures/probe.hpp"
 #include "05_textures/textures.hpp"
-#include "common/app/lab.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/texture_methods.hpp"

@@ -9,7 +9,6 @@
 #include "06_phong/probe.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
-#include "common/app/lab.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/shading_methods.hpp"

@@ -9,7 +9,6 @@
 #include "06_phong/surface.hpp"
 #include "07_toon/assets.hpp"
 #include "07_toon/probe.hpp"
-#include "common/app/lab.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/toon_methods.hpp"

@@ -13,7 +13,6 @@
 #include "08_normal_maps/assets.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "08_normal_maps/probe.hpp"
-#include "common/app/lab.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/normal_map_methods.hpp"
