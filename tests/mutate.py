@@ -304,15 +304,13 @@ def main(lesson, sources, chosen, seed):
     if not (BUILD / "build.ninja").exists():
         subprocess.run(["cmake", "-G", "Ninja", "-S", SOURCE, "-B", BUILD, "-DCMAKE_BUILD_TYPE=None",
                         "-DCMAKE_CXX_FLAGS=-O1 -DNDEBUG -w"], check=True, stdout=subprocess.DEVNULL)
-    # The lesson's tests, and those of its variants.
-    of_variants = {path.stem: path.read_text() for path in sorted((ROOT / "tests").glob("*variants_test.cpp"))}
-    of_variants = {name: text for name, text in of_variants.items() if any(f'"{file}"' in text for file in sources)}
-    programs = [f"{lesson}_test", *of_variants]
-    drawn_by = {name for text in of_variants.values() for name in re.findall(r'"((?:lab_)?\d\d_\w+)"', text)}
+    # The lesson's tests, and those of its laboratory.
+    of_lab = f"lab_{lesson[:2]}_test" if lesson >= "04" else "lab_test"
+    programs = [name for name in (f"{lesson}_test", of_lab) if (ROOT / "tests" / f"{name}.cpp").exists()]
 
     together = [m for m in chosen if is_within(m, function_bodies(sources[m.file])) or
                 is_within(m, member_initialisers(sources[m.file]))]
-    all_targets = sorted({lesson, *programs, *drawn_by})
+    all_targets = sorted({lesson, *programs})
     targets = [lesson], all_targets  # the program first: it shows most errors, and soon
     while targets:
         for file, source in sources.items():

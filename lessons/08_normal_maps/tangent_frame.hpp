@@ -70,7 +70,7 @@ Vec3<F> any_orthogonal(Vec3<F> n) {
     return unit_or(across(axis, n), axis);
 }
 
-/// The TBN basis: orthonormal, unless a variant leaves it skewed.
+/// The TBN basis: orthonormal, unless a method of the lab leaves it skewed.
 template <typename F>
 struct TangentBasis {
     Vec3<F> tangent, bitangent, normal;

@@ -139,19 +139,19 @@ struct ShadowScene {
 /// @param draw  Called as draw(ShadowMap&, bool is_drawn) for each map: clears its depths, and
 ///              draws the scene's casters, or nothing where a map stays empty.
 template <typename Draw>
-ShadowMaps draw_shadow_maps(const ShadowOptions& variant, const ShadowScene& of, Draw&& draw) {
+ShadowMaps draw_shadow_maps(const ShadowOptions& options, const ShadowScene& of, Draw&& draw) {
     assert(of.lights.size() <= max_lights && of.casts.size() >= of.lights.size());
-    ShadowMaps shadow_maps{variant.radius(), variant.bias,
+    ShadowMaps shadow_maps{options.radius(), options.bias,
                            std::vector<LightShadowMaps>(of.lights.size())};
     const Bounds all = of.scene.bounds();
     std::size_t maps = 0;
     for (std::size_t l = 0; l < of.lights.size(); ++l) {
         const Light& light = of.lights[l];
         LightShadowMaps& of_light = shadow_maps.of_light[l];
-        if (of.casts[l]) of_light = make_shadow_maps(light, variant.size, of.bounds, all);
+        if (of.casts[l]) of_light = make_shadow_maps(light, options.size, of.bounds, all);
         of_light.is_drawn = !of_light.maps.empty();
         if (!of_light.is_drawn && of.all_effects)
-            of_light = make_shadow_maps(light, variant.size, {all, all}, all);
+            of_light = make_shadow_maps(light, options.size, {all, all}, all);
         if (maps + of_light.maps.size() > max_shadow_maps) of_light = {};
         of_light.light = light;
         of_light.first_map = maps;
@@ -165,11 +165,11 @@ ShadowMaps draw_shadow_maps(const ShadowOptions& variant, const ShadowScene& of,
 }
 
 /// The shadow maps of a scene, drawn one mesh after the other.
-inline ShadowMaps draw_shadow_maps(const ShadowOptions& variant, const ShadowScene& of) {
+inline ShadowMaps draw_shadow_maps(const ShadowOptions& options, const ShadowScene& of) {
     const auto casts = [&](std::size_t material) {
         return casts_shadows(of.scene.materials[material]);
     };
-    return draw_shadow_maps(variant, of, [&](ShadowMap& map, bool is_drawn) {
+    return draw_shadow_maps(options, of, [&](ShadowMap& map, bool is_drawn) {
         map.depths.clear(ivec2(0), map.depths.depths().size() - 1);
         if (is_drawn)
             for (const Mesh& mesh : of.scene.meshes) draw_casters(map, mesh, casts);

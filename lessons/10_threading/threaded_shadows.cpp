@@ -4,9 +4,9 @@
 namespace rasterbook {
 
 ShadowMaps draw_shadow_maps(Workers& pool, const ThreadOptions& threads,
-                            const ShadowOptions& variant, const ShadowScene& of) {
-    const Tiling tiling = threads.tiling_of(ivec2(variant.size), pool.size());
-    return draw_shadow_maps(variant, of, [&](ShadowMap& map, bool is_drawn) {
+                            const ShadowOptions& options, const ShadowScene& of) {
+    const Tiling tiling = threads.tiling_of(ivec2(options.size), pool.size());
+    return draw_shadow_maps(options, of, [&](ShadowMap& map, bool is_drawn) {
         draw_map(pool, map, of.scene, tiling, is_drawn);
     });
 }

@@ -99,6 +99,6 @@ inline void draw_map(Workers& pool, ShadowMap& map, const Scene& scene, const Ti
 
 /// The shadow maps of a scene, drawn by a pool.
 ShadowMaps draw_shadow_maps(Workers& pool, const ThreadOptions& threads,
-                            const ShadowOptions& variant, const ShadowScene& of);
+                            const ShadowOptions& options, const ShadowScene& of);
 
 }  // namespace rasterbook

@@ -98,11 +98,11 @@ class ShadowMapsOnDemand {
     /// @param part_size  Texels along a part's side, at least 1.
     /// @param set_up     Does what project_triangles() of lesson 10 does.
     /// @param with_holes,filter  Of Casters.
-    ShadowMapsOnDemand(Workers& pool, int part_size, const ShadowOptions& variant,
+    ShadowMapsOnDemand(Workers& pool, int part_size, const ShadowOptions& options,
                        const ShadowScene& of, ProjectTriangles* set_up = project_triangles,
                        const SceneAssets* with_holes = nullptr, Filter filter = {}) {
-        const Tiling tiling(Split::tiles, ivec2(variant.size), 1, part_size);
-        maps_ = draw_shadow_maps(variant, of, [&](ShadowMap& map, bool is_drawn) {
+        const Tiling tiling(Split::tiles, ivec2(options.size), 1, part_size);
+        maps_ = draw_shadow_maps(options, of, [&](ShadowMap& map, bool is_drawn) {
             Casters casters({}, with_holes, filter);
             if (is_drawn) casters.triangles = casters_of(pool, map, of.scene, tiling, set_up);
             parts_.emplace_back(map, tiling, std::move(casters));

@@ -79,7 +79,7 @@ def texts(clang: str, resources: Path) -> dict[str, str]:
             name = re.fullmatch(builtin, member.name)
             if name and (file := tar.extractfile(member)):
                 found[f"clang/{name[1]}"] = file.read().decode()
-    for pattern in ("common/**/*.hpp", "tests/support/*.hpp", "docs/live/**/*.hpp"):
+    for pattern in ("common/**/*.hpp", "lessons/lab/*.hpp", "tests/support/*.hpp", "docs/live/**/*.hpp"):
         for file in ROOT.glob(pattern):
             found[str(file.relative_to(ROOT))] = file.read_text("utf-8")
     for lesson in LESSONS:

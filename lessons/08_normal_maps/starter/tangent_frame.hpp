@@ -62,7 +62,7 @@ Vec3<F> any_orthogonal(Vec3<F> n) {
     return Vec3<F>(vec3(1, 0, 0));
 }
 
-/// The TBN basis: orthonormal, unless a variant leaves it skewed.
+/// The TBN basis: orthonormal, unless a method of the lab leaves it skewed.
 template <typename F>
 struct TangentBasis {
     Vec3<F> tangent, bitangent, normal;
