@@ -14,6 +14,7 @@
 
 #include "04_mvp/clip.hpp"
 #include "05_textures/texture.hpp"
+#include "05_textures/texture_options.hpp"
 #include "accuracy/accuracy.hpp"
 #include "common/image/image_io.hpp"
 #include "lab/texture_methods.hpp"
