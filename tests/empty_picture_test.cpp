@@ -35,10 +35,16 @@ TEST(EmptyPicture, TheWarningSaysWhyNothingIsToBeSeen) {
            "--distance 90", "1 triangle too large or too far away for single precision"},
           {"11_scenes 12_visibility_buffer 13_simd",
            "mtllib clear.mtl\nusemtl a\n" + triangle + "f 1 2 3\n", "",
-           "wholly transparent (material \"a\": opacity 0)"}}) {
+           "wholly transparent (material \"a\": opacity 0)"},
+          // Its corners lie on the triangles' side: they leave pieces without area, which are
+          // culled.
+          {"11_scenes 12_visibility_buffer 13_simd",
+           "mtllib clear.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n",
+           "--yaw 0 --pitch 0 --distance 2",
+           "seen: 4096 fragments wholly transparent (material \"a\": opacity 0)"}}) {
         std::ofstream(folder / "a.obj") << obj;
         std::istringstream words(options), names(programs);
-        std::vector<std::string> arguments{"--size",  "64x48",
+        std::vector<std::string> arguments{"--size",  "64x64",
                                            "--model", (folder / "a.obj").string(),
                                            "--out",   (folder / "a.png").string()};
         for (std::string word; words >> word;) arguments.push_back(word);

@@ -77,9 +77,7 @@ std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
     add(undrawn.outside_view, "triangle", "outside of the camera's view");
     add(undrawn.overflowing, "triangle", "too large or too far away for single precision");
     const std::uint64_t culled = counters[Counter::triangles_culled_by_facing];
-    if (culled > 0 && undrawn.facing_away + undrawn.without_area == 0)
-        add(culled, "triangle", "seen from behind (named clockwise?) or without area");
-    else if (culled > 0)  // else both sides are drawn
+    if (culled > 0)  // else both sides are drawn
         add(undrawn.facing_away, "triangle", "seen from behind (named clockwise?)");
     add(undrawn.without_area, "triangle", "without area on the screen");
 
@@ -93,6 +91,8 @@ std::string why_empty(const Counters& counters, const UndrawnTriangles& undrawn,
     add(blended, "fragment", "wholly transparent" + names_of_clear_materials(scene));
     add(shaded - blended, "fragment", "of the background's color");
     add(tested - shaded - holes, "fragment", "beyond the camera's far plane");
+    if (reasons.empty())  // else they are pieces without area, which clipping left
+        add(culled, "triangle", "seen from behind (named clockwise?) or without area");
     return reasons.empty() ? "its triangles cover no pixel's centre" : reasons;
 }
 
