@@ -216,13 +216,13 @@ void expect_four_texels_upright(const Arguments& arguments) {
     EXPECT_EQ(hue(drawn[{43, 43}]), white) << "lower right";
 }
 
-void expect_clamp_on_before_the_knob(const Arguments& arguments) {
-    const auto upper_right = [&](const std::string& option, const std::string& knob) {
+void expect_clamp_on_before_the_option(const Arguments& arguments) {
+    const auto upper_right = [&](const std::string& statement, const std::string& word) {
         // Twice the picture's size: beyond the middle lies what the wrap says.
-        const Model model(plain + "map_Kd " + option + " -s 2 2 1 four.png\n");
+        const Model model(plain + "map_Kd " + statement + " -s 2 2 1 four.png\n");
         write_image_file(model.folder / "four.png", {2, 2}, {red, green, blue, white});
         Arguments all = arguments;
-        all.insert(all.end(), {"--wrap", knob});
+        all.insert(all.end(), {"--wrap", word});
         const Image<u8vec4> drawn = model.drawn(all);
         return std::array{hue(drawn[{28, 20}]), hue(drawn[{43, 4}])};
     };
@@ -231,8 +231,8 @@ void expect_clamp_on_before_the_knob(const Arguments& arguments) {
     EXPECT_EQ(upper_right("", "mirror"), mirrored);
     EXPECT_EQ(upper_right("", "clamp"), clamped);
     EXPECT_EQ(upper_right("-clamp off", "repeat"), repeated);
-    for (const char* knob : {"repeat", "mirror", "clamp"})
-        EXPECT_EQ(upper_right("-clamp on", knob), clamped) << knob;
+    for (const char* word : {"repeat", "mirror", "clamp"})
+        EXPECT_EQ(upper_right("-clamp on", word), clamped) << word;
 }
 
 void expect_picture_moved_by_half(const Arguments& arguments) {
@@ -247,12 +247,12 @@ void expect_picture_moved_by_half(const Arguments& arguments) {
 
 TEST(Textures, Eq5_5_TextureStandsUprightOnTheSquare) { expect_four_texels_upright(of_step_1); }
 
-TEST(Textures, Eq5_5_ClampOnGoesBeforeTheKnob) { expect_clamp_on_before_the_knob(of_step_1); }
+TEST(Textures, Eq5_5_ClampOnGoesBeforeTheOption) { expect_clamp_on_before_the_option(of_step_1); }
 
 TEST(Textures, InPerspectiveAndDecodedTheSquareShowsTheSame) {
     look_up("Eq. 5.11, and Eq. 5.2");
     expect_four_texels_upright(of_all_steps);
-    expect_clamp_on_before_the_knob(of_all_steps);
+    expect_clamp_on_before_the_option(of_all_steps);
     expect_picture_moved_by_half(of_all_steps);
 }
 

@@ -343,35 +343,35 @@ TEST(Threading, Eq10_7_HardCase_AnyOrderOfTheTasksGivesTheSameBits) {
     }
 }
 
-TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
+TEST(Threading, HardCase_AllOptionsGiveTheSameBitsAndCountsAsLesson09) {
     look_up("Eq. 10.7");
-    std::vector<lesson_10::Options> knobs(12, small_picture(middling_size));
-    knobs[1].shading.two_sided = true;
-    knobs[2].shading.all_effects = true;
-    knobs[3].show_depth = true;
-    knobs[4].texture.filter = Filter::nearest;
-    knobs[5].shading.key_light = LightKind::point;
-    knobs[6].shading.key_light = LightKind::spot;
-    knobs[7].shadow.bias = Bias::plane, knobs[7].shadow.pcf = 7;
-    knobs[8].orbit.distance = 0.15f;  // much is clipped
-    knobs[9].orbit.distance = 1e6f;   // next to nothing is seen
-    knobs[10].normal_map.space = MapSpace::none, knobs[10].shadow.bias = Bias::normal;
-    knobs[11].orbit.pitch_degrees = -90;  // from below
-    constexpr std::array names_of_knobs = {"no option",
-                                           "back faces",
-                                           "--all-effects",
-                                           "--depth",
-                                           "--filter nearest",
-                                           "--light point",
-                                           "--light spot",
-                                           "--bias plane --pcf 7",
-                                           "much clipped",
-                                           "next to nothing seen",
-                                           "--normal-map none --bias normal",
-                                           "the eye below the floor"};
+    std::vector<lesson_10::Options> all_options(12, small_picture(middling_size));
+    all_options[1].shading.two_sided = true;
+    all_options[2].shading.all_effects = true;
+    all_options[3].show_depth = true;
+    all_options[4].texture.filter = Filter::nearest;
+    all_options[5].shading.key_light = LightKind::point;
+    all_options[6].shading.key_light = LightKind::spot;
+    all_options[7].shadow.bias = Bias::plane, all_options[7].shadow.pcf = 7;
+    all_options[8].orbit.distance = 0.15f;  // much is clipped
+    all_options[9].orbit.distance = 1e6f;   // next to nothing is seen
+    all_options[10].normal_map.space = MapSpace::none, all_options[10].shadow.bias = Bias::normal;
+    all_options[11].orbit.pitch_degrees = -90;  // from below
+    constexpr std::array names_of_options = {"no option",
+                                             "back faces",
+                                             "--all-effects",
+                                             "--depth",
+                                             "--filter nearest",
+                                             "--light point",
+                                             "--light spot",
+                                             "--bias plane --pcf 7",
+                                             "much clipped",
+                                             "next to nothing seen",
+                                             "--normal-map none --bias normal",
+                                             "the eye below the floor"};
     ThreadPool pool(3);
-    for (std::size_t k = 0; k < knobs.size(); ++k) {
-        lesson_10::Options& options = knobs[k];
+    for (std::size_t k = 0; k < all_options.size(); ++k) {
+        lesson_10::Options& options = all_options[k];
         const ShadowAssets assets = lesson_10::make_assets(loaded("scene_bumpy.obj"), options);
         const CountedSince begin;
         const Image<vec3> expected = expected_of(options, assets);
@@ -382,7 +382,7 @@ TEST(Threading, HardCase_AllKnobsGiveTheSameBitsAndCountsAsLesson09) {
                 options.threads.split = split, options.threads.tile = tile;
                 const CountedSince counts;
                 const Image<vec3> picture = lesson_10::render(options, assets, pool);
-                const std::string where = std::string("with ") + names_of_knobs[k] + ", " +
+                const std::string where = std::string("with ") + names_of_options[k] + ", " +
                                           name_of(split) + ", tile side " + std::to_string(tile) +
                                           ", beside lesson 09";
                 ASSERT_TRUE(have_the_same_bits(picture, expected)) << where;

@@ -581,15 +581,15 @@ TEST(SceneFiles, HardCase_InvalidNumbersAreAnErrorInOneLine) {
 
 TEST(SceneFiles, HardCase_TheFinalRendererDrawsLesson10sPicture) {
     look_up("Eq. 11.3");
-    std::vector<lesson_11::Options> knobs(6, small_picture());
-    knobs[1].shading.key_light = LightKind::point;
-    knobs[2].shading.key_light = LightKind::spot, knobs[2].shading.two_sided = true;
-    knobs[3].texture.filter = Filter::nearest, knobs[3].shadow.pcf = 7;
-    knobs[4].normal_map.space = MapSpace::none, knobs[4].orbit.distance = 0.15f;
-    knobs[5].show_depth = true;
+    std::vector<lesson_11::Options> all_options(6, small_picture());
+    all_options[1].shading.key_light = LightKind::point;
+    all_options[2].shading.key_light = LightKind::spot, all_options[2].shading.two_sided = true;
+    all_options[3].texture.filter = Filter::nearest, all_options[3].shadow.pcf = 7;
+    all_options[4].normal_map.space = MapSpace::none, all_options[4].orbit.distance = 0.15f;
+    all_options[5].show_depth = true;
     for (const char* name : {"scene_bumpy.obj", "crate_bump.obj", "teapot.obj"})
-        for (std::size_t k = 0; k < knobs.size(); ++k) {
-            const lesson_11::Options& options = knobs[k];
+        for (std::size_t k = 0; k < all_options.size(); ++k) {
+            const lesson_11::Options& options = all_options[k];
             lesson_10::Options same;
             static_cast<LessonOptions&>(same) = options;
             same.orbit = options.orbit, same.show_depth = options.show_depth;
@@ -601,16 +601,17 @@ TEST(SceneFiles, HardCase_TheFinalRendererDrawsLesson10sPicture) {
                 lesson_10::render(same, lesson_10::make_assets(loaded(name), same), pool);
             const Counters counters = begin;
             const Drawn actual = drawn(loaded(name), options);
-            constexpr std::array names_of_knobs = {"no option",
-                                                   "--light point",
-                                                   "--light spot, back faces",
-                                                   "--filter nearest --pcf 7",
-                                                   "--normal-map none --distance 0.15",
-                                                   "--depth"};
+            constexpr std::array names_of_options = {"no option",
+                                                     "--light point",
+                                                     "--light spot, back faces",
+                                                     "--filter nearest --pcf 7",
+                                                     "--normal-map none --distance 0.15",
+                                                     "--depth"};
             ASSERT_TRUE(have_the_same_bits(actual.picture, expected))
-                << name << " with " << names_of_knobs[k] << ", beside lesson 10";
+                << name << " with " << names_of_options[k] << ", beside lesson 10";
             ASSERT_EQ(actual.counters.values, counters.values)
-                << "counters of " << name << " with " << names_of_knobs[k] << ", beside lesson 10";
+                << "counters of " << name << " with " << names_of_options[k]
+                << ", beside lesson 10";
         }
 }
 

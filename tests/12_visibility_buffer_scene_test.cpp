@@ -78,7 +78,7 @@ TEST(VisibilityBuffer, HardCase_ModelsHaveLesson11sBitsAndCountsWithEachOption) 
                 << where;
             tested += visible.count(Counter::fragments_tested);
         };
-        for_each_knob<lesson_12::Options>(name, compare);
+        for_each_option<lesson_12::Options>(name, compare);
         if (HasFatalFailure()) return;
         EXPECT_GT(tested, 20'000u) << "fragments of all pictures of " << name;
     }

@@ -339,7 +339,7 @@ TEST(VisibilityBuffer, HardCase_HowOftenAPixelIsShadedIsShownAsItWas) {
     HeatMap heat(Show::shading, {12, 2}), off(Show::picture, {12, 2});
     for (int x = 0; x < 12; ++x)
         for (int i = 0; i < x; ++i) heat.add({x, 0}), off.add({x, 0});
-    heat.add(PixelRun{{2, 1}, 3});
+    heat.add(PixelSpan{{2, 1}, 3});
     const Image<vec3> ramp = heat.picture();
     const auto brightness_of = [&](int x) {
         return glm::dot(ramp[{x, 0}], vec3(0.2126f, 0.7152f, 0.0722f));
@@ -352,7 +352,7 @@ TEST(VisibilityBuffer, HardCase_HowOftenAPixelIsShadedIsShownAsItWas) {
         EXPECT_EQ((ramp[{x, 0}]), (ramp[{8, 0}])) << x << " times, and eight times";
     for (int x = 0; x < 12; ++x)
         EXPECT_EQ((ramp[{x, 1}]), (ramp[{x >= 2 && x < 5 ? 1 : 0, 0}]))
-            << "pixel " << x << " of a row with a run of three from 2 on";
+            << "pixel " << x << " of a row with a span of three from 2 on";
     for (int i = 0; i < 1 << 16; ++i) heat.add({0, 0});
     EXPECT_EQ((heat.picture()[{0, 0}]), (ramp[{8, 0}])) << "65,536 times, and eight times";
     EXPECT_EQ(off.picture().size(), ivec2(0)) << "nothing is counted unless it is to be shown";

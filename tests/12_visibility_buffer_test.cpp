@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ids of visible triangles, their pixels as runs, barycentric coordinates found again, and the
+// Ids of visible triangles, their pixels as spans, barycentric coordinates found again, and the
 // parts of shadow maps.
 #include <algorithm>
 #include <array>
@@ -44,23 +44,23 @@ namespace {
 constexpr std::size_t no_limit = no_triangle;
 
 /// x, y and length.
-using RunInNumbers = std::array<int, 3>;
+using SpanInNumbers = std::array<int, 3>;
 
 /// A triangle's number, and its pixels.
-using TakenTriangle = std::pair<std::size_t, std::vector<RunInNumbers>>;
+using TakenTriangle = std::pair<std::size_t, std::vector<SpanInNumbers>>;
 
 /// Triangles that lie nowhere: only which is which counts.
 std::vector<ProjectedTriangle> stand_ins(std::size_t count) {
     return std::vector<ProjectedTriangle>(count, projected({}, ivec2(8)));
 }
 
-std::vector<TakenTriangle> taken(TileVisibility& visible,
+std::vector<TakenTriangle> taken(VisibilityBuffer& visible,
                                  const std::vector<ProjectedTriangle>& triangles) {
     std::vector<TakenTriangle> all;
-    visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelRun> runs) {
-        all.emplace_back(&triangle - triangles.data(), std::vector<RunInNumbers>());
-        for (const PixelRun& run : runs)
-            all.back().second.push_back({run.first.x, run.first.y, run.length});
+    visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelSpan> spans) {
+        all.emplace_back(&triangle - triangles.data(), std::vector<SpanInNumbers>());
+        for (const PixelSpan& span : spans)
+            all.back().second.push_back({span.first.x, span.first.y, span.length});
     });
     return all;
 }
@@ -88,13 +88,13 @@ Image<int> ids_drawn(const std::vector<ProjectedTriangle>& triangles, const Tili
     DepthBuffer depth(tiling.size());
     const Frame<ShadowMaps> frame{assets, Filter::nearest, vec3(0), no_maps, color, depth};
     Image<int> numbers(tiling.size(), -1);
-    TileVisibility visible(no_limit);
+    VisibilityBuffer visible(no_limit);
     for (std::size_t i = 0; i < tiling.count(); ++i) {
         visible.begin(tiling[i]);
         for (const ProjectedTriangle& triangle : triangles)
             draw_id(frame, triangle, tiling[i], visible);
-        for (const auto& [number, runs] : taken(visible, triangles))
-            for (const auto& [x, y, length] : runs)
+        for (const auto& [number, spans] : taken(visible, triangles))
+            for (const auto& [x, y, length] : spans)
                 for (int k = 0; k < length; ++k) numbers[{x + k, y}] = static_cast<int>(number);
     }
     return numbers;
@@ -257,14 +257,14 @@ TEST(VisibilityBuffer, Eq12_2_PlanesOfTheWorkedExample) {
         int count = 0;
         planes.for_each_in({{2, 1}, 2}, [&](ivec2 pixel, Barycentrics at) {
             if (!is_front) std::swap(at.y, at.z);
-            ASSERT_EQ(pixel, ivec2(2 + count, 1)) << "pixel " << count << " of the run";
+            ASSERT_EQ(pixel, ivec2(2 + count, 1)) << "pixel " << count << " of the span";
             ASSERT_EQ(at, (count == 0 ? vec3(10, 12, 10) : vec3(6, 12, 14)) / 32.0f)
                 << "barycentric coordinates of the centre of the pixel "
                 << testing::PrintToString(pixel) << " in (0, 0), (0, 4), (8, 0), seen "
                 << (is_front ? "counter-clockwise" : "clockwise");
             ++count;
         });
-        ASSERT_EQ(count, 2) << "pixels of a run of two";
+        ASSERT_EQ(count, 2) << "pixels of a span of two";
     }
 }
 
@@ -297,7 +297,7 @@ TEST(VisibilityBuffer, Eq12_2_HardCase_TheBitsOfFillTriangleUpToTheCoordinateLim
                 planes.for_each_in(
                     {row[from].first, static_cast<int>(row.size() - from)},
                     [&](ivec2 pixel, Barycentrics at) {
-                        ASSERT_LT(i, row.size()) << "pixels of a run, seed 1, triangle " << k;
+                        ASSERT_LT(i, row.size()) << "pixels of a span, seed 1, triangle " << k;
                         ASSERT_EQ(pixel, row[i].first) << "seed 1, triangle " << k;
                         ASSERT_EQ(at, row[i].second)
                             << "barycentric coordinates as found again and as fill_triangle() has "
@@ -307,7 +307,7 @@ TEST(VisibilityBuffer, Eq12_2_HardCase_TheBitsOfFillTriangleUpToTheCoordinateLim
                             << " (seed 1, " << k << ")";
                         ++i;
                     });
-                ASSERT_EQ(i, row.size()) << "pixels of a run, seed 1, triangle " << k;
+                ASSERT_EQ(i, row.size()) << "pixels of a span, seed 1, triangle " << k;
             }
             row.clear();
         };
@@ -323,11 +323,11 @@ TEST(VisibilityBuffer, Eq12_2_HardCase_TheBitsOfFillTriangleUpToTheCoordinateLim
     EXPECT_GT(far_away, 1'000) << "pixels more than half as far away as the limit";
 }
 
-TEST(VisibilityBuffer, Eq12_3_RunsAreGroupedByTriangleInDrawingOrder) {
+TEST(VisibilityBuffer, Eq12_3_SpansAreGroupedByTriangleInDrawingOrder) {
     // The tile of the derivation's figure, and the same elsewhere in a picture. Triangle 1 is
     // visible nowhere, and in one pixel there is none.
     const std::vector<ProjectedTriangle> triangles = stand_ins(4);
-    TileVisibility visible(no_limit);
+    VisibilityBuffer visible(no_limit);
     for (const ivec2 at : {ivec2(0), ivec2(18, 9)}) {
         visible.begin({{at, at + ivec2(5, 2)}});
         for (TriangleId id = 0; id < 4; ++id)
@@ -337,15 +337,15 @@ TEST(VisibilityBuffer, Eq12_3_RunsAreGroupedByTriangleInDrawingOrder) {
             for (int x = 0; x < 6; ++x)
                 if (const char digit = rows.at(std::size_t(y)).at(std::size_t(x)); digit != '.')
                     visible.write(at + ivec2(x, y), static_cast<TriangleId>(digit - '0'));
-        const auto run = [&](int x, int y, int length) {
-            return RunInNumbers{at.x + x, at.y + y, length};
+        const auto span = [&](int x, int y, int length) {
+            return SpanInNumbers{at.x + x, at.y + y, length};
         };
         const std::vector<TakenTriangle> expected = {
-            {0, {run(0, 0, 2), run(0, 1, 1)}},
-            {2, {run(2, 0, 3), run(1, 1, 3), run(0, 2, 3)}},
-            {3, {run(4, 1, 2), run(3, 2, 3)}}};
+            {0, {span(0, 0, 2), span(0, 1, 1)}},
+            {2, {span(2, 0, 3), span(1, 1, 3), span(0, 2, 3)}},
+            {3, {span(4, 1, 2), span(3, 2, 3)}}};
         EXPECT_EQ(taken(visible, triangles), expected)
-            << "triangles with their runs (x, y, length) in a tile from "
+            << "triangles with their spans (x, y, length) in a tile from "
             << testing::PrintToString(at) << " with the ids 00222. in the first row, 022233 in the "
             << "second and 222333 in the third";
         EXPECT_TRUE(taken(visible, triangles).empty()) << "what has been taken is gone";
@@ -362,12 +362,12 @@ TEST(VisibilityBuffer, Eq12_3_EachPixelIsInOneRunOfItsTriangle) {
         const int side = 1 + static_cast<int>(dice.below(20));
         const Tiling tiling(split, size, workers, side);
         const auto triangles = stand_ins(1 + dice.below(9));
-        TileVisibility visible(no_limit);  // for one tile after the other, as a worker has it
+        VisibilityBuffer visible(no_limit);  // for one tile after the other, as a worker has it
         for (std::size_t i = 0; i < tiling.count(); ++i) {
             const Tile tile = tiling[i];
             visible.begin(tile);
             for (const ProjectedTriangle& triangle : triangles) visible.add(triangle);
-            std::vector<std::vector<RunInNumbers>> runs_of(triangles.size());
+            std::vector<std::vector<SpanInNumbers>> spans_of(triangles.size());
             for (int y = tile.box.first.y; y <= tile.box.last.y; y += tile.row_step) {
                 int last = -1;
                 for (int x = tile.box.first.x; x <= tile.box.last.x; ++x) {
@@ -378,11 +378,12 @@ TEST(VisibilityBuffer, Eq12_3_EachPixelIsInOneRunOfItsTriangle) {
                                   dice.below(static_cast<std::uint32_t>(triangles.size() + 1))) -
                                   1;
                     if (number >= 0) {
-                        std::vector<RunInNumbers>& runs = runs_of[static_cast<std::size_t>(number)];
+                        std::vector<SpanInNumbers>& spans =
+                            spans_of[static_cast<std::size_t>(number)];
                         if (number == last && x > tile.box.first.x)
-                            ++runs.back()[2];
+                            ++spans.back()[2];
                         else
-                            runs.push_back({x, y, 1});
+                            spans.push_back({x, y, 1});
                         // Some pixels had another triangle before.
                         visible.write({x, y}, 0);
                         visible.write({x, y}, static_cast<TriangleId>(number));
@@ -391,10 +392,10 @@ TEST(VisibilityBuffer, Eq12_3_EachPixelIsInOneRunOfItsTriangle) {
                 }
             }
             std::vector<TakenTriangle> expected;
-            for (std::size_t t = 0; t < runs_of.size(); ++t)
-                if (!runs_of[t].empty()) expected.emplace_back(t, runs_of[t]);
+            for (std::size_t t = 0; t < spans_of.size(); ++t)
+                if (!spans_of[t].empty()) expected.emplace_back(t, spans_of[t]);
             ASSERT_EQ(taken(visible, triangles), expected)
-                << "triangles with their runs (x, y, length), in tile " << i << " of "
+                << "triangles with their spans (x, y, length), in tile " << i << " of "
                 << tiling.count() << ", " << in_words(split, size, workers, side, seed);
         }
     }
@@ -403,7 +404,7 @@ TEST(VisibilityBuffer, Eq12_3_EachPixelIsInOneRunOfItsTriangle) {
 TEST(VisibilityBuffer, HardCase_ATileBeginsWithoutWhatAnotherLeft) {
     look_up("Eq. 12.3");
     const std::vector<ProjectedTriangle> triangles = stand_ins(3);
-    TileVisibility visible(3);
+    VisibilityBuffer visible(3);
     const std::array tiles = {Tile{{{0, 0}, {3, 3}}}, Tile{{{4, 0}, {13, 8}}},
                               Tile{{{0, 9}, {1, 9}}}, Tile{{{0, 1}, {9, 8}}, 3}};
     for (const Tile& tile : tiles) {

@@ -134,7 +134,7 @@ TEST(Simd, HardCase_ModelsHaveLesson12sBitsAndCountsWithEachOption) {
             if (!is_sanitized) ++next;
             tested += expected.count(Counter::fragments_tested);
         };
-        for_each_knob<lesson_13::Options>(name, compare);
+        for_each_option<lesson_13::Options>(name, compare);
         if (HasFatalFailure()) return;
         EXPECT_GT(tested, 20'000u) << "fragments of all pictures of " << name;
     }

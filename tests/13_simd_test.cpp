@@ -923,7 +923,7 @@ TEST(Simd, Eq13_2_HardCase_BehindARowNothingOfTheNextIsTouched) {
     }
 }
 
-TEST(Simd, HardCase_EmptyRunsAreThePixelsThatNothingCovers) {
+TEST(Simd, HardCase_EmptySpansAreThePixelsThatNothingCovers) {
     look_up("Eq. 13.2");
     Dice dice(7);
     for (int k = 0; k < 400; ++k) {
@@ -940,15 +940,15 @@ TEST(Simd, HardCase_EmptyRunsAreThePixelsThatNothingCovers) {
                 is_empty[{x, y}] = !is_covered;
             }
         ivec2 last(-1);
-        depths.for_each_empty_run(tile, [&](const PixelRun& run) {
-            ASSERT_GT(run.length, 0);
-            ASSERT_TRUE(last.y < run.first.y || last.x < run.first.x)
-                << "a run touches the one before it, or comes before it";
-            last = run.first + ivec2(run.length, 0);
-            for (int x = 0; x < run.length; ++x) ++found[run.first + ivec2(x, 0)];
+        depths.for_each_empty_span(tile, [&](const PixelSpan& span) {
+            ASSERT_GT(span.length, 0);
+            ASSERT_TRUE(last.y < span.first.y || last.x < span.first.x)
+                << "a span touches the one before it, or comes before it";
+            last = span.first + ivec2(span.length, 0);
+            for (int x = 0; x < span.length; ++x) ++found[span.first + ivec2(x, 0)];
         });
         ASSERT_EQ(found, is_empty)
-            << "pixels of empty runs; tile of " << size.x << " x " << size.y << " from "
+            << "pixels of empty spans; tile of " << size.x << " x " << size.y << " from "
             << testing::PrintToString(first) << " on, rows by " << tile.row_step;
     }
 }
@@ -985,13 +985,13 @@ TEST(Simd, Eq13_4_BatchesOfTheWorkedExample) {
     const Frame<ShadowMapsOnDemand> frame{
         triangles.assets, Filter::nearest, vec3(0), maps, color, depth};
     // 20 pixels in rows of 2 to 6 pixels: all of one triangle, or the first rows of another.
-    const std::array runs = {PixelRun{{2, 0}, 2}, PixelRun{{1, 1}, 3}, PixelRun{{1, 2}, 4},
-                             PixelRun{{0, 3}, 5}, PixelRun{{0, 4}, 6}};
+    const std::array spans = {PixelSpan{{2, 0}, 2}, PixelSpan{{1, 1}, 3}, PixelSpan{{1, 2}, 4},
+                              PixelSpan{{0, 3}, 5}, PixelSpan{{0, 4}, 6}};
     const ProjectedTriangle one = triangles.projected(size, 0),
                             other = triangles.projected(size, 1);
     for (const std::size_t of_other : {0u, 2u}) {
-        const std::array visible = {VisibleTriangle{&other, std::span(runs).first(of_other)},
-                                    VisibleTriangle{&one, std::span(runs).subspan(of_other)}};
+        const std::array visible = {VisibleTriangle{&other, std::span(spans).first(of_other)},
+                                    VisibleTriangle{&one, std::span(spans).subspan(of_other)}};
         const auto counted_and_last = [&](auto&& shade) {
             const CountedSince counters;
             shade();
@@ -1019,7 +1019,7 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
     for_each_width([&]<int N>() {
         Dice dice(N);
         for (int k = 0; k < 300; ++k) {
-            std::array<std::vector<PixelRun>, ColoredTriangles::count> runs;
+            std::array<std::vector<PixelSpan>, ColoredTriangles::count> spans;
             const std::uint32_t triangle_count = k % 2 ? 1 : ColoredTriangles::count;
             std::uint64_t pixels = 0;
             const std::uint32_t longest = k % 3 ? 5 : 70;
@@ -1027,11 +1027,11 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
                 for (int x = static_cast<int>(dice.below(k % 5 ? 90 : 20)); x < size.x;) {
                     const int length =
                         std::min(size.x - x, 1 + static_cast<int>(dice.below(longest)));
-                    runs.at(dice.below(triangle_count)).push_back({{x, y}, length});
+                    spans.at(dice.below(triangle_count)).push_back({{x, y}, length});
                     pixels += static_cast<std::uint64_t>(length);
                     x += length + 1 + static_cast<int>(dice.below(80));
                 }
-            if (k == 0) runs = {}, pixels = 0;
+            if (k == 0) spans = {}, pixels = 0;
             Image<vec3> expected(size, vec3(-1)), actual = expected;
             DepthBuffer depth(size);
             const Frame<ShadowMapsOnDemand> before{
@@ -1039,9 +1039,9 @@ TEST(Simd, Eq13_4_BatchesHaveLesson12sPixelsAndLeaveNoLaneEmptyButTheLasts) {
             const Frame<ShadowMapsOnDemand> frame{
                 triangles.assets, Filter::nearest, vec3(0), maps, actual, depth};
             std::vector<VisibleTriangle> visible;
-            for (std::size_t t = 0; t < runs.size(); ++t) {
-                visible.push_back({&projected.at(t), runs.at(t)});
-                shade_pixels<Permutation{}>(before, projected.at(t), runs.at(t));
+            for (std::size_t t = 0; t < spans.size(); ++t) {
+                visible.push_back({&projected.at(t), spans.at(t)});
+                shade_pixels<Permutation{}>(before, projected.at(t), spans.at(t));
             }
             const CountedSince counters;
             shade_pixels<Permutation{}, Floats<N>>(frame, visible);

@@ -286,7 +286,7 @@ TEST(Allocations, OfLesson12sIdsAreMadeForTheLargestTileAlone) {
     const std::vector<ProjectedTriangle> triangles(50, test::projected({}, ivec2(8)));
     // One row of sixteen, and a square tile of as many pixels.
     for (const Tile& tile : {Tile{{{0, 3}, {1023, 1023}}, 16}, Tile{{{256, 0}, {511, 255}}}}) {
-        TileVisibility visible(no_triangle);
+        VisibilityBuffer visible(no_triangle);
         const auto draw_tile = [&] {
             visible.begin(tile);
             for (const ProjectedTriangle& triangle : triangles) visible.add(triangle);
@@ -295,15 +295,15 @@ TEST(Allocations, OfLesson12sIdsAreMadeForTheLargestTileAlone) {
                     for (int x = strip.first.x; x <= strip.last.x; ++x)
                         visible.write({x, y}, static_cast<TriangleId>(x / 64 % 50));
             });
-            std::size_t runs = 0;
-            visible.take_visible([&](const ProjectedTriangle&, std::span<const PixelRun> of_one) {
-                runs += of_one.size();
+            std::size_t spans = 0;
+            visible.take_visible([&](const ProjectedTriangle&, std::span<const PixelSpan> of_one) {
+                spans += of_one.size();
             });
-            EXPECT_GT(runs, 100u);
+            EXPECT_GT(spans, 100u);
         };
         const std::size_t bytes_before = bytes_allocated;
         EXPECT_GT(allocations_of(draw_tile), 3u);
-        // 256 KiB of ids; and runs, which are few here, and lists that grew.
+        // 256 KiB of ids; and spans, which are few here, and lists that grew.
         EXPECT_LT(bytes_allocated - bytes_before, (64 * 1024 + 32 * 1024) * sizeof(TriangleId))
             << "bytes for a tile of 65,536 pixels, of which each has an id of 4";
         EXPECT_EQ(allocations_of(draw_tile), 0u) << "allocations for another tile of this size";

@@ -440,14 +440,14 @@ TEST(ImageDoctor, TheCommandSaysWhatItSees) {
         << result.out;
 }
 
-TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAKnobShows) {
+TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAnOptionShows) {
     const std::string file = (fresh_folder("doctor") / "mine.png").string();
     struct Case {
         std::string lesson;
-        std::vector<std::string> knob;
+        std::vector<std::string> option;
         std::string equation;
     };
-    for (const auto& [lesson, knob, equation] :
+    for (const auto& [lesson, option, equation] :
          {Case{"05_textures", {"lab", "--mapping", "affine"}, "Eq. 5.2"},
           Case{"05_textures", {"--filter", "bilinear"}, "Eq. 5.7 and 5.8"},
           Case{"06_phong", {"lab", "--normals", "none"}, "Eq. 6.8"},
@@ -459,13 +459,13 @@ TEST(ImageDoctor, TheCommandKnowsTheMistakesThatAKnobShows) {
           Case{"09_shadow_maps", {"--bias", "constant"}, "Eq. 9.10"},
           Case{"09_shadow_maps", {"--pcf", "1"}, "Eq. 9.13"},
           Case{"10_threading", {"--bias", "constant"}, "Eq. 9.10"}}) {
-        std::vector<std::string> arguments = knob;
+        std::vector<std::string> arguments = option;
         arguments.insert(arguments.end(), {"--yaw", "10", "--size", "160x90", "--out", file});
         ASSERT_EQ(run_program(lesson, arguments).exit_status, 0);
         const ProcessResult result = run_program(program, {file, lesson, "--yaw", "10"});
         EXPECT_EQ(result.exit_status, 1);
         std::string begin = file + ": looks as with";
-        for (const std::string& word : knob) begin += ' ' + word;
+        for (const std::string& word : option) begin += ' ' + word;
         begin += ": ";
         EXPECT_EQ(result.out.rfind(begin, 0), 0u) << result.out;
         EXPECT_NE(result.out.find(equation), std::string::npos) << result.out;

@@ -87,7 +87,7 @@ int differing_pixels(const Image<u8vec4>& a, const Image<u8vec4>& b) {
 }
 
 Image<u8vec4> picture(std::vector<std::string> arguments) {
-    const std::string out = (fresh_folder("mvp_knobs") / "picture.bmp").string();
+    const std::string out = (fresh_folder("mvp_options") / "picture.bmp").string();
     arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
     const ProcessResult run = run_program("lab_04_mvp", arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
@@ -394,7 +394,7 @@ TEST(LabMvp, WhatIsFlattenedToALineHasTheColorOfWhatFacesUp) {
     EXPECT_GT(seen, 100);
 }
 
-TEST(LabMvp, EveryKnobDraws) {
+TEST(LabMvp, EveryOptionDraws) {
     const Image<u8vec4> usual = picture({}), close = picture({"--distance", "0.3"});
     for (const std::string offset : {"1000", "100000", "1000000", "10000000"})
         EXPECT_GT(differing_pixels(usual, picture({"--offset", offset})), 0) << offset;

@@ -131,7 +131,7 @@ Image<u8vec4> random_picture(ivec2 picture_size) {
 }
 
 Image<u8vec4> picture(std::vector<std::string> arguments) {
-    const std::string out = (fresh_folder("texture_knobs") / "picture.bmp").string();
+    const std::string out = (fresh_folder("texture_options") / "picture.bmp").string();
     arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
     const ProcessResult run = run_program("lab_05_textures", arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
@@ -304,7 +304,7 @@ TEST(LabTextures, DecodingTheMeanIsExactInCentresAndTooDarkBetween) {
     EXPECT_NEAR(gray.r, 0.21404f, 1e-5f);
 }
 
-TEST(LabTextures, EveryKnobDraws) {
+TEST(LabTextures, EveryOptionDraws) {
     const Image<u8vec4> usual = picture({});
     EXPECT_EQ(difference(usual, picture({"--mapping", "perspective", "--filter", "trilinear",
                                          "--wrap", "repeat", "--srgb", "decoded"})),

@@ -74,7 +74,7 @@ int differing_pixels(const Image<u8vec4>& a, const Image<u8vec4>& b) {
 }
 
 Image<u8vec4> picture(std::vector<std::string> arguments) {
-    const std::string out = (fresh_folder("shading_knobs") / "picture.bmp").string();
+    const std::string out = (fresh_folder("shading_options") / "picture.bmp").string();
     arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
     const ProcessResult run = run_program("lab_06_phong", arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
@@ -315,7 +315,7 @@ TEST(LabPhong, NormalsAreScaledAsTheVariantSays) {
     }
 }
 
-TEST(LabPhong, EveryKnobDraws) {
+TEST(LabPhong, EveryOptionDraws) {
     const Image<u8vec4> usual = picture({});
     const auto changed = [&](const std::vector<std::string>& arguments) {
         return differing_pixels(usual, picture(arguments));

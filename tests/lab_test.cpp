@@ -254,7 +254,7 @@ TEST(Lab, RangeOfDepthsIsTheNumberOnTheCommandLine) {
         LessonOptions options;
         std::string words[] = {"03_z_buffer", "--range", number};
         char* arguments[] = {words[0].data(), words[1].data(), words[2].data()};
-        const auto declare = [&](Knobs& knobs) { variant.declare(knobs); };
+        const auto declare = [&](OptionParser& parser) { variant.declare(parser); };
         EXPECT_FALSE(read_command_line(
             {words[0], "", options, nullptr, nullptr, nullptr, declare, {}, {}}, 3, arguments))
             << "--range " << number << " is no choice";
@@ -285,8 +285,8 @@ TEST(Lab, AreasInPixelsAddUpToThePolygon) {
     EXPECT_EQ(area_in_pixel({dvec2(0, 0), dvec2(1, 0), dvec2(0, 1)}, {1, 0}), 0.0);
 }
 
-TEST(Lab, EveryKnobDrawsAndShowsADifference) {
-    const std::map<std::string, std::vector<std::vector<std::string>>> knobs = {
+TEST(Lab, EveryOptionDrawsAndShowsADifference) {
+    const std::map<std::string, std::vector<std::vector<std::string>>> options = {
         {"lab_01_bresenham_lines",
          {{"--line", "dda-float"}, {"--line", "dda-fixed"}, {"--line", "wu"}}},
         {"lab_02_triangle_fill",
@@ -315,16 +315,16 @@ TEST(Lab, EveryKnobDrawsAndShowsADifference) {
         EXPECT_EQ(run.err, "");
         return read_image(out);
     };
-    for (const auto& [lesson, variants] : knobs)
-        for (const std::vector<std::string>& knob : variants) {
-            const std::vector<std::string> rest(knob.begin() + 2, knob.end());
-            const bool is_depth = knob[0] == "--format";
+    for (const auto& [lesson, variants] : options)
+        for (const std::vector<std::string>& option : variants) {
+            const std::vector<std::string> rest(option.begin() + 2, option.end());
+            const bool is_depth = option[0] == "--format";
             const Image<u8vec4> usual = draw(lesson, is_depth ? std::vector<std::string>{} : rest);
-            const Image<u8vec4> other = draw(lesson, knob);
+            const Image<u8vec4> other = draw(lesson, option);
             std::size_t differing = 0;
             for (std::size_t i = 0; i < usual.pixels().size(); ++i)
                 differing += usual.pixels()[i] != other.pixels()[i];
-            EXPECT_GT(differing, 0u) << lesson << ' ' << knob[0] << ' ' << knob[1];
+            EXPECT_GT(differing, 0u) << lesson << ' ' << option[0] << ' ' << option[1];
         }
 }
 

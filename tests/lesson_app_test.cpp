@@ -310,10 +310,11 @@ TEST(LessonApp, FramesAreThePicturesOfTheirYaw) {
     }
 }
 
-TEST(LessonApp, HardCase_BadKnobsOfTheCameraAreExitStatus2) {
+TEST(LessonApp, HardCase_BadOptionsOfTheCameraAreExitStatus2) {
     const std::string out = (fresh_folder("app") / "a.png").string();
-    const auto status_2 = [&](const std::string& knob, const std::string& word) {
-        expect_error(run_program("04_mvp", {"--size", "8x8", "--out", out, knob, word}), 2, knob);
+    const auto status_2 = [&](const std::string& option, const std::string& word) {
+        expect_error(run_program("04_mvp", {"--size", "8x8", "--out", out, option, word}), 2,
+                     option);
     };
     for (const char* word : {"200", "0", "171", "nan", "-35", ""}) status_2("--fov", word);
     for (const char* word : {"x", "91", "-90.5", "inf", "20x"}) status_2("--pitch", word);
@@ -328,7 +329,7 @@ TEST(LessonApp, HardCase_BadKnobsOfTheCameraAreExitStatus2) {
 
 TEST(LessonApp, HardCase_CameraAtItsLimitsDraws) {
     const std::string out = (fresh_folder("app") / "a.png").string();
-    for (const std::vector<std::string>& knobs :
+    for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"--pitch", "90"},
                                                {"--pitch", "-90"},
                                                {"--fov", "170"},
@@ -337,10 +338,10 @@ TEST(LessonApp, HardCase_CameraAtItsLimitsDraws) {
                                                {"--distance", "1"},
                                                {"--yaw", "36000"}}) {
         std::vector<std::string> arguments = {"--size", "64x48", "--stats", "--out", out};
-        arguments.insert(arguments.end(), knobs.begin(), knobs.end());
+        arguments.insert(arguments.end(), words.begin(), words.end());
         const ProcessResult result = run_program("04_mvp", arguments);
         ASSERT_EQ(result.exit_status, 0) << result.err;
         EXPECT_GT(nlohmann::json::parse(result.out).at("fragments_shaded"), 0)
-            << knobs[0] << ' ' << knobs[1];
+            << words[0] << ' ' << words[1];
     }
 }

@@ -274,7 +274,7 @@ void flush_output() {
 
 }  // namespace
 
-void Knobs::flag(const char* name, bool& value, const char* help) {
+void OptionParser::flag(const char* name, bool& value, const char* help) {
     command_line_.add_flag(name, value, help);
 }
 
@@ -304,21 +304,22 @@ void add_number(CommandLine& line, const std::string& name, Number& value, Numbe
 
 }  // namespace
 
-void Knobs::number(const char* name, float& value, float least, float most, const char* help) {
+void OptionParser::number(const char* name, float& value, float least, float most,
+                          const char* help) {
     add_number(command_line_, name, value, least, most, help);
 }
 
-void Knobs::number(const char* name, int& value, int least, int most, const char* help) {
+void OptionParser::number(const char* name, int& value, int least, int most, const char* help) {
     add_number(command_line_, name, value, least, most, help);
 }
 
-void Knobs::text(const char* name, std::string& value, const char* type, const char* help) {
+void OptionParser::text(const char* name, std::string& value, const char* type, const char* help) {
     command_line_.add_option(name, value, help)->type_name(type);
 }
 
-void Knobs::choice(const char* name, const char* preset,
-                   std::vector<std::pair<const char*, std::function<void()>>> words,
-                   const char* help) {
+void OptionParser::choice(const char* name, const char* preset,
+                          std::vector<std::pair<const char*, std::function<void()>>> words,
+                          const char* help) {
     std::string all;
     for (const auto& [word, call] : words) all += (all.empty() ? "" : "|") + std::string(word);
     const auto take = [=](const std::string& given) {
@@ -372,18 +373,18 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
                 "Write no picture, but say why this pixel has its colour; 0,0 is the upper left "
                 "one")
             ->type_name("X,Y");
-    Knobs knobs(line);
+    OptionParser parser(line);
     if (program.orbit) {
         line.add_option_function<std::string>(
                 "--frames", [&](const std::string& text) { options.frames = parse_frames(text); },
                 "Pictures of one turn around the scene, or of a part of it; --out then takes "
                 "turn_%04d.png [1]")
             ->type_name("N|A-B/N");
-        knobs.number("--jobs", options.jobs, 1, max_threads,
-                     "Frames at once, each with its share of the threads; unasked, no more than "
-                     "take 1 GiB");
+        parser.number("--jobs", options.jobs, 1, max_threads,
+                      "Frames at once, each with its share of the threads; unasked, no more than "
+                      "take 1 GiB");
     }
-    declare_picture_knobs(knobs, program);
+    declare_picture_options(parser, program);
 
     line.footer(
         "Exit status: 0 for success, 1 when something cannot be read or written, 2 for wrong "
@@ -413,8 +414,8 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
 
 std::vector<Choice> choices_of(const LessonProgram& program) {
     CommandLine line;
-    Knobs knobs(line);
-    program.declare_knobs(knobs);
+    OptionParser parser(line);
+    program.declare_options(parser);
     return line.choices;
 }
 

@@ -21,7 +21,7 @@
 
 namespace rasterbook {
 
-/// What every lesson can be asked for. A lesson adds its own knobs in a struct derived from this.
+/// What every lesson can be asked for. A lesson adds its own options in a struct derived from this.
 struct LessonOptions {
     std::filesystem::path model = "teapot.obj";
     std::filesystem::path out;  ///< By default NAME.png in the current folder.
@@ -36,7 +36,7 @@ struct LessonOptions {
 };
 
 /// Where the camera stands and how wide it sees, from lesson 04 on: a lesson whose options have an
-/// `Orbit orbit` is given the knobs for it, and --frames.
+/// `Orbit orbit` is given its options, and --frames.
 struct Orbit {
     float yaw_degrees = -30.0f;   ///< Around the scene, counter-clockwise as seen from above.
     float pitch_degrees = 27.0f;  ///< Above the horizon, -90 to 90.
@@ -52,14 +52,14 @@ struct Choice {
     std::vector<std::string> words;  ///< None: a number.
 };
 
-/// What takes the knobs' values: a command line, or the controls of a page.
+/// What takes the options' values: a command line, or the controls of a page.
 class CommandLine;
 
-/// Where a lesson declares its knobs: one line gives the flag, its help, its check and its default.
-/// Texts have to outlive it, as literals do.
-class Knobs {
+/// Where a lesson declares its options: one line gives the flag, its help, its check and its
+/// default. Texts have to outlive it, as literals do.
+class OptionParser {
   public:
-    explicit Knobs(CommandLine& command_line) : command_line_(command_line) {}
+    explicit OptionParser(CommandLine& command_line) : command_line_(command_line) {}
 
     /// `--name`: sets `value` to true.
     void flag(const char* name, bool& value, const char* help);
@@ -85,7 +85,7 @@ class Knobs {
         });
     }
 
-    /// Calls one of the functions when its word is given. A knob that is declared later is taken
+    /// Calls one of the functions when its word is given. An option that is declared later is taken
     /// later.
     void choice(const char* name, const char* preset,
                 std::vector<std::pair<const char*, std::function<void()>>> words, const char* help);
@@ -99,10 +99,10 @@ class Knobs {
     const char* preset_ = "";
 };
 
-/// Declares the knobs of several groups of options, each by its `declare(Knobs&)`.
+/// Declares several groups of options, each by its `declare(OptionParser&)`.
 template <typename... Groups>
-void declare_all(Knobs& knobs, Groups&... groups) {
-    (groups.declare(knobs), ...);
+void declare_all(OptionParser& parser, Groups&... groups) {
+    (groups.declare(parser), ...);
 }
 
 /// What one frame has of its own; the rest is the same for all.
@@ -119,7 +119,7 @@ struct LessonProgram {
     Orbit* orbit;            ///< Of the options, or null.
     bool* show_depth;        ///< Of the options, or null.
     const int* threads;      ///< Of the options, or null: then one thread draws a picture.
-    std::function<void(Knobs&)> declare_knobs;
+    std::function<void(OptionParser&)> declare_options;
     std::function<const Scene&(Scene)> prepare;  ///< Called once, with the model as it was read.
 
     /// Called by several threads at once. What it counts is added to the calling thread's counters.
@@ -135,9 +135,9 @@ const Scene& scene_of(const Assets& assets) {
     return assets.scene;
 }
 
-/// Declares the knobs of a picture that all lessons have, each as far as it has it: samples, orbit,
-/// depth; then the program's own.
-void declare_picture_knobs(Knobs& knobs, const LessonProgram& program);
+/// Declares the options of a picture that all lessons have, each as far as it has it: samples,
+/// orbit, depth; then the program's own.
+void declare_picture_options(OptionParser& parser, const LessonProgram& program);
 
 /// Reads the command line into the program's options.
 ///
@@ -145,7 +145,7 @@ void declare_picture_knobs(Knobs& knobs, const LessonProgram& program);
 ///          on stderr. Else none.
 std::optional<int> read_command_line(const LessonProgram& program, int argc, char** argv);
 
-/// The choices among the program's own knobs.
+/// The choices among the program's own options.
 std::vector<Choice> choices_of(const LessonProgram& program);
 
 /// Reads the model that the options name.
@@ -188,8 +188,7 @@ constexpr bool is_lab = false;
 /// Without arguments it lists what one can choose. Where options are given several words each, as
 /// in
 /// `--line bresenham,wu`, it draws a picture for each combination, by turns, and prints how far
-/// each is from the reference and how long it takes; else it draws one picture, like a lesson's
-/// program.
+/// each is from the reference and how long it takes; else it draws one picture, like a program.
 ///
 /// @param make       Called for each picture: a program, with options of its own.
 /// @param reference  Options that draw what errors are measured against, such as
@@ -201,7 +200,8 @@ int run_lab(const std::function<LessonProgram()>& make, const std::string& refer
 
 /// A lesson's program, with options of its own at their defaults.
 ///
-/// @tparam Options     Derived from LessonOptions; may have `void declare(Knobs&)`, an `Orbit
+/// @tparam Options     Derived from LessonOptions; may have `void declare(OptionParser&)`, an
+/// `Orbit
 ///                     orbit`, a `bool show_depth`, and `threads.threads`, the number of threads
 ///                     that draw.
 /// @param make_assets  Called once as make_assets(Scene, const Options&): gives what is drawn, with
@@ -240,9 +240,9 @@ LessonProgram lesson_program(std::string name, std::string title, MakeAssets mak
             orbit,
             show_depth,
             threads,
-            [=](Knobs& knobs) {
-                if constexpr (requires { state->options.declare(knobs); })
-                    state->options.declare(knobs);
+            [=](OptionParser& parser) {
+                if constexpr (requires { state->options.declare(parser); })
+                    state->options.declare(parser);
             },
             [=](Scene model) -> const Scene& {
                 state->assets.emplace(make_assets(std::move(model), state->options));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The program around a lesson's picture in a page: what lesson_app.cpp is on the command line. Its
-// knobs become controls, the scene comes as bytes, and the picture goes to a canvas.
+// options become controls, the scene comes as bytes, and the picture goes to a canvas.
 //
 // The lesson's main() never returns: what it has made stays where it is, and the page calls the
 // functions that are exported here. One picture is drawn at a time.
@@ -59,7 +59,7 @@ class CommandLine {
     std::vector<Control> controls;
 };
 
-void Knobs::flag(const char* name, bool& value, const char* help) {
+void OptionParser::flag(const char* name, bool& value, const char* help) {
     command_line_.controls.push_back({.name = name,
                                       .help = help,
                                       .preset = value ? "true" : "false",
@@ -101,15 +101,16 @@ void add_number(CommandLine& line, const char* name, Number& value, Number least
 
 }  // namespace
 
-void Knobs::number(const char* name, float& value, float least, float most, const char* help) {
+void OptionParser::number(const char* name, float& value, float least, float most,
+                          const char* help) {
     add_number(command_line_, name, value, least, most, help);
 }
 
-void Knobs::number(const char* name, int& value, int least, int most, const char* help) {
+void OptionParser::number(const char* name, int& value, int least, int most, const char* help) {
     add_number(command_line_, name, value, least, most, help);
 }
 
-void Knobs::text(const char* name, std::string& value, const char*, const char* help) {
+void OptionParser::text(const char* name, std::string& value, const char*, const char* help) {
     command_line_.controls.push_back({.name = name,
                                       .help = help,
                                       .preset = value,
@@ -120,9 +121,9 @@ void Knobs::text(const char* name, std::string& value, const char*, const char* 
                                       }});
 }
 
-void Knobs::choice(const char* name, const char* preset,
-                   std::vector<std::pair<const char*, std::function<void()>>> words,
-                   const char* help) {
+void OptionParser::choice(const char* name, const char* preset,
+                          std::vector<std::pair<const char*, std::function<void()>>> words,
+                          const char* help) {
     std::vector<std::string> all;
     for (const auto& [word, call] : words) all.emplace_back(word);
     command_line_.controls.push_back({.name = name,
@@ -168,8 +169,8 @@ namespace {
 
 [[noreturn]] void show(const LessonProgram& program, bool is_lab) {
     page = new Page{program, is_lab};
-    Knobs knobs(page->line);
-    declare_picture_knobs(knobs, program);
+    OptionParser parser(page->line);
+    declare_picture_options(parser, program);
     leave();
 }
 
@@ -194,8 +195,8 @@ EXPORTED(room) char* room(std::size_t bytes) {
 /// The lesson's model and controls, as JSON; of a lab also which of them are its own.
 EXPORTED(controls) const char* controls() {
     CommandLine methods;
-    Knobs knobs(methods);
-    if (page->is_lab) page->program.declare_knobs(knobs);
+    OptionParser parser(methods);
+    if (page->is_lab) page->program.declare_options(parser);
     std::ostringstream json;
     json << "{\"model\": " << quoted(page->program.options.model.string())
          << ", \"hasProbe\": " << (page->program.make_probe ? "true" : "false")

@@ -404,7 +404,7 @@ def gallery() -> str:
 
 def sandbox() -> str:
     """The page of whatever a reader wants to try."""
-    return f"""All lessons' headers are at hand here: include what you need, and draw. A knob that the
+    return f"""All lessons' headers are at hand here: include what you need, and draw. An option that the
 program declares becomes a control below its picture; `run_lesson` hands over the scene that is
 chosen there. What you write stays in this browser.
 {place_to_draw("sandbox", True)}"""

@@ -18,8 +18,8 @@ enum class Paint { flat, barycentric };
 struct PaintOptions : LessonOptions {
     Paint paint = Paint::flat;
 
-    void declare(Knobs& knobs) {
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.choice(
             "--paint", paint, {{"flat", Paint::flat}, {"barycentric", Paint::barycentric}},
             "One colour for each triangle, or its three barycentrics as red, green and blue");
     }

@@ -26,9 +26,9 @@ struct PotOptions : LessonOptions {
     float turn_degrees = -40;
 
     PotOptions() { model = "scene.obj"; }
-    void declare(Knobs& knobs) {
-        knobs.number("--turn", turn_degrees, -36000, 36000,
-                     "The coffee pot's rotation, in degrees, counter-clockwise from above");
+    void declare(OptionParser& parser) {
+        parser.number("--turn", turn_degrees, -36000, 36000,
+                      "The coffee pot's rotation, in degrees, counter-clockwise from above");
     }
 };
 

@@ -78,7 +78,7 @@ struct TexturedSceneOptions : LessonOptions {
     TextureOptions texture;
 
     TexturedSceneOptions() { model = "scene.obj"; }
-    void declare(Knobs& knobs) { texture.declare(knobs); }
+    void declare(OptionParser& parser) { texture.declare(parser); }
 };
 
 /// What is made once, before the first frame.

@@ -18,20 +18,20 @@ struct TextureOptions {
     Decoding decoding = Decoding::srgb;
     bool keep_going = false;  ///< An image that cannot be read is replaced.
 
-    void declare(Knobs& knobs) {
-        knobs.choice("--filter", filter,
-                     {{"nearest", Filter::nearest},
-                      {"bilinear", Filter::bilinear},
-                      {"trilinear", Filter::trilinear}},
-                     "The nearest texel, the mean of four, or of four in each of two mip levels");
-        knobs.choice("--wrap", wrap,
-                     {{"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}, {"clamp", Wrap::clamp}},
-                     "What lies beyond a texture's border");
-        knobs.choice("--srgb", decoding,
-                     {{"decoded", Decoding::srgb}, {"ignored", Decoding::ignored}},
-                     "Whether a texture's sRGB-encoded values are decoded to linear");
-        knobs.flag("--keep-going", keep_going,
-                   "A texture that cannot be read is a warning, and a chessboard takes its place");
+    void declare(OptionParser& parser) {
+        parser.choice("--filter", filter,
+                      {{"nearest", Filter::nearest},
+                       {"bilinear", Filter::bilinear},
+                       {"trilinear", Filter::trilinear}},
+                      "The nearest texel, the mean of four, or of four in each of two mip levels");
+        parser.choice("--wrap", wrap,
+                      {{"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}, {"clamp", Wrap::clamp}},
+                      "What lies beyond a texture's border");
+        parser.choice("--srgb", decoding,
+                      {{"decoded", Decoding::srgb}, {"ignored", Decoding::ignored}},
+                      "Whether a texture's sRGB-encoded values are decoded to linear");
+        parser.flag("--keep-going", keep_going,
+                    "A texture that cannot be read is a warning, and a chessboard takes its place");
     }
 
     /// An image's colours, decoded as the options say.

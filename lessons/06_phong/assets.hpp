@@ -21,7 +21,7 @@ struct PhongOptions : LessonOptions {
     LightOptions shading;
 
     PhongOptions() { model = "scene.obj"; }
-    void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
+    void declare(OptionParser& parser) { declare_all(parser, texture, shading); }
 };
 
 /// What is made once, before the first picture.

@@ -17,15 +17,15 @@ struct LightOptions {
 
     Culling culling() const { return two_sided ? Culling::none : Culling::back_faces; }
 
-    void declare(Knobs& knobs) {
-        knobs.choice("--light", key_light,
-                     {{"directional", LightKind::directional},
-                      {"point", LightKind::point},
-                      {"spot", LightKind::spot}},
-                     "What the scene is lit by");
-        knobs.flag("--two-sided", two_sided, "Draw the backs of faces, too");
-        knobs.flag("--all-effects", all_effects,
-                   "Compute each effect also where it can change nothing");
+    void declare(OptionParser& parser) {
+        parser.choice("--light", key_light,
+                      {{"directional", LightKind::directional},
+                       {"point", LightKind::point},
+                       {"spot", LightKind::spot}},
+                      "What the scene is lit by");
+        parser.flag("--two-sided", two_sided, "Draw the backs of faces, too");
+        parser.flag("--all-effects", all_effects,
+                    "Compute each effect also where it can change nothing");
     }
 };
 

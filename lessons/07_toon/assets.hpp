@@ -21,7 +21,7 @@ struct ToonOptions : LessonOptions {
     ToonShading shading;
 
     ToonOptions() { model = "figure.obj", orbit.distance = 2.75f, orbit.pitch_degrees = 13; }
-    void declare(Knobs& knobs) { declare_all(knobs, texture, shading); }
+    void declare(OptionParser& parser) { declare_all(parser, texture, shading); }
 };
 
 /// What is made once, before the first picture.

@@ -25,21 +25,21 @@ struct ToonShading : LightOptions {
 
     ToonShading() { key_light = LightKind::directional; }
 
-    void declare(Knobs& knobs) {
-        knobs.number("--tones", tones, 1, max_tones,
-                     "Tones: the levels that light is quantised to");
-        knobs.choice("--outline", outline,
-                     {{"none", Outline::none},
-                      {"facing", Outline::facing},
-                      {"hull", Outline::hull},
-                      {"edges", Outline::edges}},
-                     "Outlines by the facing ratio, an inverted hull, or edge detection in depth "
-                     "and normals");
-        knobs.number(
+    void declare(OptionParser& parser) {
+        parser.number("--tones", tones, 1, max_tones,
+                      "Tones: the levels that light is quantised to");
+        parser.choice("--outline", outline,
+                      {{"none", Outline::none},
+                       {"facing", Outline::facing},
+                       {"hull", Outline::hull},
+                       {"edges", Outline::edges}},
+                      "Outlines by the facing ratio, an inverted hull, or edge detection in depth "
+                      "and normals");
+        parser.number(
             "--outline-width", outline_width_px, 0, 64,
             "Of hull and edges, in pixels; of edges, rounded up to an even number of samples");
-        knobs.number("--facing", min_facing, 0, 1, "The facing ratio below which there is ink");
-        LightOptions::declare(knobs);
+        parser.number("--facing", min_facing, 0, 1, "The facing ratio below which there is ink");
+        LightOptions::declare(parser);
     }
 };
 

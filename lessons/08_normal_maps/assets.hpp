@@ -23,7 +23,7 @@ struct NormalMapSceneOptions : LessonOptions {
     NormalMapOptions normal_map;
 
     NormalMapSceneOptions() { model = "scene_bumpy.obj"; }
-    void declare(Knobs& knobs) { declare_all(knobs, texture, shading, normal_map); }
+    void declare(OptionParser& parser) { declare_all(parser, texture, shading, normal_map); }
 };
 
 /// What is made once, before the first picture.

@@ -16,15 +16,15 @@ struct NormalMapOptions {
     MapSpace space = MapSpace::tangent;
     Green green = Green::up;
 
-    void declare(Knobs& knobs) {
-        knobs.choice("--normal-map", space,
-                     {{"tangent", MapSpace::tangent},
-                      {"object", MapSpace::object},
-                      {"none", MapSpace::none}},
-                     "Maps have normals in tangent space, or in the model's space; or are not "
-                     "read");
-        knobs.choice("--green", green, {{"up", Green::up}, {"down", Green::down}},
-                     "Green points up in a normal map, as in OpenGL, or down, as in Direct3D");
+    void declare(OptionParser& parser) {
+        parser.choice("--normal-map", space,
+                      {{"tangent", MapSpace::tangent},
+                       {"object", MapSpace::object},
+                       {"none", MapSpace::none}},
+                      "Maps have normals in tangent space, or in the model's space; or are not "
+                      "read");
+        parser.choice("--green", green, {{"up", Green::up}, {"down", Green::down}},
+                      "Green points up in a normal map, as in OpenGL, or down, as in Direct3D");
     }
 
     /// The normals of a `norm`, to be sampled.

@@ -25,7 +25,9 @@ struct ShadowSceneOptions : LessonOptions {
     ShadowOptions shadow;
 
     ShadowSceneOptions() { model = "scene_bumpy.obj"; }
-    void declare(Knobs& knobs) { declare_all(knobs, texture, shading, normal_map, shadow); }
+    void declare(OptionParser& parser) {
+        declare_all(parser, texture, shading, normal_map, shadow);
+    }
 };
 
 /// What is made once, before the first picture.

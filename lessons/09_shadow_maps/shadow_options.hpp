@@ -16,16 +16,16 @@ struct ShadowOptions {
 
     int radius() const { return pcf / 2; }
 
-    void declare(Knobs& knobs) {
-        knobs.number("--shadow-size", size, 16, 8192, "Texels along each side of a depth map");
-        knobs.choice("--bias", bias,
-                     {{"none", Bias::none},
-                      {"constant", Bias::constant},
-                      {"slope", Bias::slope},
-                      {"plane", Bias::plane},
-                      {"normal", Bias::normal}},
-                     "What keeps lit surfaces from shadowing themselves");
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.number("--shadow-size", size, 16, 8192, "Texels along each side of a depth map");
+        parser.choice("--bias", bias,
+                      {{"none", Bias::none},
+                       {"constant", Bias::constant},
+                       {"slope", Bias::slope},
+                       {"plane", Bias::plane},
+                       {"normal", Bias::normal}},
+                      "What keeps lit surfaces from shadowing themselves");
+        parser.choice(
             "--pcf", pcf, {{"1", 1}, {"3", 3}, {"5", 5}, {"7", 7}},
             "Taps along each side of a shadow test's square: a shadow's edge is their mean");
     }

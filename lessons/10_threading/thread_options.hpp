@@ -26,14 +26,14 @@ struct ThreadOptions {
     int tile = 32;  ///< Pixels along a tile's side.
     bool show = false;
 
-    void declare(Knobs& knobs) {
-        knobs.number("--threads", threads, 1, max_threads, "How many threads draw");
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.number("--threads", threads, 1, max_threads, "How many threads draw");
+        parser.choice(
             "--split", split,
             {{"rows", Split::rows}, {"interleaved", Split::interleaved}, {"tiles", Split::tiles}},
             "What each of them draws: rows, every so many-th row, or the next free tile");
-        knobs.number("--tile", tile, 8, 16384, "Pixels along a tile's side");
-        knobs.flag("--show-threads", show, "Tint each pixel by the thread that drew it");
+        parser.number("--tile", tile, 8, 16384, "Pixels along a tile's side");
+        parser.flag("--show-threads", show, "Tint each pixel by the thread that drew it");
     }
 
     /// Tiles grow where there would be more than 65,536: each has a list in each batch.
@@ -47,9 +47,9 @@ struct ThreadOptions {
 struct ThreadedSceneOptions : ShadowSceneOptions {
     ThreadOptions threads;
 
-    void declare(Knobs& knobs) {
-        ShadowSceneOptions::declare(knobs);
-        threads.declare(knobs);
+    void declare(OptionParser& parser) {
+        ShadowSceneOptions::declare(parser);
+        threads.declare(parser);
     }
 };
 

@@ -3,14 +3,14 @@
 
 namespace rasterbook {
 
-void SceneOptions::declare(Knobs& knobs) {
-    knobs.text("--camera", camera, "NAME|NUMBER|orbit|fit",
-               "One of the file's cameras, or our own [the first one, if no orbit is asked for]");
-    knobs.flag("--explain", explain,
-               "Say what is drawn, what is left out and why, and how long it takes");
+void SceneOptions::declare(OptionParser& parser) {
+    parser.text("--camera", camera, "NAME|NUMBER|orbit|fit",
+                "One of the file's cameras, or our own [the first one, if no orbit is asked for]");
+    parser.flag("--explain", explain,
+                "Say what is drawn, what is left out and why, and how long it takes");
 }
 
-void SceneRendererOptions::declare(Knobs& knobs) {
+void SceneRendererOptions::declare(OptionParser& parser) {
     const auto choose = [this](const Quality& quality) {
         texture.filter = quality.filter;
         shadow.size = quality.shadow_size;
@@ -18,13 +18,13 @@ void SceneRendererOptions::declare(Knobs& knobs) {
         if (samples_per_side == LessonOptions().samples_per_side)
             samples_per_side = quality.samples_per_side;
     };
-    // Before the knobs that it sets: what they say counts more.
-    knobs.choice("--quality", "balanced",
-                 {{"fast", [=] { choose(fast_quality); }},
-                  {"balanced", [=] { choose(balanced_quality); }},
-                  {"exact", [=] { choose(exact_quality); }}},
-                 "Sets --filter, --shadow-size, --pcf and --samples together");
-    declare_all(knobs, scene, texture, shading, normal_map, shadow, threads);
+    // Before the options that it sets: what they say counts more.
+    parser.choice("--quality", "balanced",
+                  {{"fast", [=] { choose(fast_quality); }},
+                   {"balanced", [=] { choose(balanced_quality); }},
+                   {"exact", [=] { choose(exact_quality); }}},
+                  "Sets --filter, --shadow-size, --pcf and --samples together");
+    declare_all(parser, scene, texture, shading, normal_map, shadow, threads);
 }
 
 }  // namespace rasterbook

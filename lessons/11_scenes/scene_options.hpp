@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a scene can be asked for: `--quality`, `--camera` and `--explain`, and the knobs of the
+/// What a scene can be asked for: `--quality`, `--camera` and `--explain`, and the options of the
 /// earlier lessons.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace rasterbook {
 
-/// The knobs that decide most of a picture's time and error, set by what docs/accuracy/costs.md
+/// The options that decide most of a picture's time and error, set by what docs/accuracy/costs.md
 /// measured.
 struct Quality {
     Filter filter;
@@ -31,7 +31,7 @@ struct SceneOptions {
     std::string camera;
     bool explain = false;
 
-    void declare(Knobs& knobs);
+    void declare(OptionParser& parser);
 };
 
 /// All that this lesson's program can be asked for.
@@ -47,7 +47,7 @@ struct SceneRendererOptions : LessonOptions {
 
     SceneRendererOptions() { model = "bumpy.glb"; }
 
-    void declare(Knobs& knobs);
+    void declare(OptionParser& parser);
 };
 
 }  // namespace rasterbook

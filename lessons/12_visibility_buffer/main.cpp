@@ -16,9 +16,9 @@ struct Options : SceneRendererOptions {
     VisibilityOptions visibility;
 
     Options() { threads.tile = 64; }  // a triangle is set up again in each tile
-    void declare(Knobs& knobs) {
-        SceneRendererOptions::declare(knobs);
-        visibility.declare(knobs);
+    void declare(OptionParser& parser) {
+        SceneRendererOptions::declare(parser);
+        visibility.declare(parser);
     }
 };
 
@@ -31,8 +31,8 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Wor
     const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset, camera.farthest_depth());
-    std::vector<TileVisibility> visible_of(pool.size(),
-                                           TileVisibility(options.visibility.most_ids()));
+    std::vector<VisibilityBuffer> visible_of(pool.size(),
+                                             VisibilityBuffer(options.visibility.most_ids()));
     HeatMap heat(options.visibility.show, options.size);
 
     clock.begin("triangles");
@@ -48,7 +48,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Wor
         const Tile tile = tiling[i];
         clear_tile(color, depth, tile);
         if (is_on_paper) draw_paper(color, tile);
-        TileVisibility& visible = visible_of[worker];
+        VisibilityBuffer& visible = visible_of[worker];
         visible.begin(tile);
         const auto shade = [&] {
             shade_visible(frame, shaders, visible, options.visibility.show, heat);

@@ -36,8 +36,8 @@ class HeatMap {
     void add(ivec2 pixel) {
         if (is_on_) ++times_[pixel];
     }
-    void add(const PixelRun& run) {
-        for (int x = 0; is_on_ && x < run.length; ++x) add(run.first + ivec2(x, 0));
+    void add(const PixelSpan& span) {
+        for (int x = 0; is_on_ && x < span.length; ++x) add(span.first + ivec2(x, 0));
     }
 
     /// From black, never, over violet, once, to white, eight times or more.

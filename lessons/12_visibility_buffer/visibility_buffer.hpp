@@ -26,7 +26,7 @@ using TriangleId = std::uint32_t;
 constexpr TriangleId no_triangle = std::numeric_limits<TriangleId>::max();
 
 /// Pixels that follow each other in a row.
-struct PixelRun {
+struct PixelSpan {
     ivec2 first;
     int length;
 };
@@ -46,15 +46,15 @@ class BarycentricPlanes {
         }
     }
 
-    /// Calls take(pixel, Barycentrics) for each pixel of a run: the same bits that fill_triangle()
+    /// Calls take(pixel, Barycentrics) for each pixel of a span: the same bits that fill_triangle()
     /// gives.
     template <typename Take>
-    void for_each_in(const PixelRun& run, Take&& take) const {
+    void for_each_in(const PixelSpan& span, Take&& take) const {
         std::array<std::int64_t, 3> share;  // of the area, times two
         for (std::size_t i = 0; i < 3; ++i)
-            share[i] = at_origin_[i] + run.first.x * step_x_[i] + run.first.y * step_y_[i];
-        for (int x = 0; x < run.length; ++x) {
-            take(run.first + ivec2(x, 0), Barycentrics(share[0], share[1], share[2]) * inv_area_);
+            share[i] = at_origin_[i] + span.first.x * step_x_[i] + span.first.y * step_y_[i];
+        for (int x = 0; x < span.length; ++x) {
+            take(span.first + ivec2(x, 0), Barycentrics(share[0], share[1], share[2]) * inv_area_);
             for (std::size_t i = 0; i < 3; ++i) share[i] += step_x_[i];
         }
     }
@@ -94,11 +94,11 @@ class TileLayout {
 
 /// The triangles of a tile in drawing order, and for each of its pixels the one that is nearest so
 /// far.
-class TileVisibility {
+class VisibilityBuffer {
   public:
     /// @param max_ids  So many triangles can be told apart: 1 to no_triangle.
     /// @param padding  So many ids behind each row may be written, and mean nothing.
-    explicit TileVisibility(std::size_t max_ids, int padding = 0)
+    explicit VisibilityBuffer(std::size_t max_ids, int padding = 0)
         : max_ids_(max_ids), padding_(padding) {
         assert(max_ids >= 1 && max_ids <= no_triangle);
     }
@@ -135,24 +135,24 @@ class TileVisibility {
     /// Visits each triangle that is visible in a pixel, in drawing order, with its pixels row by
     /// row (Eq. 12.3). Then the tile has no triangles any more.
     ///
-    /// @param visit  Called as visit(const ProjectedTriangle&, std::span<const PixelRun>).
+    /// @param visit  Called as visit(const ProjectedTriangle&, std::span<const PixelSpan>).
     template <typename Visit>
     void take_visible(Visit&& visit) {
-        // Count, so that each triangle's runs have their place; then put them there.
+        // Count, so that each triangle's spans have their place; then put them there.
         end_.assign(triangles_.size() + 1, 0);
         found_.clear();
-        for_each_run([&](const PixelRun& run, TriangleId id) {
-            found_.emplace_back(run, id);
+        for_each_span([&](const PixelSpan& span, TriangleId id) {
+            found_.emplace_back(span, id);
             ++end_[id + 1];
         });
         for (std::size_t id = 1; id < end_.size(); ++id) end_[id] += end_[id - 1];
-        runs_.resize(found_.size());
-        for (const auto& [run, id] : found_) runs_[end_[id]++] = run;
+        spans_.resize(found_.size());
+        for (const auto& [span, id] : found_) spans_[end_[id]++] = span;
         std::size_t begin = 0;
         for (std::size_t id = 0; id < triangles_.size(); begin = end_[id++])
             if (begin < end_[id])
                 visit(*triangles_[id],
-                      std::span<const PixelRun>(runs_).subspan(begin, end_[id] - begin));
+                      std::span<const PixelSpan>(spans_).subspan(begin, end_[id] - begin));
         clear();
     }
 
@@ -163,15 +163,15 @@ class TileVisibility {
     }
 
   private:
-    /// Calls take(run, id) for all pixels of the tile in which there is a triangle.
+    /// Calls take(span, id) for all pixels of the tile in which there is a triangle.
     template <typename Take>
-    void for_each_run(Take&& take) const {
+    void for_each_span(Take&& take) const {
         const auto [first, last] = tile_.box;
         for (int y = first.y; y <= last.y; y += tile_.row_step) {
             const TriangleId* const ids = &ids_[layout_[{first.x, y}]];
             for (int x = 0, end = 0; x < layout_.width(); x = end) {
                 while (end < layout_.width() && ids[end] == ids[x]) ++end;
-                if (ids[x] != no_triangle) take(PixelRun{{first.x + x, y}, end - x}, ids[x]);
+                if (ids[x] != no_triangle) take(PixelSpan{{first.x + x, y}, end - x}, ids[x]);
             }
         }
     }
@@ -182,9 +182,9 @@ class TileVisibility {
     TileLayout layout_{tile_};
     std::vector<TriangleId> ids_;
     std::vector<const ProjectedTriangle*> triangles_;
-    std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
-    std::vector<PixelRun> runs_;                          ///< Triangle by triangle.
-    std::vector<std::size_t> end_;                        ///< Of each triangle's runs in runs_.
+    std::vector<std::pair<PixelSpan, TriangleId>> found_;  ///< Row by row.
+    std::vector<PixelSpan> spans_;                         ///< Triangle by triangle.
+    std::vector<std::size_t> end_;                         ///< Of each triangle's spans in spans_.
 };
 
 }  // namespace rasterbook

@@ -26,19 +26,19 @@ struct VisibilityOptions {
 
     std::size_t most_ids() const { return static_cast<std::size_t>(max_ids); }
 
-    void declare(Knobs& knobs) {
-        knobs.choice("--show", show,
-                     {{"picture", Show::picture},
-                      {"ids", Show::ids},
-                      {"shading", Show::shading},
-                      {"shadow-map", Show::shadow_map}},
-                     "The picture, its triangles, how often each pixel was shaded, or the first "
-                     "shadow map");
-        knobs.number("--max-ids", max_ids, 1, std::numeric_limits<int>::max(),
-                     "Shade what is visible after so many triangles of a tile; with 1, all that "
-                     "lesson 11 shades");
-        knobs.number("--shadow-part", shadow_part, 32, 8192,
-                     "Texels along a side of what is drawn of a shadow map at once");
+    void declare(OptionParser& parser) {
+        parser.choice("--show", show,
+                      {{"picture", Show::picture},
+                       {"ids", Show::ids},
+                       {"shading", Show::shading},
+                       {"shadow-map", Show::shadow_map}},
+                      "The picture, its triangles, how often each pixel was shaded, or the first "
+                      "shadow map");
+        parser.number("--max-ids", max_ids, 1, std::numeric_limits<int>::max(),
+                      "Shade what is visible after so many triangles of a tile; with 1, all that "
+                      "lesson 11 shades");
+        parser.number("--shadow-part", shadow_part, 32, 8192,
+                      "Texels along a side of what is drawn of a shadow map at once");
     }
 };
 

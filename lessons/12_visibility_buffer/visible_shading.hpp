@@ -61,7 +61,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
 /// holes, the colour buffer keeps the sample of its texture until then.
 template <typename Maps>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
-             TileVisibility& visible) {
+             VisibilityBuffer& visible) {
     const TriangleId id = visible.add(projected);
     if (frame.assets.plan.materials[projected.triangle.material][Effect::mask])
         for_each_nearer_fragment(frame, projected, tile, [&](const FragmentToShade& of) {
@@ -82,12 +82,12 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
 /// frame.color has the samples of its texture.
 template <Permutation with, typename Maps>
 void shade_pixels(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                  std::span<const PixelRun> runs) {
+                  std::span<const PixelSpan> spans) {
     TriangleInputs triangle = triangle_inputs(with, frame, projected);
     const BarycentricPlanes planes(projected.on_screen);
     const bool is_sampled = triangle.surface.effects[Effect::mask];
-    for (const PixelRun& run : runs)
-        planes.for_each_in(run, [&](ivec2 pixel, Barycentrics on_screen) {
+    for (const PixelSpan& span : spans)
+        planes.for_each_in(span, [&](ivec2 pixel, Barycentrics on_screen) {
             count(Counter::fragments_shaded);
             const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
             vec3& color = frame.color[pixel];
@@ -115,7 +115,7 @@ class VisibleShaders {
   public:
     struct Shader {
         void (*shade_pixels)(const Frame<Maps>&, const ProjectedTriangle&,
-                             std::span<const PixelRun>);
+                             std::span<const PixelSpan>);
         void (*shade_fragments)(const Frame<Maps>&, const ProjectedTriangle&,
                                 std::span<FragmentToShade>);
     };
@@ -146,13 +146,13 @@ extern template class VisibleShaders<ShadowMapsOnDemand>;  // visible_shading.cp
 /// that saves. Then the tile has no triangles any more.
 template <typename Maps>
 void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps>& shaders,
-                   TileVisibility& visible, Show show, HeatMap& heat) {
-    visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelRun> runs) {
-        shaders[projected.triangle.material].shade_pixels(frame, projected, runs);
-        for (const PixelRun& run : runs) heat.add(run);
+                   VisibilityBuffer& visible, Show show, HeatMap& heat) {
+    visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelSpan> spans) {
+        shaders[projected.triangle.material].shade_pixels(frame, projected, spans);
+        for (const PixelSpan& span : spans) heat.add(span);
         if (show == Show::ids)
-            for (const PixelRun& run : runs)
-                std::fill_n(&frame.color[run.first], run.length, color_of_triangle(projected));
+            for (const PixelSpan& span : spans)
+                std::fill_n(&frame.color[span.first], span.length, color_of_triangle(projected));
     });
 }
 

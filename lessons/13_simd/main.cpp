@@ -19,10 +19,10 @@ struct Options : SceneRendererOptions {
     WidthOptions wide;
 
     Options() { threads.tile = 64; }  // a triangle is set up again in each tile
-    void declare(Knobs& knobs) {
-        SceneRendererOptions::declare(knobs);
-        visibility.declare(knobs);
-        wide.declare(knobs);
+    void declare(OptionParser& parser) {
+        SceneRendererOptions::declare(parser);
+        visibility.declare(parser);
+        wide.declare(parser);
     }
 };
 
@@ -37,8 +37,8 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Wor
                                          wide.project_triangles);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset, camera.farthest_depth());
-    std::vector<TileVisibility> visible_of(
-        pool.size(), TileVisibility(options.visibility.most_ids(), TileDepths::padding));
+    std::vector<VisibilityBuffer> visible_of(
+        pool.size(), VisibilityBuffer(options.visibility.most_ids(), TileDepths::padding));
     HeatMap heat(options.visibility.show, options.size);
 
     clock.begin("triangles");
@@ -53,7 +53,7 @@ static Image<vec3> render(const Options& options, const SceneAssets& assets, Wor
     pool.run(tiling.count(), [&](std::size_t i, std::size_t worker) {
         const Tile tile = tiling[i];
         TileDepths depths(tile, depth.farthest());
-        TileVisibility& visible = visible_of[worker];
+        VisibilityBuffer& visible = visible_of[worker];
         visible.begin(tile);
         const auto shade = [&] {
             wide.shade_visible(frame, visible, options.visibility.show, heat);

@@ -131,10 +131,10 @@ class PixelBatch {
     }
 
     /// Adds pixels; whenever the batch is full, it is shaded, and another begins.
-    void add(const PixelRun& run) {
-        for (int i = 0; i < run.length;) {
-            const ivec2 first = run.first + ivec2(i, 0);
-            const int added = std::min(run.length - i, N - count_);
+    void add(const PixelSpan& span) {
+        for (int i = 0; i < span.length;) {
+            const ivec2 first = span.first + ivec2(i, 0);
+            const int added = std::min(span.length - i, N - count_);
             fill_up(Ints<N>(first.x - count_) + lane_numbers<N>(), Ints<N>(first.y));
             count_ += added, i += added;
             if (added == N)

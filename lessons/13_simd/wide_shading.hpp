@@ -69,7 +69,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
 /// Draws a triangle's depths and its id into a tile (Eq. 12.1).
 template <typename F, typename Maps>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
-             TileDepths& depths, TileVisibility& visible) {
+             TileDepths& depths, VisibilityBuffer& visible) {
     const TriangleId id = visible.add(projected);
     const auto write = [&](ivec2 pixel, MaskOf<F> covered, F depth) {
         const MaskOf<F> nearer = depths.test_and_write<F>(pixel, covered, depth);
@@ -99,7 +99,7 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
 /// A triangle of a tile, and the pixels in which it is visible.
 struct VisibleTriangle {
     const ProjectedTriangle* triangle;
-    std::span<const PixelRun> runs;
+    std::span<const PixelSpan> spans;
 };
 
 /// Draws the colours of pixels, of triangles of one mesh and one material.
@@ -107,12 +107,12 @@ template <Permutation with, typename F>
 void shade_pixels(const Frame<ShadowMapsOnDemand>& frame,
                   std::span<const VisibleTriangle> visible) {
     if constexpr (width_of<F> == 1) {
-        for (const auto& [triangle, runs] : visible) shade_pixels<with>(frame, *triangle, runs);
+        for (const auto& [triangle, spans] : visible) shade_pixels<with>(frame, *triangle, spans);
     } else {
         PixelBatch<with, F> batch(frame, *visible.front().triangle);
-        for (const auto& [triangle, runs] : visible) {
+        for (const auto& [triangle, spans] : visible) {
             if (triangle != visible.front().triangle) batch.begin(*triangle);
-            for (const PixelRun& run : runs) batch.add(run);
+            for (const PixelSpan& span : spans) batch.add(span);
         }
         batch.finish();
     }
@@ -216,7 +216,7 @@ struct FlatTriangles {
 ///
 /// @return  Whether they have.
 template <typename F>
-bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible) {
+bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, VisibilityBuffer& visible) {
     std::vector<FlatTriangles> flat;
     std::vector<std::size_t> flat_of;  // by id
     for (const ProjectedTriangle* before = nullptr;
@@ -258,23 +258,23 @@ bool fill_flat(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible) 
 
 /// Draws the colours of all pixels in which a triangle is visible, each once.
 template <typename F>
-void shade_visible(const Frame<ShadowMapsOnDemand>& frame, TileVisibility& visible, Show show,
+void shade_visible(const Frame<ShadowMapsOnDemand>& frame, VisibilityBuffer& visible, Show show,
                    HeatMap& heat) {
     if constexpr (width_of<F> > 1)
         if (show == Show::picture && fill_flat<F>(frame, visible)) return visible.clear();
     std::vector<VisibleTriangle> triangles;
-    visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelRun> runs) {
-        triangles.push_back({&triangle, runs});
+    visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelSpan> spans) {
+        triangles.push_back({&triangle, spans});
     });
     for (auto begin = triangles.begin(), end = begin; begin != triangles.end(); begin = end) {
         while (end != triangles.end() && are_alike(*begin->triangle, *end->triangle)) ++end;
         shader_of<F>(frame, *begin->triangle).shade_pixels(frame, {begin, end});
     }
-    for (const auto& [triangle, runs] : triangles)
-        for (const PixelRun& run : runs) {
-            heat.add(run);
+    for (const auto& [triangle, spans] : triangles)
+        for (const PixelSpan& span : spans) {
+            heat.add(span);
             if (show == Show::ids)
-                std::fill_n(&frame.color[run.first], run.length, color_of_triangle(*triangle));
+                std::fill_n(&frame.color[span.first], span.length, color_of_triangle(*triangle));
         }
 }
 

@@ -18,8 +18,8 @@ struct WideDrawing {
 
     ProjectTriangles* project_triangles;
     void (*draw_id)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
-                    TileVisibility&);
-    void (*shade_visible)(const Frame<Maps>&, TileVisibility&, Show, HeatMap&);
+                    VisibilityBuffer&);
+    void (*shade_visible)(const Frame<Maps>&, VisibilityBuffer&, Show, HeatMap&);
     void (*draw_transparent)(const Frame<Maps>&, const ProjectedTriangle&, const Tile&, TileDepths&,
                              TransparentFragments&, HeatMap&);
 };
@@ -50,10 +50,10 @@ inline WideDrawing drawing_of_width(int width) {
 struct WidthOptions {
     int width = native_width;
 
-    void declare(Knobs& knobs) {
+    void declare(OptionParser& parser) {
         if constexpr (has_each_width)
-            knobs.choice("--width", width, {{"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}},
-                         "Pixels that are drawn at a time");
+            parser.choice("--width", width, {{"1", 1}, {"4", 4}, {"8", 8}, {"16", 16}},
+                          "Pixels that are drawn at a time");
     }
 };
 

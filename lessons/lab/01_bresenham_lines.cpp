@@ -11,8 +11,8 @@ using namespace rasterbook;
 struct Options : LessonOptions {
     LineMethod line = LineMethod::bresenham;
 
-    void declare(Knobs& knobs) {
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.choice(
             "--line", line,
             {{"bresenham", LineMethod::bresenham},
              {"dda-float", LineMethod::dda_float},

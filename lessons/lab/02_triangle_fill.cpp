@@ -14,9 +14,9 @@ using namespace rasterbook;
 struct Options : PaintOptions {
     FillMethod fill;
 
-    void declare(Knobs& knobs) {
-        fill.declare(knobs);
-        PaintOptions::declare(knobs);
+    void declare(OptionParser& parser) {
+        fill.declare(parser);
+        PaintOptions::declare(parser);
     }
 };
 

@@ -16,9 +16,9 @@ struct Options : PaintOptions {
     bool show_depth = false;
     DepthMethod depth;
 
-    void declare(Knobs& knobs) {
-        depth.declare(knobs);
-        PaintOptions::declare(knobs);
+    void declare(OptionParser& parser) {
+        depth.declare(parser);
+        PaintOptions::declare(parser);
     }
 };
 

@@ -17,9 +17,9 @@ using namespace rasterbook;
 struct Options : PotOptions {
     MvpMethod mvp;
 
-    void declare(Knobs& knobs) {
-        mvp.declare(knobs);
-        PotOptions::declare(knobs);
+    void declare(OptionParser& parser) {
+        mvp.declare(parser);
+        PotOptions::declare(parser);
     }
 };
 

@@ -18,9 +18,9 @@ using namespace rasterbook;
 struct Options : TexturedSceneOptions {
     TextureMethod method;
 
-    void declare(Knobs& knobs) {
-        method.declare(knobs);
-        texture.declare(knobs);
+    void declare(OptionParser& parser) {
+        method.declare(parser);
+        texture.declare(parser);
     }
 };
 

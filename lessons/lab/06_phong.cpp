@@ -18,7 +18,7 @@ using namespace rasterbook;
 struct Options : PhongOptions {
     ShadingMethod method;
 
-    void declare(Knobs& knobs) { declare_all(knobs, method, texture, shading); }
+    void declare(OptionParser& parser) { declare_all(parser, method, texture, shading); }
 };
 
 static Image<vec3> render(const Options& options, const PhongAssets& assets) {

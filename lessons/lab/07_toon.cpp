@@ -18,10 +18,10 @@ using namespace rasterbook;
 struct Options : ToonOptions {
     bool smooth = false;  ///< Borders of tones are one pixel wide, not hard.
 
-    void declare(Knobs& knobs) {
-        knobs.choice("--smooth", smooth, {{"no", false}, {"yes", true}},
-                     "Smooth the borders of tones over one pixel: light is computed three times");
-        ToonOptions::declare(knobs);
+    void declare(OptionParser& parser) {
+        parser.choice("--smooth", smooth, {{"no", false}, {"yes", true}},
+                      "Smooth the borders of tones over one pixel: light is computed three times");
+        ToonOptions::declare(parser);
     }
 };
 

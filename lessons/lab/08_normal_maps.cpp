@@ -19,7 +19,9 @@ using namespace rasterbook;
 struct Options : NormalMapSceneOptions {
     NormalMapMethod method;
 
-    void declare(Knobs& knobs) { declare_all(knobs, method, texture, shading, normal_map); }
+    void declare(OptionParser& parser) {
+        declare_all(parser, method, texture, shading, normal_map);
+    }
 };
 
 static NormalMapAssets load(Scene scene, const Options& options) {

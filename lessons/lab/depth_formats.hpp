@@ -26,8 +26,8 @@ struct DepthMethod {
     DepthFormat format = DepthFormat::float32;
     float range = 1.0f;  ///< >= 1: the model fills the farthest 1/range of the depths.
 
-    void declare(Knobs& knobs) {
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.choice(
             "--format", format,
             {{"float", DepthFormat::float32},
              {"from-near", DepthFormat::from_near},
@@ -38,10 +38,11 @@ struct DepthMethod {
             "other "
             "way round; ndc is float by way of a depth from -1 to 1; unorm16 and unorm24 are whole "
             "numbers of so many bits");
-        knobs.choice("--range", range,
-                     {{"1", 1.0f}, {"100", 100.0f}, {"10000", 10'000.0f}, {"1000000", 1e6f}},
-                     "Squeeze the model into the farthest part of the depths, one N-th of them, as "
-                     "a near plane much too near does");
+        parser.choice(
+            "--range", range,
+            {{"1", 1.0f}, {"100", 100.0f}, {"10000", 10'000.0f}, {"1000000", 1e6f}},
+            "Squeeze the model into the farthest part of the depths, one N-th of them, as "
+            "a near plane much too near does");
     }
 
     /// What the buffer stores of a depth, as a float in the same order: greater is nearer.

@@ -22,8 +22,8 @@ struct FillMethod {
     EdgeNumber edges = EdgeNumber::int64;
     int subpixel_bits = rasterbook::subpixel_bits;  ///< 0 to 16, for whole numbers.
 
-    void declare(Knobs& knobs) {
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.choice(
             "--edges", edges,
             {{"int64", EdgeNumber::int64},
              {"int32", EdgeNumber::int32},
@@ -32,7 +32,7 @@ struct FillMethod {
             "What edge functions are computed in: int64 never overflows; int32 does, where "
             "triangles are larger than 128 pixels; float and double leave vertices where "
             "they are, and round");
-        knobs.choice(
+        parser.choice(
             "--subpixel-bits", subpixel_bits,
             {{"0", 0}, {"2", 2}, {"4", 4}, {"8", 8}, {"12", 12}, {"16", 16}},
             "Vertices are snapped to 1/2^N of a pixel. Only the lesson's own fill, int64 with "

@@ -44,26 +44,27 @@ struct MvpMethod {
     /// Whether nothing is clipped, and each pixel is asked.
     bool asks_pixels() const { return clipping == Clipping::pixels || view == View::orthographic; }
 
-    void declare(Knobs& knobs) {
-        knobs.choice("--precision", precision,
-                     {{"float", Precision::float32},
-                      {"relative", Precision::relative},
-                      {"double", Precision::float64}},
-                     "What positions in the world are computed in; relative subtracts the camera's "
-                     "position in double and goes on in float");
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.choice(
+            "--precision", precision,
+            {{"float", Precision::float32},
+             {"relative", Precision::relative},
+             {"double", Precision::float64}},
+            "What positions in the world are computed in; relative subtracts the camera's "
+            "position in double and goes on in float");
+        parser.choice(
             "--offset", offset,
             {{"0", 0.0}, {"1000", 1e3}, {"100000", 1e5}, {"1000000", 1e6}, {"10000000", 1e7}},
             "Move scene and camera together so far along each axis");
-        knobs.choice("--clip", clipping,
-                     {{"six", Clipping::six_planes},
-                      {"near", Clipping::near_plane},
-                      {"pixel", Clipping::pixels}},
-                     "Clip triangles at all planes, at the near one, or ask each pixel instead");
-        knobs.choice("--view", view,
-                     {{"camera", View::camera}, {"orthographic", View::orthographic}},
-                     "By the camera, or by the orthographic projection of lesson 03, which stands "
-                     "still and has no use for other knobs of the camera");
+        parser.choice("--clip", clipping,
+                      {{"six", Clipping::six_planes},
+                       {"near", Clipping::near_plane},
+                       {"pixel", Clipping::pixels}},
+                      "Clip triangles at all planes, at the near one, or ask each pixel instead");
+        parser.choice("--view", view,
+                      {{"camera", View::camera}, {"orthographic", View::orthographic}},
+                      "By the camera, or by the orthographic projection of lesson 03, which stands "
+                      "still and has no use for other options of the camera");
     }
 };
 

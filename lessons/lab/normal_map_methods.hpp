@@ -88,25 +88,25 @@ struct NormalMapMethod {
     Channels channels = Channels::xyz;
     int bits = bits_of_file;
 
-    void declare(Knobs& knobs) {
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.choice(
             "--frame", frame,
             {{"face", FrameOf::face}, {"vertex", FrameOf::vertex}, {"pixel", FrameOf::pixel}},
             "Tangents are computed for a face, for its vertices, or for each pixel");
-        knobs.choice("--orthonormal", orthonormal,
-                     {{"pixels", Orthonormal::at_pixels}, {"vertices", Orthonormal::at_vertices}},
-                     "Frames are made orthonormal at each pixel, or only at the vertices");
-        knobs.choice("--handedness", handedness,
-                     {{"uvs", Handedness::of_uvs}, {"ignored", Handedness::ignored}},
-                     "Bitangents point to where v grows, or as if no texture were mirrored");
-        knobs.choice("--normal-format", format,
-                     {{"unorm", NormalFormat::unorm}, {"snorm", NormalFormat::snorm}},
-                     "Values 0 to 255 stand for -1 to 1, or 128 is 0 and 255 is 1");
-        knobs.choice("--channels", channels, {{"xyz", Channels::xyz}, {"xy", Channels::xy}},
-                     "A map stores x, y and z, or z is computed from the other two");
-        knobs.choice("--bits", bits,
-                     {{"4", 4}, {"5", 5}, {"6", 6}, {"8", 8}, {"file", bits_of_file}},
-                     "Normals are stored with so many bits a component");
+        parser.choice("--orthonormal", orthonormal,
+                      {{"pixels", Orthonormal::at_pixels}, {"vertices", Orthonormal::at_vertices}},
+                      "Frames are made orthonormal at each pixel, or only at the vertices");
+        parser.choice("--handedness", handedness,
+                      {{"uvs", Handedness::of_uvs}, {"ignored", Handedness::ignored}},
+                      "Bitangents point to where v grows, or as if no texture were mirrored");
+        parser.choice("--normal-format", format,
+                      {{"unorm", NormalFormat::unorm}, {"snorm", NormalFormat::snorm}},
+                      "Values 0 to 255 stand for -1 to 1, or 128 is 0 and 255 is 1");
+        parser.choice("--channels", channels, {{"xyz", Channels::xyz}, {"xy", Channels::xy}},
+                      "A map stores x, y and z, or z is computed from the other two");
+        parser.choice("--bits", bits,
+                      {{"4", 4}, {"5", 5}, {"6", 6}, {"8", 8}, {"file", bits_of_file}},
+                      "Normals are stored with so many bits a component");
     }
 
     bool operator==(const NormalMapMethod&) const = default;

@@ -38,25 +38,25 @@ struct ShadingMethod {
     Power power = Power::polynomial;
     NormalScaling normals = NormalScaling::exact;
 
-    void declare(Knobs& knobs) {
-        knobs.choice(
+    void declare(OptionParser& parser) {
+        parser.choice(
             "--shading", shading,
             {{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}},
             "Lighting per face, per vertex, or per pixel");
-        knobs.choice("--highlight", highlight,
-                     {{"phong", Highlight::phong}, {"blinn", Highlight::blinn}},
-                     "Highlights by the mirrored direction, or by the halfway vector");
-        knobs.choice("--power", power,
-                     {{"polynomial", Power::polynomial},
-                      {"double", Power::in_double},
-                      {"squarings", Power::squarings},
-                      {"schlick", Power::schlick}},
-                     "How the power of a highlight is computed");
-        knobs.choice("--normals", normals,
-                     {{"exact", NormalScaling::exact},
-                      {"approximate", NormalScaling::approximate},
-                      {"none", NormalScaling::none}},
-                     "How an interpolated normal is scaled to length 1");
+        parser.choice("--highlight", highlight,
+                      {{"phong", Highlight::phong}, {"blinn", Highlight::blinn}},
+                      "Highlights by the mirrored direction, or by the halfway vector");
+        parser.choice("--power", power,
+                      {{"polynomial", Power::polynomial},
+                       {"double", Power::in_double},
+                       {"squarings", Power::squarings},
+                       {"schlick", Power::schlick}},
+                      "How the power of a highlight is computed");
+        parser.choice("--normals", normals,
+                      {{"exact", NormalScaling::exact},
+                       {"approximate", NormalScaling::approximate},
+                       {"none", NormalScaling::none}},
+                      "How an interpolated normal is scaled to length 1");
     }
 
     bool operator==(const ShadingMethod&) const = default;

@@ -23,17 +23,17 @@ constexpr int affine = 0;  ///< For TextureMethod::mapping: no division at all.
 struct TextureMethod {
     int mapping = 1;  ///< Every so many pixels of a row, or `affine`.
 
-    void declare(Knobs& knobs) {
-        knobs.choice("--mapping", mapping,
-                     {{"affine", affine},
-                      {"64", 64},
-                      {"32", 32},
-                      {"16", 16},
-                      {"8", 8},
-                      {"4", 4},
-                      {"perspective", 1}},
-                     "Where perspective is divided out of texture coordinates: nowhere, every so "
-                     "many pixels of a row, or in each");
+    void declare(OptionParser& parser) {
+        parser.choice("--mapping", mapping,
+                      {{"affine", affine},
+                       {"64", 64},
+                       {"32", 32},
+                       {"16", 16},
+                       {"8", 8},
+                       {"4", 4},
+                       {"perspective", 1}},
+                      "Where perspective is divided out of texture coordinates: nowhere, every so "
+                      "many pixels of a row, or in each");
     }
 };
 

@@ -22,7 +22,7 @@ namespace rasterbook::test {
 /// What of a triangle is visible in a tile.
 struct VisiblePart {
     ScreenTriangle triangle;
-    std::vector<PixelRun> runs;
+    std::vector<PixelSpan> spans;
 };
 
 /// How lesson_12_by_planes finds barycentric coordinates; `collected` takes what is visible.
@@ -33,11 +33,11 @@ inline std::vector<VisiblePart>* collected = nullptr;
 /// shade_pixels() with other planes.
 template <typename Planes, Permutation with, typename Maps>
 void shade_pixels_by(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                     std::span<const PixelRun> runs) {
+                     std::span<const PixelSpan> spans) {
     TriangleInputs triangle = triangle_inputs(with, frame, projected);
     const Planes planes(projected.on_screen);
-    for (const PixelRun& run : runs)
-        planes.for_each_in(run, [&](ivec2 pixel, Barycentrics on_screen) {
+    for (const PixelSpan& span : spans)
+        planes.for_each_in(span, [&](ivec2 pixel, Barycentrics on_screen) {
             const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
             const vec3 in_texture(texture_sample(triangle.surface, at, frame.filter));
             frame.color[pixel] = shaded<with>(frame, triangle, at, in_texture);
@@ -47,8 +47,8 @@ void shade_pixels_by(const Frame<Maps>& frame, const ProjectedTriangle& projecte
 template <typename Planes, typename Maps, std::size_t... i>
 void shade_permutation_by(std::index_sequence<i...>, std::size_t permutation,
                           const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                          std::span<const PixelRun> runs) {
-    ((permutation == i ? shade_pixels_by<Planes, all_permutations[i]>(frame, projected, runs)
+                          std::span<const PixelSpan> spans) {
+    ((permutation == i ? shade_pixels_by<Planes, all_permutations[i]>(frame, projected, spans)
                        : void()),
      ...);
 }
@@ -56,15 +56,15 @@ void shade_permutation_by(std::index_sequence<i...>, std::size_t permutation,
 /// Takes the place of shade_visible().
 template <typename Maps>
 void shade_visible_by_planes(const Frame<Maps>& frame, const VisibleShaders<Maps>&,
-                             TileVisibility& visible, Show, HeatMap&) {
-    visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelRun> runs) {
+                             VisibilityBuffer& visible, Show, HeatMap&) {
+    visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelSpan> spans) {
         if (collected != nullptr)
-            collected->push_back({projected.on_screen, {runs.begin(), runs.end()}});
+            collected->push_back({projected.on_screen, {spans.begin(), spans.end()}});
         const auto shade = [&]<typename Planes>() {
             shade_permutation_by<Planes>(
                 std::make_index_sequence<all_permutations.size()>(),
                 permutation_of(frame.assets.plan.materials[projected.triangle.material]), frame,
-                projected, runs);
+                projected, spans);
         };
         switch (plane_numbers) {
             case PlaneNumbers::float64:
@@ -126,12 +126,12 @@ class PlaneErrors {
 template <typename Planes>
 Errors errors_of(const std::vector<VisiblePart>& parts) {
     PlaneErrors errors;
-    for (const auto& [triangle, runs] : parts) {
+    for (const auto& [triangle, spans] : parts) {
         const auto [a, b, c] = triangle.vertices;
         const auto area = static_cast<long double>(exact_twice_area(a, b, c));
         const Planes planes(triangle);
-        for (const PixelRun& run : runs)
-            planes.for_each_in(run, [&](ivec2 pixel, Barycentrics found) {
+        for (const PixelSpan& span : spans)
+            planes.for_each_in(span, [&](ivec2 pixel, Barycentrics found) {
                 const ivec2 p = exact_center(pixel);
                 const std::array edges = {std::pair{b, c}, std::pair{c, a}, std::pair{a, b}};
                 for (int i = 0; i < 3; ++i) {
@@ -155,13 +155,13 @@ void add_planes(const std::string& variant, const std::vector<VisiblePart>& part
             differing_percent_of_files(draw(*assets), frame(lesson_11::Options(), *assets));
     double pixels = 0;
     for (const VisiblePart& part : parts)
-        for (const PixelRun& run : part.runs) pixels += run.length;
+        for (const PixelSpan& span : part.spans) pixels += span.length;
     add_variant("planes", variant, pixels, errors, [&parts] {
         vec3 sum(0);
-        for (const auto& [triangle, runs] : parts) {
+        for (const auto& [triangle, spans] : parts) {
             const Planes planes(triangle);
-            for (const PixelRun& run : runs)
-                planes.for_each_in(run, [&](ivec2, Barycentrics found) { sum += found; });
+            for (const PixelSpan& span : spans)
+                planes.for_each_in(span, [&](ivec2, Barycentrics found) { sum += found; });
         }
         kept = sum.x + sum.y + sum.z;
     });

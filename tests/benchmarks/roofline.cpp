@@ -151,7 +151,7 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
                                          wide.project_triangles);
     Image<vec3> color(options.size, unset);
     DepthBuffer depth(options.size, unset);
-    TileVisibility visible(options.visibility.most_ids(), TileDepths::padding);
+    VisibilityBuffer visible(options.visibility.most_ids(), TileDepths::padding);
     HeatMap heat(options.visibility.show, options.size);
 
     const double start_of_outlines = cpu_ms();

@@ -71,7 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                            &options.orbit,
                            &options.show_depth,
                            &options.threads.threads,
-                           [&](Knobs& knobs) { options.declare(knobs); },
+                           [&](OptionParser& parser) { options.declare(parser); },
                            {},
                            {}},
                           static_cast<int>(arguments.size()), arguments.data());

@@ -38,14 +38,14 @@ class RoundedPlanes {
     }
 
     template <typename Take>
-    void for_each_in(const PixelRun& run, Take&& take) const {
-        const ivec2 from_first = run.first - first_;
+    void for_each_in(const PixelSpan& span, Take&& take) const {
+        const ivec2 from_first = span.first - first_;
         std::array<F, 3> row;
         for (std::size_t i = 0; i < 3; ++i)
             row[i] = at_first_[i] + static_cast<F>(from_first.y) * step_y_[i];
-        for (int x = 0; x < run.length; ++x) {
+        for (int x = 0; x < span.length; ++x) {
             const auto column = static_cast<F>(from_first.x + x);
-            take(run.first + ivec2(x, 0),
+            take(span.first + ivec2(x, 0),
                  Barycentrics(static_cast<float>(row[0] + column * step_x_[0]),
                               static_cast<float>(row[1] + column * step_x_[1]),
                               static_cast<float>(row[2] + column * step_x_[2])));

@@ -124,14 +124,14 @@ inline testing::AssertionResult counts_are_equal(const Drawn& actual, const Draw
 
 /// A change of options.
 template <typename Options>
-struct Knob {
+struct OptionCase {
     const char* name;
     void (*turn)(Options&);
     bool changes_assets = false;
 };
 
 template <typename Options>
-constexpr auto knobs = std::to_array<Knob<Options>>({
+constexpr auto option_cases = std::to_array<OptionCase<Options>>({
     {"no option", [](auto&) {}},
     {"--max-ids 1", [](auto& o) { o.visibility.max_ids = 1; }},
     {"--max-ids 2", [](auto& o) { o.visibility.max_ids = 2; }},
@@ -165,17 +165,17 @@ constexpr auto knobs = std::to_array<Knob<Options>>({
      [](auto& o) { o.scene.camera = "orbit", o.orbit.pitch_degrees = -60; }},
 });
 
-/// Calls compare(options, assets, where) for a small picture of a model with each of the knobs.
+/// Calls compare(options, assets, where) for a small picture of a model with each of the options.
 template <typename Options, typename Compare>
-void for_each_knob(const std::string& model, Compare&& compare) {
+void for_each_option(const std::string& model, Compare&& compare) {
     const Scene scene = loaded(model);
     const SceneAssets usual_assets = make_scene_assets(scene, small_picture<Options>());
-    for (const Knob<Options>& knob : knobs<Options>) {
+    for (const OptionCase<Options>& one : option_cases<Options>) {
         auto options = small_picture<Options>();
-        knob.turn(options);
+        one.turn(options);
         std::optional<SceneAssets> own_assets;
-        if (knob.changes_assets) own_assets.emplace(make_scene_assets(scene, options));
-        compare(options, own_assets ? *own_assets : usual_assets, model + " with " + knob.name);
+        if (one.changes_assets) own_assets.emplace(make_scene_assets(scene, options));
+        compare(options, own_assets ? *own_assets : usual_assets, model + " with " + one.name);
         if (testing::Test::HasFatalFailure()) return;
     }
 }

@@ -14,7 +14,7 @@ const mostSeconds = { draw: 60, test: 30 };  // for a picture of a test, or a te
 const mostCompileSeconds = 300;
 
 const objectOf = (source) => `${source.replaceAll("/", "_")}.o`;
-const shared = ["docs/live/live_app.cpp", "common/app/empty_picture.cpp", "common/app/knobs.cpp", "common/probe/pixel_report.cpp"].map(objectOf);
+const shared = ["docs/live/live_app.cpp", "common/app/empty_picture.cpp", "common/app/option_parser.cpp", "common/probe/pixel_report.cpp"].map(objectOf);
 
 /** Where one compiles, links, draws or runs what the reader wrote; it can be ended at any time. */
 class Helper {

@@ -1,5 +1,5 @@
 // A small program to begin with: surfaces in the colours of their normals, with the triangles'
-// edges. Every lesson's headers are at hand; a knob becomes a control below the picture.
+// edges. Every lesson's headers are at hand; an option becomes a control below the picture.
 #include <algorithm>
 
 #include "02_triangle_fill/flat_color.hpp"
@@ -17,9 +17,9 @@ struct Options : LessonOptions {
     float edge = 0.03f;
 
     Options() { model = "figure.obj"; }
-    void declare(Knobs& knobs) {
-        knobs.number("--edge", edge, 0, 0.3f,
-                     "The edges' width, as a share of a triangle's heights");
+    void declare(OptionParser& parser) {
+        parser.number("--edge", edge, 0, 0.3f,
+                      "The edges' width, as a share of a triangle's heights");
     }
 };
 

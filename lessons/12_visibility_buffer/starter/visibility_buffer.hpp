@@ -26,7 +26,7 @@ using TriangleId = std::uint32_t;
 constexpr TriangleId no_triangle = std::numeric_limits<TriangleId>::max();
 
 /// Pixels that follow each other in a row.
-struct PixelRun {
+struct PixelSpan {
     ivec2 first;
     int length;
 };
@@ -43,12 +43,12 @@ class BarycentricPlanes {
         // winding of 1 or -1, the sign of twice_area, makes the inside positive.
     }
 
-    /// Calls take(pixel, Barycentrics) for each pixel of a run: the same bits that fill_triangle()
+    /// Calls take(pixel, Barycentrics) for each pixel of a span: the same bits that fill_triangle()
     /// gives.
     template <typename Take>
-    void for_each_in(const PixelRun& run, Take&& take) const {
-        // TODO: step 2: Eq. 12.2 in the run's first pixel, in whole numbers; from each pixel to the
-        // next, add the steps to the right. For each pixel, make three floats of the sums, as
+    void for_each_in(const PixelSpan& span, Take&& take) const {
+        // TODO: step 2: Eq. 12.2 in the span's first pixel, in whole numbers; from each pixel to
+        // the next, add the steps to the right. For each pixel, make three floats of the sums, as
         // Barycentrics, and multiply them by inv_area_: fill_triangle() does so, too, and a
         // division would round differently.
     }
@@ -88,11 +88,11 @@ class TileLayout {
 
 /// The triangles of a tile in drawing order, and for each of its pixels the one that is nearest so
 /// far.
-class TileVisibility {
+class VisibilityBuffer {
   public:
     /// @param max_ids  So many triangles can be told apart: 1 to no_triangle.
     /// @param padding  So many ids behind each row may be written, and mean nothing.
-    explicit TileVisibility(std::size_t max_ids, int padding = 0)
+    explicit VisibilityBuffer(std::size_t max_ids, int padding = 0)
         : max_ids_(max_ids), padding_(padding) {
         assert(max_ids >= 1 && max_ids <= no_triangle);
     }
@@ -131,12 +131,12 @@ class TileVisibility {
     /// Visits each triangle that is visible in a pixel, in drawing order, with its pixels row by
     /// row (Eq. 12.3). Then the tile has no triangles any more.
     ///
-    /// @param visit  Called as visit(const ProjectedTriangle&, std::span<const PixelRun>).
+    /// @param visit  Called as visit(const ProjectedTriangle&, std::span<const PixelSpan>).
     template <typename Visit>
     void take_visible(Visit&& visit) {
-        // TODO: step 1: for_each_run() finds the tile's runs row by row. Keep them in found_, and
-        // count those of each id. Add the counts up: they say where an id's runs begin in runs_
-        // (Eq. 12.3). Put each run there, and visit the triangles that have runs, in the order of
+        // TODO: step 1: for_each_span() finds the tile's spans row by row. Keep them in found_, and
+        // count those of each id. Add the counts up: they say where an id's spans begin in spans_
+        // (Eq. 12.3). Put each span there, and visit the triangles that have spans, in the order of
         // their ids.
         clear();
     }
@@ -148,15 +148,15 @@ class TileVisibility {
     }
 
   private:
-    /// Calls take(run, id) for all pixels of the tile in which there is a triangle.
+    /// Calls take(span, id) for all pixels of the tile in which there is a triangle.
     template <typename Take>
-    void for_each_run(Take&& take) const {
+    void for_each_span(Take&& take) const {
         const auto [first, last] = tile_.box;
         for (int y = first.y; y <= last.y; y += tile_.row_step) {
             const TriangleId* const ids = &ids_[layout_[{first.x, y}]];
             for (int x = 0, end = 0; x < layout_.width(); x = end) {
                 while (end < layout_.width() && ids[end] == ids[x]) ++end;
-                if (ids[x] != no_triangle) take(PixelRun{{first.x + x, y}, end - x}, ids[x]);
+                if (ids[x] != no_triangle) take(PixelSpan{{first.x + x, y}, end - x}, ids[x]);
             }
         }
     }
@@ -167,9 +167,9 @@ class TileVisibility {
     TileLayout layout_{tile_};
     std::vector<TriangleId> ids_;
     std::vector<const ProjectedTriangle*> triangles_;
-    std::vector<std::pair<PixelRun, TriangleId>> found_;  ///< Row by row.
-    std::vector<PixelRun> runs_;                          ///< Triangle by triangle.
-    std::vector<std::size_t> end_;                        ///< Of each triangle's runs in runs_.
+    std::vector<std::pair<PixelSpan, TriangleId>> found_;  ///< Row by row.
+    std::vector<PixelSpan> spans_;                         ///< Triangle by triangle.
+    std::vector<std::size_t> end_;                         ///< Of each triangle's spans in spans_.
 };
 
 }  // namespace rasterbook

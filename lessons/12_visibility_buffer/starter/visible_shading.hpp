@@ -61,7 +61,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
 /// holes, the colour buffer keeps the sample of its texture until then.
 template <typename Maps>
 void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const Tile& tile,
-             TileVisibility& visible) {
+             VisibilityBuffer& visible) {
     // TODO: step 1: an id by visible.add(), and the triangle's pixels by fill_tile(). Count each as
     // a Counter::fragments_tested. Where frame.depth.test_and_write() passes, the pixel's id is
     // the triangle's (Eq. 12.1). A material with Effect::mask has holes: there,
@@ -73,8 +73,8 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
 /// frame.color has the samples of its texture.
 template <Permutation with, typename Maps>
 void shade_pixels(const Frame<Maps>& frame, const ProjectedTriangle& projected,
-                  std::span<const PixelRun> runs) {
-    // TODO: step 2: triangle_inputs(), once. Then for each pixel of the runs the barycentric
+                  std::span<const PixelSpan> spans) {
+    // TODO: step 2: triangle_inputs(), once. Then for each pixel of the spans the barycentric
     // coordinates by BarycentricPlanes, made perspective-correct, and shaded(), which gives its
     // frame.color. It takes texture_sample(), or what draw_id() has kept of a material with
     // Effect::mask. Count each pixel as one of Counter::fragments_shaded.
@@ -99,7 +99,7 @@ class VisibleShaders {
   public:
     struct Shader {
         void (*shade_pixels)(const Frame<Maps>&, const ProjectedTriangle&,
-                             std::span<const PixelRun>);
+                             std::span<const PixelSpan>);
         void (*shade_fragments)(const Frame<Maps>&, const ProjectedTriangle&,
                                 std::span<FragmentToShade>);
     };
@@ -130,13 +130,13 @@ extern template class VisibleShaders<ShadowMapsOnDemand>;  // visible_shading.cp
 /// that saves. Then the tile has no triangles any more.
 template <typename Maps>
 void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps>& shaders,
-                   TileVisibility& visible, Show show, HeatMap& heat) {
-    visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelRun> runs) {
-        shaders[projected.triangle.material].shade_pixels(frame, projected, runs);
-        for (const PixelRun& run : runs) heat.add(run);
+                   VisibilityBuffer& visible, Show show, HeatMap& heat) {
+    visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelSpan> spans) {
+        shaders[projected.triangle.material].shade_pixels(frame, projected, spans);
+        for (const PixelSpan& span : spans) heat.add(span);
         if (show == Show::ids)
-            for (const PixelRun& run : runs)
-                std::fill_n(&frame.color[run.first], run.length, color_of_triangle(projected));
+            for (const PixelSpan& span : spans)
+                std::fill_n(&frame.color[span.first], span.length, color_of_triangle(projected));
     });
 }
 

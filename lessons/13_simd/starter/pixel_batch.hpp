@@ -131,11 +131,11 @@ class PixelBatch {
     }
 
     /// Adds pixels; whenever the batch is full, it is shaded, and another begins.
-    void add(const PixelRun& run) {
+    void add(const PixelSpan& span) {
         // TODO: step 1: fill_up() gives columns and rows to all empty lanes: the first one of them
-        // is lane count_. Of the run's pixels, as many count as the batch has room for. Once it is
+        // is lane count_. Of the span's pixels, as many count as the batch has room for. Once it is
         // full, it is shaded: store() writes what shade() returns if the N pixels are neighbours;
-        // else shade_and_scatter() does all of it. Both empty the batch; the rest of the run goes
+        // else shade_and_scatter() does all of it. Both empty the batch; the rest of the span goes
         // into the next one.
     }
 

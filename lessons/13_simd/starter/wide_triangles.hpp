@@ -167,9 +167,9 @@ class TileDepths {
         return first_lanes<F>(1);
     }
 
-    /// Calls take(run) for the pixels that nothing covers.
+    /// Calls take(span) for the pixels that nothing covers.
     template <typename Take>
-    void for_each_empty_run(const Tile& tile, Take&& take) {
+    void for_each_empty_span(const Tile& tile, Take&& take) {
         using F = Floats<native_width>;
         const auto is_empty = [this](auto depth) { return depth == decltype(depth)(farthest_); };
         const auto is_covered = [&](auto depth) { return !is_empty(depth); };
@@ -179,7 +179,7 @@ class TileDepths {
             for (int x = 0, end = 0; x < layout_.width(); x = end) {
                 x = first_where<F>(depths, x, layout_.width(), is_empty);
                 end = first_where<F>(depths, x, layout_.width(), is_covered);
-                if (end > x) take(PixelRun{{first.x + x, y}, end - x});
+                if (end > x) take(PixelSpan{{first.x + x, y}, end - x});
             }
         }
     }
@@ -201,10 +201,10 @@ class TileDepths {
 /// colour: nobody writes what is overwritten anyway.
 inline void draw_background(Image<vec3>& color, const Tile& tile, TileDepths& depths,
                             bool is_on_paper) {
-    depths.for_each_empty_run(tile, [&](const PixelRun& run) {
+    depths.for_each_empty_span(tile, [&](const PixelSpan& span) {
         fill<Floats<native_width>>(
-            &color[run.first], run.length,
-            is_on_paper ? paper_color : backdrop_color(run.first.y, color.size().y));
+            &color[span.first], span.length,
+            is_on_paper ? paper_color : backdrop_color(span.first.y, color.size().y));
     });
 }
 
