@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "05_textures/texture.hpp"
-#include "05_textures/texture_options.hpp"
 #include "13_simd/simd.hpp"
 #include "13_simd/wide_textures.hpp"
 #include "accuracy/accuracy.hpp"
 #include "common/image/image_io.hpp"
 #include "common/math/color.hpp"
+#include "lab/texture_methods.hpp"
 
 namespace rasterbook::test {
 
