@@ -65,7 +65,8 @@ Words normalized(const Words& given, const std::vector<Choice>& choices) {
 /// What one picture is drawn by.
 struct Method {
     Words line;    ///< Its command line.
-    Words chosen;  ///< The words of the choices that have several.
+    Words lists;   ///< The options that are given several words,
+    Words chosen;  ///< and of each the word by which this picture is drawn.
 };
 
 /// Each combination of the words of all lists; one without words where there is no list.
@@ -83,7 +84,10 @@ std::vector<Method> methods_of(const Words& given, const std::vector<Choice>& ch
             for (const std::string& word : words) {
                 longer.push_back(method);
                 longer.back().line.push_back(word);
-                if (words.size() > 1) longer.back().chosen.push_back(word);
+                if (words.size() > 1) {
+                    longer.back().lists.push_back(given[i - 1]);
+                    longer.back().chosen.push_back(word);
+                }
             }
         methods = std::move(longer);
     }
@@ -92,15 +96,11 @@ std::vector<Method> methods_of(const Words& given, const std::vector<Choice>& ch
 
 /// The command line with the reference's choices in place of its own; where the reference has none,
 /// without those that have several words.
-Words line_of_reference(const Words& reference, const Words& given,
-                        const std::vector<Choice>& choices) {
+Words line_of_reference(const Words& reference, const Words& given, const Words& lists) {
+    const Words& replaced = reference.empty() ? lists : reference;
     Words words;
     for (std::size_t i = 0; i < given.size(); ++i) {
-        const bool is_list = i + 1 < given.size() && find(choices, given[i]) &&
-                             given[i + 1].find(',') != std::string::npos;
-        const bool is_replaced =
-            reference.empty() ? is_list : std::ranges::count(reference, given[i]) > 0;
-        if (is_replaced)
+        if (std::ranges::count(replaced, given[i]) > 0)
             ++i;  // and its word
         else
             words.push_back(given[i]);
@@ -119,9 +119,7 @@ struct Trial {
     void draw() {
         const auto start = std::chrono::steady_clock::now();
         const Image<vec3> drawn =
-            averaged(program.render({program.orbit ? program.orbit->yaw_degrees : 0,
-                                     program.threads ? *program.threads : 1}),
-                     program.options.samples_per_side);
+            averaged(program.render(program.frame()), program.options.samples_per_side);
         const std::chrono::duration<double, std::milli> elapsed =
             std::chrono::steady_clock::now() - start;
         times_ms.push_back(elapsed.count());
@@ -231,13 +229,12 @@ std::filesystem::path with_name(const std::filesystem::path& file, std::string n
 }
 
 int compare(const std::function<LessonProgram()>& make, const std::string& reference_text,
-            const std::vector<Choice>& choices, const Words& given,
-            const std::vector<Method>& methods) {
+            const Words& given, const std::vector<Method>& methods) {
     const Words reference_words = reference_text.empty() ? Words() : split(reference_text, ' ');
     const std::string what = reference_text.empty() ? "the lesson's own" : reference_text;
     std::deque<Trial> trials;  // the last one is the reference
     std::vector<Method> all = methods;
-    all.push_back({line_of_reference(reference_words, given, choices), {}});
+    all.push_back({line_of_reference(reference_words, given, methods.front().lists), {}, {}});
     for (const Method& method : all) {
         Trial& trial = trials.emplace_back(Trial{make(), joined(method.chosen, " ")});
         trial.program.make_probe = {};
@@ -267,11 +264,7 @@ int compare(const std::function<LessonProgram()>& make, const std::string& refer
         errors.push_back(error_of(trial.picture, reference.picture));
         greatest = std::max(greatest, errors.back().greatest);
     }
-    std::string heading;
-    for (std::size_t i = 1; i < given.size(); ++i)
-        if (find(choices, given[i - 1]) && given[i].find(',') != std::string::npos)
-            heading += (heading.empty() ? "" : " ") + given[i - 1];
-    print_table(heading, what, trials, errors);
+    print_table(joined(methods.front().lists, " "), what, trials, errors);
 
     const std::filesystem::path out = trials.front().program.options.out;
     const int brightness = greatest > 0 ? 255 / greatest : 1;
@@ -323,7 +316,7 @@ int run_lab(const std::function<LessonProgram()>& make, const std::string& refer
         try {
             const std::vector<Method> methods = methods_of(given, choices);
             return methods.size() == 1 ? run_lesson_program(program, argc, argv)
-                                       : compare(make, reference, choices, given, methods);
+                                       : compare(make, reference, given, methods);
         } catch (const UsageError& error) {
             std::cerr << "error: " << error.what() << " (--help lists what there is)\n";
             return 2;

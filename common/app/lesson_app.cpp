@@ -186,10 +186,8 @@ void print_probe(const LessonProgram& program) {
         throw std::runtime_error("--probe: this program is built without it; " + program.name +
                                  "_complete has it, and ./lessons/run builds that one");
     const LessonOptions& options = program.options;
-    const FrameOptions frame{program.orbit ? program.orbit->yaw_degrees : 0,
-                             program.threads ? *program.threads : 1};
     const Image<u8vec3> drawn =
-        srgb8_from_linear(averaged(program.render(frame), options.samples_per_side));
+        srgb8_from_linear(averaged(program.render(program.frame()), options.samples_per_side));
     std::cout << explained(probe, *options.probed, options.samples_per_side,
                            drawn[*options.probed]);
 }
@@ -204,14 +202,14 @@ Tally make_film(const LessonProgram& program) {
     const LessonOptions& options = program.options;
     const Frames& frames = options.frames;
     const int at_once = std::min(options.jobs, frames.count());
-    const int threads = program.threads ? std::max(1, *program.threads / at_once) : 1;
-    const float first_yaw_degrees = program.orbit ? program.orbit->yaw_degrees : 0;
+    const FrameOptions single = program.frame();
+    const int threads = std::max(1, single.threads / at_once);
     const bool shows_progress = frames.count() > 1 && isatty(STDERR_FILENO);
     Tally tally;
     std::mutex mutex;
     const auto make_frame = [&](int frame) {
         const Tally done =
-            make_picture(program, {first_yaw_degrees + degrees_at(frame, frames), threads},
+            make_picture(program, {single.yaw_degrees + degrees_at(frame, frames), threads},
                          file_of(options, frame));
         const std::lock_guard lock(mutex);
         tally.add(done);
@@ -233,10 +231,9 @@ std::string why_first_is_empty(const LessonProgram& program, const Scene& scene)
     UndrawnTriangles undrawn;
     undrawn_triangles = &undrawn;
     thread_counters = {};
-    const float yaw_degrees = program.orbit ? program.orbit->yaw_degrees : 0;
-    const Frames& frames = program.options.frames;
-    program.render(
-        {yaw_degrees + degrees_at(frames.first, frames), program.threads ? *program.threads : 1});
+    FrameOptions first = program.frame();
+    first.yaw_degrees += degrees_at(program.options.frames.first, program.options.frames);
+    program.render(first);
     undrawn_triangles = nullptr;
     return why_empty(thread_counters, undrawn, scene);
 }

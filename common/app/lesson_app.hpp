@@ -126,6 +126,9 @@ struct LessonProgram {
     std::function<Image<vec3>(const FrameOptions&)> render;
 
     std::function<PixelProbe()> make_probe{};  ///< For --probe; empty: the lesson has none.
+
+    /// A single picture's, as the options say.
+    FrameOptions frame() const { return {orbit ? orbit->yaw_degrees : 0, threads ? *threads : 1}; }
 };
 
 /// The scene in what a lesson draws.
@@ -186,9 +189,8 @@ constexpr bool is_lab = false;
 /// Runs a lesson's laboratory.
 ///
 /// Without arguments it lists what one can choose. Where options are given several words each, as
-/// in
-/// `--line bresenham,wu`, it draws a picture for each combination, by turns, and prints how far
-/// each is from the reference and how long it takes; else it draws one picture, like a program.
+/// in `--line bresenham,wu`, it draws a picture for each combination, by turns, and prints how far
+/// each is from the reference and how long it takes; else it draws one picture, like a lesson.
 ///
 /// @param make       Called for each picture: a program, with options of its own.
 /// @param reference  Options that draw what errors are measured against, such as
@@ -200,10 +202,9 @@ int run_lab(const std::function<LessonProgram()>& make, const std::string& refer
 
 /// A lesson's program, with options of its own at their defaults.
 ///
-/// @tparam Options     Derived from LessonOptions; may have `void declare(OptionParser&)`, an
-/// `Orbit
-///                     orbit`, a `bool show_depth`, and `threads.threads`, the number of threads
-///                     that draw.
+/// @tparam Options     Derived from LessonOptions; may have `void declare(OptionParser&)`,
+///                     `Orbit orbit`, `bool show_depth`, and `threads.threads`, the number of
+///                     threads that draw.
 /// @param make_assets  Called once as make_assets(Scene, const Options&): gives what is drawn, with
 ///                     a Scene `scene`.
 /// @param render       Called for each picture as render(const Options&, const Assets&); gives it

@@ -247,8 +247,7 @@ EXPORTED(prepare) void prepare() { page->program.prepare(page->model); }
 EXPORTED(draw) const u8vec4* draw(int width, int height) {
     LessonOptions& options = page->program.options;
     options.size = ivec2(width, height) * options.samples_per_side;
-    const float yaw_degrees = page->program.orbit ? page->program.orbit->yaw_degrees : 0;
-    Image<vec3> rendered = page->program.render({yaw_degrees, 1});
+    Image<vec3> rendered = page->program.render({page->program.frame().yaw_degrees, 1});
     page->picture = srgb8_from_linear(averaged(std::move(rendered), options.samples_per_side));
     page->rgba.resize(page->picture.pixels().size());
     std::ranges::transform(page->picture.pixels(), page->rgba.begin(),

@@ -100,7 +100,7 @@ std::vector<glm::vec<3, T>> moved(const std::vector<vec3>& positions, T offset) 
     return result;
 }
 
-/// What Camera::clip_from_world gives, for a camera elsewhere and computed in T.
+/// From the world to clip space, computed in T, for a camera that was moved but not turned.
 template <typename T>
 glm::mat<4, 4, T> clip_from_world_in(const Camera& camera, glm::vec<3, T> eye,
                                      glm::vec<3, T> center, ivec2 size) {

@@ -68,7 +68,7 @@ inline std::uint32_t snorm_from_component(float component, int bits) {
     return static_cast<std::uint32_t>(std::floor(middle + (middle - 1) * component + 0.5f));
 }
 
-/// normals_from_unorm() of SNORM values: (128, 128, 255) is (0, 0, 1) without error.
+/// Normals of SNORM values: (128, 128, 255) is (0, 0, 1) without error.
 inline Image<vec4> normals_from_snorm(const Image<u8vec4>& image, Green green) {
     const float up = green == Green::up ? 1.0f : -1.0f;
     Image<vec4> normals(image.size());
@@ -156,7 +156,9 @@ inline void make_tangents(const NormalMapMethod& method, Scene& scene, const Nor
     if (method.frame == FrameOf::vertex) make_tangents(scene, maps);
 }
 
-/// load_normal_map_scene(), as the method has it.
+/// Reads a scene's textures and normal maps, and makes frames, as the method has them.
+///
+/// @throws InputError  When an image cannot be read.
 inline NormalMapAssets load_normal_map_scene(const NormalMapMethod& method, Scene scene,
                                              const NormalMapSceneOptions& options) {
     const bool all_effects = options.shading.all_effects;

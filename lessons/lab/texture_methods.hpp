@@ -37,8 +37,9 @@ struct TextureMethod {
     }
 };
 
-/// perspective_correct(), or what the method puts in its place: the coordinates on the screen, or
-/// a division only every so many pixels of a row, and straight lines between.
+/// Barycentric coordinates on the triangle: by a division in each pixel (Eq. 5.3), or what the
+/// method puts in its place: the coordinates on the screen, or a division only every so many pixels
+/// of a row, and straight lines between.
 ///
 /// @see Abrash, "Michael Abrash's Graphics Programming Black Book", 1997, chapter 63: every 16.
 class MappedBarycentrics {
@@ -59,7 +60,7 @@ class MappedBarycentrics {
     }
 
     /// @param pixel           As fill_triangle gives them, in its order; some may be left out.
-    /// @param screen_barycentrics  The same.
+    /// @param screen_barycentrics  Of this pixel.
     FragmentBarycentrics at(ivec2 pixel, vec3 screen_barycentrics) {
         if (mapping_ == 1) return perspective_correct(exact_, screen_barycentrics);
         if (mapping_ == affine)

@@ -27,7 +27,8 @@ inline float smoothly_quantised(float brightness, float change, int tones) {
     return static_cast<float>(std::clamp((area(to) - area(from)) / (to - from), 0.0, 1.0));
 }
 
-/// How much of a pixel lies in a highlight, 0 to 1, in the same way.
+/// The share of a pixel, 0 to 1, that lies in a highlight, where the brightness runs linearly from
+/// half of `change` below `brightness` to half of it above.
 inline float highlight_share(float brightness, float change) {
     if (!(change > 0)) return brightness >= min_tone_highlight ? 1.0f : 0.0f;
     const float share = (brightness - min_tone_highlight) / change + 0.5f;
