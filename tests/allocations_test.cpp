@@ -322,8 +322,7 @@ TEST(Allocations, ThatFailInAnyThreadEndTheProgramInOneLine) {
                     Image<vec3> picture = lesson_10::render(options, assets, pool);
                     end();
                     return picture;
-                },
-                [](auto&... of) { return shadow_probe(of...); });
+                });
         });
     const auto scene_lesson = [](const char* name, auto options, const auto& render) {
         expect_one_line_for_each_failure(

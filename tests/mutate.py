@@ -270,9 +270,7 @@ def report(mutant, source):
 
 
 def headers_of(lesson):
-    """But for what --probe says: a test of its own compares that with the pictures."""
-    return {f"{lesson}/{header.name}": header.read_text() for header in sorted((ROOT / "lessons" / lesson).glob("*.hpp"))
-            if header.name not in ("probe.hpp", "report.hpp")}
+    return {f"{lesson}/{header.name}": header.read_text() for header in sorted((ROOT / "lessons" / lesson).glob("*.hpp"))}
 
 
 def chosen_mutants(sources, count, seed):

@@ -237,7 +237,7 @@ int compare(const std::function<LessonProgram()>& make, const std::string& refer
     all.push_back({line_of_reference(reference_words, given, methods.front().lists), {}, {}});
     for (const Method& method : all) {
         Trial& trial = trials.emplace_back(Trial{make(), joined(method.chosen, " ")});
-        trial.program.make_probe = {};
+        trial.program.fills_triangles = false;  // --probe explains one picture
         Words line{trial.program.name};
         line.insert(line.end(), method.line.begin(), method.line.end());
         std::vector<char*> arguments;
@@ -305,7 +305,7 @@ void print_choices(const LessonProgram& program, const std::vector<Choice>& choi
 int run_lab(const std::function<LessonProgram()>& make, const std::string& reference, int argc,
             char** argv) {
     LessonProgram program = make();
-    program.make_probe = {};  // the lesson's program explains pixels
+    program.fills_triangles &= program.is_probed;
     return exit_status_of([&] {
         const std::vector<Choice> choices = choices_of(program);
         const Words given = normalized(Words(argv + 1, argv + argc), choices);

@@ -180,16 +180,14 @@ Tally make_picture(const LessonProgram& program, const FrameOptions& frame,
 }
 
 /// Prints why a pixel has its colour.
-void print_probe(const LessonProgram& program) {
-    const PixelProbe probe = program.make_probe();
-    if (!probe)
+void print_probe(const LessonProgram& program, const Scene& scene) {
+    if (!program.is_probed)
         throw std::runtime_error("--probe: this program is built without it; " + program.name +
                                  "_complete has it, and ./lessons/run builds that one");
-    const LessonOptions& options = program.options;
-    const Image<u8vec3> drawn =
-        srgb8_from_linear(averaged(program.render(program.frame()), options.samples_per_side));
-    std::cout << explained(probe, *options.probed, options.samples_per_side,
-                           drawn[*options.probed]);
+    FrameOptions frame = program.frame();
+    frame.threads = 1;
+    std::cout << explained([&] { return program.render(frame); }, *program.options.probed,
+                           program.options.samples_per_side, scene);
 }
 
 /// The file of one of the pictures.
@@ -247,7 +245,7 @@ void make_pictures(const LessonProgram& program) {
 
     const ivec2 size = options.size;
     options.size *= options.samples_per_side;
-    if (options.probed) return print_probe(program);
+    if (options.probed) return print_probe(program, scene);
     const Tally tally = make_film(program);
 
     if (tally.is_empty)
@@ -364,7 +362,7 @@ std::optional<int> read_command_line(const LessonProgram& program, int argc, cha
     line.add_flag("--sandbox", options.is_sandboxed,
                   "Read no file that lies outside of the model's folder");
     line.add_flag("--stats", options.stats, "Print what was done and how long it took, as JSON");
-    if (program.make_probe)
+    if (program.fills_triangles)
         line.add_option_function<std::string>(
                 "--probe", [&](const std::string& text) { options.probed = parse_pixel(text); },
                 "Write no picture, but say why this pixel has its colour; 0,0 is the upper left "

@@ -17,7 +17,7 @@
 #include "common/app/image_sequence.hpp"
 #include "common/image/image.hpp"
 #include "common/model/mesh.hpp"
-#include "common/probe/pixel_report.hpp"
+#include "common/probe/pixel_trace.hpp"
 
 namespace rasterbook {
 
@@ -125,7 +125,8 @@ struct LessonProgram {
     /// Called by several threads at once. What it counts is added to the calling thread's counters.
     std::function<Image<vec3>(const FrameOptions&)> render;
 
-    std::function<PixelProbe()> make_probe{};  ///< For --probe; empty: the lesson has none.
+    bool fills_triangles;        ///< Else there is nothing that --probe could explain.
+    bool is_probed = has_probe;  ///< Whether the program was built so that it can answer --probe.
 
     /// A single picture's, as the options say.
     FrameOptions frame() const { return {orbit ? orbit->yaw_degrees : 0, threads ? *threads : 1}; }
@@ -168,17 +169,6 @@ int exit_status_of(const std::function<int()>& run);
 ///          are one line on stderr.
 int run_lesson_program(const LessonProgram& program, int argc, char** argv);
 
-/// For run_lesson(): a lesson without --probe.
-struct NoProbe {};
-
-/// Whether a program can answer --probe. Most cannot, so that they are compiled faster, and to
-/// faster code; ./lessons/run builds another when it is asked.
-#ifdef RASTERBOOK_PROBE
-constexpr bool has_probe = true;
-#else
-constexpr bool has_probe = false;
-#endif
-
 /// Whether a program compares what it draws with different options: a lesson's laboratory.
 #ifdef RASTERBOOK_LAB
 constexpr bool is_lab = true;
@@ -210,11 +200,9 @@ int run_lab(const std::function<LessonProgram()>& make, const std::string& refer
 /// @param render       Called for each picture as render(const Options&, const Assets&); gives it
 ///                     in linear colour. Where there are several pictures, several threads call it
 ///                     at once: what it keeps from one to the next must be thread_local.
-/// @param make_probe   Called for --probe as make_probe(const Options&, const Assets&); gives the
-///                     PixelProbe of the picture.
-template <typename Options, typename MakeAssets, typename Render, typename MakeProbe = NoProbe>
+template <typename Options, typename MakeAssets, typename Render>
 LessonProgram lesson_program(std::string name, std::string title, MakeAssets make_assets,
-                             Render render, MakeProbe make_probe = {}) {
+                             Render render) {
     struct State {
         Options options;
         std::optional<std::invoke_result_t<MakeAssets, Scene, const Options&>> assets;
@@ -227,14 +215,6 @@ LessonProgram lesson_program(std::string name, std::string title, MakeAssets mak
     if constexpr (requires { options.show_depth; }) show_depth = &options.show_depth;
     if constexpr (requires { options.orbit; }) orbit = &options.orbit;
     if constexpr (requires { options.threads.threads; }) threads = &options.threads.threads;
-    std::function<PixelProbe()> probe;
-    if constexpr (!std::is_same_v<MakeProbe, NoProbe>)
-        probe = [=] {
-            if constexpr (has_probe)
-                return make_probe(std::as_const(state->options), std::as_const(*state->assets));
-            else
-                return PixelProbe();
-        };
     return {std::move(name),
             std::move(title),
             options,
@@ -256,7 +236,7 @@ LessonProgram lesson_program(std::string name, std::string title, MakeAssets mak
                     own.threads.threads = frame.threads;
                 return render(own, *state->assets);
             },
-            probe};
+            !std::is_same_v<Options, LessonOptions>};  // lesson 01 draws lines
 }
 
 /// Draws the scene as it was read.
@@ -267,29 +247,26 @@ Scene just_the_scene(Scene scene, const Options&) {
 
 /// Runs a lesson: reads the command line and the model, renders, writes the picture. Parameters:
 /// those of lesson_program().
-template <typename Options, typename MakeAssets, typename Render, typename MakeProbe = NoProbe>
-requires std::is_invocable_v<MakeAssets, Scene, const Options&>
+template <typename Options, typename MakeAssets, typename Render>
 int run_lesson(int argc, char** argv, std::string name, std::string title, MakeAssets make_assets,
-               Render render, MakeProbe make_probe = {}) {
+               Render render) {
     if constexpr (is_lab) {
         const auto make = [&] {
-            return lesson_program<Options>("lab_" + name, title, make_assets, render, make_probe);
+            return lesson_program<Options>("lab_" + name, title, make_assets, render);
         };
         return run_lab(make, "", argc, argv);
     } else {
-        return run_lesson_program(lesson_program<Options>(std::move(name), std::move(title),
-                                                          make_assets, render, make_probe),
-                                  argc, argv);
+        return run_lesson_program(
+            lesson_program<Options>(std::move(name), std::move(title), make_assets, render), argc,
+            argv);
     }
 }
 
 /// Runs a lesson that draws the scene as it was read.
-template <typename Options, typename Render, typename MakeProbe = NoProbe>
-requires(!std::is_invocable_v<Render, Scene, const Options&>)
-int run_lesson(int argc, char** argv, std::string name, std::string title, Render render,
-               MakeProbe make_probe = {}) {
+template <typename Options, typename Render>
+int run_lesson(int argc, char** argv, std::string name, std::string title, Render render) {
     return run_lesson<Options>(argc, argv, std::move(name), std::move(title),
-                               just_the_scene<Options>, render, make_probe);
+                               just_the_scene<Options>, render);
 }
 
 }  // namespace rasterbook

@@ -41,7 +41,6 @@ const longestRun = 10000;  // ms that a reader's program may take for an answer
 
 let lesson = null;  // { model, controls }
 let own = null;  // the reader's program, if it is what draws
-let complete = null;  // returns a promise of a program with the reader's probe, where `own` has another's
 let model = "";
 let size = usualSize;  // of a picture that stands still
 let sides = [{}, {}];  // what differs from the lesson's presets, left and right
@@ -240,15 +239,6 @@ async function explain() {
   const [x, y] = probed;
   cross.style.left = `${(100 * (x + 0.5)) / width}%`;
   cross.style.top = `${(100 * (y + 0.5)) / height}%`;
-  if (complete) {
-    const asked = complete;
-    reasons.textContent = "Compiling what explains a pixel …";
-    const [program, error] = await asked().then((program) => [program], ({ message }) => [null, message]);
-    if (complete !== asked) return;
-    if (program) return place.setProgram(program);  // it draws, and comes back here
-    reasons.textContent = error;
-    return;
-  }
   const { text } = await ask("probe", { side: probedSide, pixel: probed });
   reasons.replaceChildren(...text.trimEnd().split(/(Eq\. \d+\.\d+)/).map((part) => {
     const [, lesson, number] = part.match(/^Eq\. (\d+)\.(\d+)$/) ?? [];
@@ -669,12 +659,10 @@ function settingsOf(words) {
  *
  * @param {Uint8Array?} program  As docs/live/live_app.cpp exports its functions.
  * @param {string[]?} options    To draw with; else those of before stay, as far as it has them.
- * @param {(() => Promise<Uint8Array>)?} completed  Makes a program that explains pixels by the reader's code.
  */
-place.setProgram = async (program, options = null, completed = null) => {
+place.setProgram = async (program, options = null) => {
   if (!program && !own) return;
   own = program;
-  complete = completed;
   startWorker("Stopped.");
   const isFirst = lesson === null;
   place.dataset.state = "drawing";

@@ -25,7 +25,7 @@
 #include "common/math/color.hpp"
 #include "common/model/load_budget.hpp"
 #include "common/model/texture_file.hpp"
-#include "common/probe/pixel_report.hpp"
+#include "common/probe/pixel_trace.hpp"
 #include "docs/live/packed_scene.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
@@ -146,9 +146,9 @@ struct Page {
     bool is_lab;
     CommandLine line{};
     Scene model{};
-    std::string given{};  ///< What the page has written.
+    const Scene* scene = nullptr;  ///< As the lesson has prepared it.
+    std::string given{};           ///< What the page has written.
     std::string answer{};
-    Image<u8vec3> picture{};  ///< As it was drawn last.
     std::vector<u8vec4> rgba{};
 };
 Page* page = nullptr;
@@ -199,7 +199,7 @@ EXPORTED(controls) const char* controls() {
     if (page->is_lab) page->program.declare_options(parser);
     std::ostringstream json;
     json << "{\"model\": " << quoted(page->program.options.model.string())
-         << ", \"hasProbe\": " << (page->program.make_probe ? "true" : "false")
+         << ", \"hasProbe\": " << (page->program.fills_triangles ? "true" : "false")
          << ", \"methods\": [";
     const char* comma = "";
     for (const Control& method : methods.controls)
@@ -240,7 +240,7 @@ EXPORTED(take_scene) void take_scene() {
 }
 
 /// Makes what the lesson makes once, of the scene and the values of its controls.
-EXPORTED(prepare) void prepare() { page->program.prepare(page->model); }
+EXPORTED(prepare) void prepare() { page->scene = &page->program.prepare(page->model); }
 
 /// @param width, height  Of the picture, in pixels.
 /// @return               Its pixels as a canvas has them: four bytes each, row by row.
@@ -248,22 +248,19 @@ EXPORTED(draw) const u8vec4* draw(int width, int height) {
     LessonOptions& options = page->program.options;
     options.size = ivec2(width, height) * options.samples_per_side;
     Image<vec3> rendered = page->program.render({page->program.frame().yaw_degrees, 1});
-    page->picture = srgb8_from_linear(averaged(std::move(rendered), options.samples_per_side));
-    page->rgba.resize(page->picture.pixels().size());
-    std::ranges::transform(page->picture.pixels(), page->rgba.begin(),
+    const Image<u8vec3> picture =
+        srgb8_from_linear(averaged(std::move(rendered), options.samples_per_side));
+    page->rgba.resize(picture.pixels().size());
+    std::ranges::transform(picture.pixels(), page->rgba.begin(),
                            [](u8vec3 color) { return u8vec4(color, 255); });
     return page->rgba.data();
 }
 
-/// Says why a pixel of the picture that was drawn last has its colour; nothing in a lesson that
-/// cannot tell.
+/// Draws the picture that was drawn last once more, and says why a pixel of it has its colour.
 EXPORTED(probe) const char* probe(int x, int y) {
-    page->answer.clear();
-    if (!page->program.make_probe) return page->answer.c_str();
-    const PixelProbe probe = page->program.make_probe();
-    page->answer = probe ? explained(probe, {x, y}, page->program.options.samples_per_side,
-                                     page->picture[{x, y}])
-                         : "Only what is drawn by the lesson's own methods is explained.\n";
+    const LessonProgram& program = page->program;
+    page->answer = explained([&] { return program.render({program.frame().yaw_degrees, 1}); },
+                             {x, y}, program.options.samples_per_side, *page->scene);
     return page->answer.c_str();
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "02_triangle_fill/count_triangle.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/math/numerics.hpp"
 #include "common/model/mesh.hpp"
@@ -44,7 +45,10 @@ inline vec3 flat_color(vec3 normal, const Material& material) {
     const vec3 toward_sun = normalize_or(vec3(-0.75f, 0.85f, 0.3f), up);
     const float sun = std::max(glm::dot(normal, toward_sun), 0.0f);
     const float sky = 0.5f + 0.5f * normal.y;
-    return material.diffuse * (sun * sunlight + sky * skylight);
+    const vec3 color = material.diffuse * (sun * sunlight + sky * skylight);
+    trace("normal of the face", normal);
+    trace("flat colour", color);
+    return color;
 }
 
 /// The flat colour of a triangle in the world, by the direction that it faces.

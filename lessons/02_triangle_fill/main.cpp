@@ -2,7 +2,6 @@
 /// @file
 /// Lesson 02: the model as filled triangles, each painted over those before it.
 #include "02_triangle_fill/flat_color.hpp"
-#include "02_triangle_fill/probe.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
@@ -17,15 +16,12 @@ static Image<vec3> render(const PaintOptions& options, const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
-            count(Counter::triangles_in);
             const vec3 a = positions_screen[triangle.vertices[0].position];
             const vec3 b = positions_screen[triangle.vertices[1].position];
             const vec3 c = positions_screen[triangle.vertices[2].position];
             const ScreenTriangle on_screen = snap_triangle(a, b, c);
-            if (!is_front_facing(on_screen)) {
-                count(Counter::triangles_culled_by_facing);
-                continue;
-            }
+            count_triangle(mesh, triangle, on_screen);
+            if (!is_front_facing(on_screen)) continue;
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
             fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 barycentrics) {
                 count(Counter::fragments_shaded);
@@ -39,5 +35,5 @@ static Image<vec3> render(const PaintOptions& options, const Scene& scene) {
 int main(int argc, char** argv) {
     return run_lesson<PaintOptions>(argc, argv, "02_triangle_fill",
                                     "Draws a model as filled triangles, in the file's order.",
-                                    render, [](const auto&... of) { return fill_probe(of...); });
+                                    render);
 }

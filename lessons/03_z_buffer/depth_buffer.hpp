@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/image/image.hpp"
+#include "common/probe/pixel_trace.hpp"
 
 namespace rasterbook {
 
@@ -40,6 +41,7 @@ class DepthBuffer {
     ///
     /// Of equal depths the first stays: -0 equals 0. NaN is never nearer.
     bool test_and_write(ivec2 pixel, float depth) {
+        trace_depth(depths_[pixel], depth);
         float& nearest = depths_[pixel];
         if (!(depth > nearest)) return false;
         nearest = depth;
@@ -64,8 +66,9 @@ class TriangleDepth {
   public:
     /// @param depths  Of the three vertices, finite.
     explicit TriangleDepth(vec3 depths)
-        : farthest_(std::min({depths.x, depths.y, depths.z})),
-          above_farthest_(depths - farthest_) {}
+        : farthest_(std::min({depths.x, depths.y, depths.z})), above_farthest_(depths - farthest_) {
+        trace("depths of a, b, c", depths);
+    }
 
     /// @param barycentrics  On the screen, >= 0, as fill_triangle gives them.
     /// @return              Not farther than the farthest vertex.

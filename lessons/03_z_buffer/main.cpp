@@ -4,7 +4,6 @@
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
-#include "03_z_buffer/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
@@ -23,15 +22,12 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
-            count(Counter::triangles_in);
             const vec3 a = positions_screen[triangle.vertices[0].position];
             const vec3 b = positions_screen[triangle.vertices[1].position];
             const vec3 c = positions_screen[triangle.vertices[2].position];
             const ScreenTriangle on_screen = snap_triangle(a, b, c);
-            if (!is_front_facing(on_screen)) {
-                count(Counter::triangles_culled_by_facing);
-                continue;
-            }
+            count_triangle(mesh, triangle, on_screen);
+            if (!is_front_facing(on_screen)) continue;
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
             const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
             fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 barycentrics) {
@@ -48,6 +44,5 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
 
 int main(int argc, char** argv) {
     return run_lesson<Options>(argc, argv, "03_z_buffer",
-                               "Draws a model as filled triangles with a depth buffer.", render,
-                               [](const auto&... of) { return depth_probe(of...); });
+                               "Draws a model as filled triangles with a depth buffer.", render);
 }

@@ -6,7 +6,6 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/instance.hpp"
-#include "04_mvp/probe.hpp"
 #include "04_mvp/projection.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -47,10 +46,5 @@ static Image<vec3> render(const PotOptions& options, const Scene& scene) {
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<PotOptions>(
-        argc, argv, "04_mvp", "Draws a scene through a camera.", render,
-        [](const auto& options, const auto& scene) {
-            return mvp_probe(options, scene,
-                             instances_of(scene, world_from_pot(options.turn_degrees)));
-        });
+    return run_lesson<PotOptions>(argc, argv, "04_mvp", "Draws a scene through a camera.", render);
 }

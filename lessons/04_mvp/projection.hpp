@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "02_triangle_fill/count_triangle.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/clip.hpp"
@@ -33,6 +34,7 @@ inline ProjectedTriangle project(const Mesh& mesh, const Triangle& triangle,
     const vec3 b = screen_from_clip(clipped[1].position_clip, size);
     const vec3 c = screen_from_clip(clipped[2].position_clip, size);
     const ScreenTriangle on_screen = snap_triangle(a, b, c);
+    trace_triangle(mesh, triangle, on_screen, clipped);
     return {mesh,
             triangle,
             clipped,

@@ -7,7 +7,6 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
 #include "05_textures/load_textures.hpp"
-#include "05_textures/probe.hpp"
 #include "05_textures/textures.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -47,6 +46,5 @@ static Image<vec3> render(const TexturedSceneOptions& options, const TexturedSce
 
 int main(int argc, char** argv) {
     return run_lesson<TexturedSceneOptions>(
-        argc, argv, "05_textures", "Draws a scene with textures.", load_textured_scene, render,
-        [](auto&... of) { return texture_probe(of...); });
+        argc, argv, "05_textures", "Draws a scene with textures.", load_textured_scene, render);
 }

@@ -17,6 +17,7 @@
 #include "common/image/image.hpp"
 #include "common/math/color.hpp"
 #include "common/math/functions.hpp"
+#include "common/probe/traced_texture.hpp"
 
 namespace rasterbook {
 
@@ -133,6 +134,7 @@ using FragmentUv = TextureCoordinates<float>;
 template <typename Uv, typename F>
 TextureCoordinates<F> fragment_uv(const std::array<Uv, 3>& uvs,
                                   const PerspectiveBarycentrics<F>& at) {
+    trace_perspective(at.here);
     return {interpolate(uvs, at.here), interpolate(uvs, at.ddx), interpolate(uvs, at.ddy)};
 }
 
@@ -155,6 +157,7 @@ inline vec4 sample(const Texture& texture, Filter filter, const FragmentUv& uv) 
         level = level_of_detail(uv.ddx, uv.ddy, texture.levels[0].size);
     filter = filter_at(texture, filter, level);
     const vec2 position = texture_position(uv.here, texture.wrap);
+    trace_sample(texture, filter, uv, position, level);
     if (filter == Filter::nearest) return sample_nearest(texture.levels[0], position);
     if (filter == Filter::bilinear) return sample_bilinear(texture.levels[0], position);
     return sample_trilinear(texture, position, level);

@@ -6,7 +6,6 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
 #include "06_phong/assets.hpp"
-#include "06_phong/probe.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "common/app/lesson_app.hpp"
@@ -53,6 +52,5 @@ static Image<vec3> render(const PhongOptions& options, const PhongAssets& assets
 
 int main(int argc, char** argv) {
     return run_lesson<PhongOptions>(argc, argv, "06_phong", "Draws a scene with Phong lighting.",
-                                    load_phong_scene, render,
-                                    [](auto&... of) { return phong_probe(of...); });
+                                    load_phong_scene, render);
 }

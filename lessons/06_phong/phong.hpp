@@ -10,6 +10,7 @@
 #include "06_phong/light.hpp"
 #include "common/math/functions.hpp"
 #include "common/model/mesh.hpp"
+#include "common/probe/traced_light.hpp"
 
 namespace rasterbook {
 
@@ -91,10 +92,12 @@ template <typename F, typename Highlight, typename Visibility>
 LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
                             const Highlight& highlight, const Visibility& visibility) {
     LightSum<F> sum;
-    for (std::size_t l = 0; l < lights.size(); ++l)
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+        const TracedLight traced(l, lights[l], point, highlight, sum);
         add_light(
             sum, lights[l], point, [&](auto... mask) { return F(visibility(l, mask...)); },
             highlight);
+    }
     return sum;
 }
 
@@ -141,6 +144,7 @@ Vec3<F> unlit(const FragmentColor<F>& color) {
 /// @param light     0 to 10.
 template <typename F>
 Vec3<F> phong(const FragmentColor<F>& color, vec3 ambient, const LightSum<F>& light) {
+    trace_sum(ambient, light);
     return color.emission + color.ambient * Vec3<F>(ambient) + color.diffuse * light.diffuse +
            color.specular * light.specular;
 }

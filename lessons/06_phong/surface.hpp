@@ -71,6 +71,7 @@ template <typename F, typename G>
 glm::vec<4, F> texture_color(const SurfaceInputs<G>& surface, const PerspectiveBarycentrics<F>& at,
                              Filter filter) {
     if (!surface.effects[Effect::texture]) return glm::vec<4, F>(F(1.0f));
+    trace("diffuse of material", surface.own_color.diffuse);
     return sample(*surface.texture, filter, fragment_uv(surface.uvs, at));
 }
 
@@ -90,17 +91,23 @@ FragmentColor<F> surface_color(const SurfaceInputs<G>& surface,
                                const PerspectiveBarycentrics<F>& at, const Vec3<F>& in_texture,
                                Filter filter) {
     FragmentColor<F> color(surface.own_color);
+    trace_perspective(at.here);
     if (surface.effects[Effect::texture]) color.tint(in_texture);
     if (surface.effects[Effect::specular_map]) {
         count_each<F>(Counter::texture_samples);
+        label_sample("specular texture");
         color.specular *= Vec3<F>(
             sample(*surface.specular_texture, filter, fragment_uv(surface.specular_uvs, at)));
     }
     if (surface.effects[Effect::emission_map]) {
         count_each<F>(Counter::texture_samples);
+        label_sample("emission texture");
         color.emission *= Vec3<F>(
             sample(*surface.emission_texture, filter, fragment_uv(surface.emission_uvs, at)));
     }
+    trace("diffuse colour", color.diffuse);
+    if (surface.effects[Effect::highlight]) trace("specular colour", color.specular);
+    if (surface.effects[Effect::emission_map]) trace("emission", color.emission);
     return color;
 }
 
@@ -126,6 +133,8 @@ SurfacePoint<F> surface_point(const SurfaceInputs<G>& surface, Vec3<F> at, Vec3<
         count_each<F>(Counter::highlights);
         point.toward_eye = unit_or(Vec3<F>(eye_world) - point.position_world, point.normal_world);
     }
+    trace_position(point.position_world);
+    trace("normal", point.normal_world, "Eq. 6.8");
     return point;
 }
 

@@ -8,7 +8,6 @@
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "07_toon/assets.hpp"
-#include "07_toon/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 
@@ -61,6 +60,5 @@ static Image<vec3> render(const ToonOptions& options, const ToonAssets& assets) 
 
 int main(int argc, char** argv) {
     return run_lesson<ToonOptions>(argc, argv, "07_toon", "Draws a scene as a comic does.",
-                                   load_toon_scene, render,
-                                   [](auto&... of) { return toon_probe(of...); });
+                                   load_toon_scene, render);
 }

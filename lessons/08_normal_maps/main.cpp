@@ -9,7 +9,6 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/assets.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
-#include "08_normal_maps/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 
@@ -56,7 +55,7 @@ static Image<vec3> render(const NormalMapSceneOptions& options, const NormalMapA
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<NormalMapSceneOptions>(
-        argc, argv, "08_normal_maps", "Draws a scene with normal maps.", load_normal_map_scene,
-        render, [](auto&... of) { return normal_map_probe(of...); });
+    return run_lesson<NormalMapSceneOptions>(argc, argv, "08_normal_maps",
+                                             "Draws a scene with normal maps.",
+                                             load_normal_map_scene, render);
 }

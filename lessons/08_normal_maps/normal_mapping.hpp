@@ -87,6 +87,14 @@ TangentBasis<F> frame_at(const NormalMapInputs<G>& map, Vec3<F> at, Vec3<F> norm
     return tangent_frame(Vec3<F>(interpolate(map.tangents, at)), normal, F(map.handedness));
 }
 
+/// Notes for `--probe` how a normal is perturbed.
+template <typename F>
+void note_perturbed(const TangentBasis<F>& frame, const Vec3<F>& in_map, const Vec3<F>& normal) {
+    trace("  tangent", frame.tangent, "Eq. 8.5");
+    trace("  bitangent", frame.bitangent, "Eq. 8.5");
+    trace("  normal, perturbed", perturbed(frame, in_map, normal), "Eq. 8.7");
+}
+
 /// A fragment's normal, perturbed by the map.
 ///
 /// @param normal  Interpolated, not yet scaled.
@@ -96,10 +104,15 @@ Vec3<F> normal_mapped(const NormalMapInputs<G>& map, const PerspectiveBarycentri
                       Vec3<F> normal, Filter filter) {
     if (map.texture == nullptr) return normal;
     count_each<F>(Counter::normal_map_samples);
+    trace("normal, interpolated", normal, "Eq. 5.1");
+    label_sample("normal map");
     Vec3<F> in_map = sample_normal(*map.texture, filter, fragment_uv(map.uvs, at));
+    trace("  normal of the map", in_map, "Eq. 8.1");
     if (map.space == MapSpace::object) return F(map.side) * in_map;
     const F bump(map.bump_multiplier);
     if (map.bump_multiplier != 1) in_map.x *= bump, in_map.y *= bump;
+    if constexpr (has_probe)
+        if (is_traced()) note_perturbed(frame_at(map, at.here, normal), in_map, normal);
     return perturbed(frame_at(map, at.here, normal), in_map, normal);
 }
 

@@ -9,7 +9,6 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "09_shadow_maps/assets.hpp"
-#include "09_shadow_maps/probe.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -65,7 +64,6 @@ static Image<vec3> render(const ShadowSceneOptions& options, const ShadowAssets&
 }
 
 int main(int argc, char** argv) {
-    return run_lesson<ShadowSceneOptions>(argc, argv, "09_shadow_maps",
-                                          "Draws a scene with shadow maps.", load_shadow_scene,
-                                          render, [](auto&... of) { return shadow_probe(of...); });
+    return run_lesson<ShadowSceneOptions>(
+        argc, argv, "09_shadow_maps", "Draws a scene with shadow maps.", load_shadow_scene, render);
 }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/trigonometric.hpp>
@@ -158,6 +159,7 @@ ShadowMaps draw_shadow_maps(const ShadowOptions& options, const ShadowScene& of,
         maps += of_light.maps.size();
         for (ShadowMap& map : of_light.maps) {
             count(Counter::shadow_passes);
+            const Untraced shadow_map;
             draw(map, of_light.is_drawn);
         }
     }
@@ -226,6 +228,29 @@ class ShadowBiasCache {
     std::size_t last_ = 0;
 };
 
+/// Notes for `--probe` which depths a shadow test compares.
+[[gnu::cold, gnu::noinline]] inline void note_shadow_test(const ShadowMap& map, float bias,
+                                                          PcfKernel kernel, int radius, float faded,
+                                                          float lit) {
+    if (!kernel.is_in_map)
+        return trace("  visibility", words(faded * lit) + ": outside of the shadow map");
+    const float in_map = map.depths.depths()[kernel.middle + max_pcf_radius];
+    const float depth = std::max(kernel.depth, DepthBuffer::cleared);
+    const int side = 2 * radius + 1;
+    const std::string size = std::to_string(map.size);
+    trace("  shadow map", "texel " + words(kernel.middle) + " of " + size + 'x' + size, "Eq. 9.6");
+    trace("  bias", bias, "Eq. 9.10");
+    trace(
+        "  depths compared",
+        words(depth, 7) + (depth >= in_map ? " is not behind " : " is behind ") + words(in_map, 7),
+        "Eq. 9.7");
+    trace("  taps that say lit",
+          std::to_string(std::lrint(lit * static_cast<float>(side * side))) + " of " +
+              std::to_string(side * side),
+          "Eq. 9.13");
+    trace("  visibility", faded * lit, "Eq. 9.16");
+}
+
 /// A surface gets all of a light from this cosine on; from there to 0, where it turns away, less
 /// and less (Eq. 9.16). A normal map may still tilt the normal towards the light, but the surface
 /// is in shadow.
@@ -243,16 +268,25 @@ template <typename Before>
 float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, ShadowBiasCache& triangle,
                        vec3 position, vec3 normal, const Before& before) {
     const LightShadowMaps& of_light = shadow_maps.of_light[l];
-    if (of_light.maps.empty()) return 1;
+    if (of_light.maps.empty()) {
+        trace("  visibility", "1: the light casts no shadows");
+        return 1;
+    }
     const vec3 from_light = position - of_light.light.position_world;
     const vec3 toward_light = of_light.light.kind == LightKind::directional
                                   ? of_light.light.direction_world
                                   : unit_or(-from_light, vec3(0, 1, 0));
     const float cosine = glm::dot(unit_or(normal, vec3(0)), toward_light);
-    if (!(cosine > 0)) return of_light.is_drawn ? 0.0f : 1.0f;
+    if (!(cosine > 0)) {
+        trace("  visibility", "0: the surface is turned away");
+        return of_light.is_drawn ? 0.0f : 1.0f;
+    }
     const std::size_t i = of_light.map_of_view[of_light.has_faces ? cube_face(from_light) : 0];
     const float faded = of_light.is_drawn ? min(cosine / full_cosine, 1.0f) : 1.0f;
-    if (i == LightShadowMaps::no_map) return faded;
+    if (i == LightShadowMaps::no_map) {
+        if (is_traced()) trace("  visibility", words(faded) + ": outside of the shadow map");
+        return faded;
+    }
     count(Counter::shadow_tests);
     const ShadowMap& map = of_light.maps[i];
     const bool is_back = glm::dot(triangle.front(), dvec3(normal)) < 0;
@@ -260,7 +294,10 @@ float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, ShadowBiasC
                                               shadow_maps.radius, is_back);
     const PcfKernel kernel = pcf_kernel(map, bias, position);
     if (kernel.is_in_map) before(of_light.first_map + i, kernel);
-    return faded * pcf_visibility(map, shadow_maps.radius, kernel);
+    const float lit = pcf_visibility(map, shadow_maps.radius, kernel);
+    if constexpr (has_probe)
+        if (is_traced()) note_shadow_test(map, bias.bias, kernel, shadow_maps.radius, faded, lit);
+    return faded * lit;
 }
 
 /// How much of a light reaches a point of a triangle, by maps that are drawn.

@@ -4,7 +4,6 @@
 #include "04_mvp/camera.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
-#include "09_shadow_maps/probe.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/threaded_shadows.hpp"
@@ -73,9 +72,7 @@ static Image<vec3> render(const ThreadedSceneOptions& options, const ShadowAsset
 int main(int argc, char** argv) {
     return run_lesson<ThreadedSceneOptions>(
         argc, argv, "10_threading", "Draws the same picture with several threads.",
-        load_shadow_scene,
-        [](const auto& options, const auto& assets) {
+        load_shadow_scene, [](const auto& options, const auto& assets) {
             return render(options, assets, kept_pool(options.threads.threads));
-        },
-        [](auto&... of) { return shadow_probe(of...); });
+        });
 }

@@ -54,6 +54,7 @@ inline BinnedTriangles casters_of(Workers& pool, const ShadowMap& map, const Sce
         return casts_shadows(scene.materials[material]);
     };
     const Uncounted casters;
+    const Untraced them;
     return {pool, scene, meshes, map.clip_from_world, tiling, Culling::none, casts, set_up};
 }
 
@@ -71,6 +72,7 @@ inline void draw_caster(ShadowMap& map, const ProjectedTriangle& caster, const T
 inline void draw_tile(ShadowMap& map, const BinnedTriangles& casters, const Tiling& tiling,
                       std::size_t i) {
     const Tile tile = tiling[i];
+    const Untraced casters_alone;
     clear_tile(map, tile);
     casters.for_each_in(i,
                         [&](const ProjectedTriangle& caster) { draw_caster(map, caster, tile); });

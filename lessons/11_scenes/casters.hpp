@@ -52,6 +52,7 @@ inline void draw_caster_with_holes(ShadowMap& map, const Casters& casters,
 /// Clears a tile of a map, and draws the casters that are binned there.
 inline void draw_tile(ShadowMap& map, const Casters& casters, const Tiling& tiling, std::size_t i) {
     const Tile tile = tiling[i];
+    const Untraced casters_alone;
     clear_tile(map, tile);
     casters.triangles.for_each_in(i, [&](const ProjectedTriangle& caster) {
         if (casters.has_holes(caster))

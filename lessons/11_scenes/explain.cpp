@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "common/probe/pixel_report.hpp"
+#include "common/probe/pixel_trace.hpp"
 
 namespace rasterbook {
 

@@ -9,7 +9,6 @@
 
 #include "10_threading/thread_options.hpp"
 #include "11_scenes/explain.hpp"
-#include "11_scenes/probe.hpp"
 #include "11_scenes/scene_assets.hpp"
 #include "11_scenes/scene_camera.hpp"
 #include "common/app/lesson_app.hpp"
@@ -33,8 +32,7 @@ int run_scene_lesson(int argc, char** argv, std::string name, std::string title,
                 explain(assets.scene, assets.plan, camera_of_picture(options, assets.scene).name,
                         lights_in_words(assets.lit_by, assets.plan), clock);
             return picture;
-        },
-        [](const auto&... of) { return scene_probe(of...); });
+        });
 }
 
 }  // namespace rasterbook

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +23,7 @@
 #include "11_scenes/blending.hpp"
 #include "11_scenes/permutation.hpp"
 #include "11_scenes/scene_assets.hpp"
+#include "11_scenes/toon_material.hpp"
 
 namespace rasterbook {
 
@@ -120,6 +123,20 @@ TriangleInputs triangle_inputs(const Permutation& with, const Frame<Maps>& frame
             ShadowBiasCache(surface.positions_world)};
 }
 
+/// Notes for `--probe` how much of each light counts for a toon material, before shadows.
+template <typename F>
+void trace_toon_lights(std::span<const Light> lights, const Vec3<F>& position_world,
+                       const Vec3<F>& normal, const ToonMaterial& look) {
+    if (!is_traced()) return;
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+        const Incoming<F> incoming = incoming_light(lights[l], position_world);
+        const F cosine = glm::dot(unit_or(normal, Vec3<F>(F(0.0f))), incoming.toward);
+        trace(("light " + std::to_string(l + 1)).c_str(), incoming.color);
+        trace("  cosine", cosine, "Eq. 6.1");
+        trace("  step", toon_step(cosine, look), "Eq. 11.4");
+    }
+}
+
 /// The colour of a fragment: the stages of lessons 05 to 11, without those that the permutation
 /// lacks.
 ///
@@ -133,7 +150,9 @@ Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBaryce
     FragmentColor<F> own = surface_color(surface, at, in_texture, frame.filter);
     if (inputs.colors.are_there) {  // Eq. 11.10
         count_each<F>(Counter::colored_fragments);
-        own.tint(Vec3<F>(inputs.colors.at(at.here)));
+        const Vec3<F> of_vertices(inputs.colors.at(at.here));
+        trace("colour of vertices", of_vertices, "Eq. 11.10");
+        own.tint(of_vertices);
     }
     if constexpr (with.model == ShadingModel::unlit) {
         return unlit(own);
@@ -155,8 +174,12 @@ Vec3<F> shaded(const Frame<Maps>& frame, Inputs& inputs, const PerspectiveBaryce
                          reflected_light(lights, point, highlight_of(surface), visibility));
         } else {
             count_each<F>(Counter::toon_fragments);
+            trace_toon_lights(lights, point.position_world, normal, *surface.material.toon);
             const F level = toon_level(lights, point.position_world, normal, *surface.material.toon,
                                        visibility);
+            trace("shade", own.ambient);
+            trace("lit", own.diffuse);
+            trace("level", level, "Eq. 11.5");
             return own.emission + toon_paint(own.ambient, own.diffuse, level);
         }
     }
@@ -174,6 +197,7 @@ void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, con
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         count(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
+        trace_depth(frame.depth.depths()[pixel], depth);
         if (!(depth > frame.depth.depths()[pixel])) return;
         const FragmentBarycentrics at = perspective_correct(triangle.setup, on_screen);
         const vec4 in_texture = texture_sample(triangle.surface, at, frame.filter);
@@ -182,13 +206,15 @@ void draw_triangle(const Frame<>& frame, const ProjectedTriangle& projected, con
             opacity = opacity_at(triangle.surface, triangle.colors, at.here, in_texture);
         if (is_masked) {
             count(Counter::alpha_tested_fragments);
-            if (!passes_alpha_test(opacity, triangle.surface.material.alpha_cutoff)) return;
+            if (!passes_alpha_test(opacity, triangle.surface.material.alpha_cutoff))
+                return trace_hole(opacity, triangle.surface.material.alpha_cutoff);
             opacity = 1;
         }
         count(Counter::fragments_shaded);
         const vec3 color = shaded<with>(frame, triangle, at, vec3(in_texture));
         if (is_blended) {  // what lies behind stays visible: no depth is written
             count(Counter::blended_fragments);
+            trace_blended(opacity, color);
             transparent.add({pixel, depth, opacity, color});
         } else {
             frame.depth.test_and_write(pixel, depth);

@@ -118,7 +118,7 @@ std::size_t project_triangles(const Mesh& mesh, std::span<const Triangle> triang
                 project_plain<N>(triangles.first(N), positions_clip, size);
             for (int i = 0; i < static_cast<int>(N); ++i) {
                 const auto one = triangles.subspan(static_cast<std::size_t>(i), 1);
-                if (!is_plain[i]) {
+                if (!is_plain[i] || is_probing()) {
                     culled +=
                         project_triangles(mesh, one, positions_clip, size, culling, projected);
                     continue;

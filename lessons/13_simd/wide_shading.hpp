@@ -31,6 +31,12 @@
 
 namespace rasterbook {
 
+/// Notes for `--probe` that depths are compared, of as many pixels of a row as F has numbers.
+template <typename F>
+void trace_lane_depth(TileDepths& depths, ivec2 pixel, const F& depth) {
+    if (is_traced()) trace_depth(depths.from(pixel)[pixel_trace->lane], traced_lane(depth));
+}
+
 /// Visits the fragments of a triangle in a tile that are nearer than what is there, but for holes.
 ///
 /// @param visit  Called as visit(first_pixel, nearer, on_screen, depth, opacity, in_texture): for
@@ -45,10 +51,14 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
     const MaterialPlan& plan = frame.assets.plan.materials[projected.triangle.material];
     const bool is_masked = plan[Effect::mask];
     const AlphaInputs inputs = alpha_inputs(frame.assets, projected);
+    const TracedFill traced(projected.on_screen.vertices);
     fill_tile<F>(
         projected.on_screen, tile, [&](ivec2 pixel, MaskOf<F> covered, const Vec3<F>& on_screen) {
+            const TracedFragment fragment(traced, pixel, width_of<F>,
+                                          [&](int i) { return lane_of(covered, i); });
             count_where(Counter::fragments_tested, covered);
             const F depth = depth_at<F>(projected.depth, on_screen);
+            trace_lane_depth(depths, pixel, depth);
             MaskOf<F> nearer = covered & (depth > load<F>(depths.from(pixel)));
             if (!any_of(nearer)) return;
             fragments_at_once = static_cast<std::uint64_t>(count_of(nearer));
@@ -59,7 +69,10 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
                 opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
             if (is_masked) {
                 count_where(Counter::alpha_tested_fragments, nearer);
-                nearer = nearer & passes_alpha_test(opacity, inputs.surface.material.alpha_cutoff);
+                const float cutoff = inputs.surface.material.alpha_cutoff;
+                nearer = nearer & passes_alpha_test(opacity, cutoff);
+                if (is_traced() && !lane_of(nearer, pixel_trace->lane))
+                    trace_hole(traced_lane(opacity), cutoff);
                 opacity = F(1.0f);
             }
             visit(pixel, nearer, on_screen, depth, opacity, Vec3<F>(in_texture));
@@ -87,10 +100,15 @@ void draw_id(const Frame<Maps>& frame, const ProjectedTriangle& projected, const
             });
     else {
         LaneSum<F> tested;
+        const TracedFill traced(projected.on_screen.vertices);
         fill_tile<F>(projected.on_screen, tile,
                      [&](ivec2 pixel, MaskOf<F> covered, const Vec3<F>& on_screen) {
+                         const TracedFragment fragment(traced, pixel, width_of<F>,
+                                                       [&](int i) { return lane_of(covered, i); });
                          tested.add(covered);
-                         write(pixel, covered, depth_at<F>(projected.depth, on_screen));
+                         const F depth = depth_at<F>(projected.depth, on_screen);
+                         trace_lane_depth(depths, pixel, depth);
+                         write(pixel, covered, depth);
                      });
         count(Counter::fragments_tested, tested.total());
     }
@@ -185,7 +203,10 @@ void draw_transparent(const Frame<ShadowMapsOnDemand>& frame, const ProjectedTri
                 heat.add(pixel);
             }
         });
-    shader_of<F>(frame, projected).shade_fragments(frame, projected, fragments);
+    shade_traced(projected.on_screen.vertices, std::span(fragments),
+                 [&](std::span<FragmentToShade> some) {
+                     shader_of<F>(frame, projected).shade_fragments(frame, projected, some);
+                 });
     for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
 }
 
@@ -261,14 +282,24 @@ template <typename F>
 void shade_visible(const Frame<ShadowMapsOnDemand>& frame, VisibilityBuffer& visible, Show show,
                    HeatMap& heat) {
     if constexpr (width_of<F> > 1)
-        if (show == Show::picture && fill_flat<F>(frame, visible)) return visible.clear();
+        if (show == Show::picture && !is_probing() && fill_flat<F>(frame, visible))
+            return visible.clear();
     std::vector<VisibleTriangle> triangles;
     visible.take_visible([&](const ProjectedTriangle& triangle, std::span<const PixelSpan> spans) {
         triangles.push_back({&triangle, spans});
     });
     for (auto begin = triangles.begin(), end = begin; begin != triangles.end(); begin = end) {
+        const WideShader shader = shader_of<F>(frame, *begin->triangle);
         while (end != triangles.end() && are_alike(*begin->triangle, *end->triangle)) ++end;
-        shader_of<F>(frame, *begin->triangle).shade_pixels(frame, {begin, end});
+        if (!is_probing()) {
+            shader.shade_pixels(frame, {begin, end});
+            continue;
+        }
+        for (const auto& [triangle, spans] : std::span(begin, end))
+            shade_traced(triangle->on_screen.vertices, spans, [&](auto some) {
+                const VisibleTriangle alone{triangle, some};
+                shader.shade_pixels(frame, {&alone, 1});
+            });
     }
     for (const auto& [triangle, spans] : triangles)
         for (const PixelSpan& span : spans) {

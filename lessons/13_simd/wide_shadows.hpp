@@ -168,6 +168,17 @@ Mask<N> is_behind(dvec3 front, const Vec3<Floats<N>>& normal) {
         __builtin_convertvector(product(0) + product(1) + product(2) < 0, Vector<std::int32_t, N>)};
 }
 
+/// Notes for `--probe` how much of a light reaches one of several points.
+template <int N>
+void trace_lane(const ShadowMapsOnDemand& on_demand, std::size_t l,
+                const LaneBiasCaches<N>& triangles, const Vec3<Floats<N>>& position,
+                const Vec3<Floats<N>>& normal) {
+    if (!is_traced()) return;
+    const int slot = triangles.slot_of_lane[pixel_trace->lane];
+    light_visibility(on_demand, l, *triangles.of_slot[static_cast<std::size_t>(slot)],
+                     traced_lane(position), traced_lane(normal));
+}
+
 /// How much of a light reaches several points, 0 to 1 each. All points that are in one map are
 /// asked for together; mostly that is all of them.
 ///
@@ -177,6 +188,7 @@ Floats<N> light_visibility(const ShadowMapsOnDemand& on_demand, std::size_t l,
                            const LaneBiasCaches<N>& triangles, const Vec3<Floats<N>>& position,
                            const Vec3<Floats<N>>& normal, Mask<N> asked) {
     using F = Floats<N>;
+    trace_lane(on_demand, l, triangles, position, normal);
     const ShadowMaps& shadow_maps = on_demand.maps();
     const LightShadowMaps& of_light = shadow_maps.of_light[l];
     if (of_light.maps.empty()) return F(1.0f);

@@ -183,6 +183,14 @@ template <int N>
     return color;
 }
 
+/// Notes for `--probe` how one of several fragments samples a texture.
+template <int N>
+void trace_lane(const Texture& texture, Filter filter, const TextureCoordinates<Floats<N>>& uv) {
+    if (is_traced())
+        sample(texture, filter,
+               FragmentUv{traced_lane(uv.here), traced_lane(uv.ddx), traced_lane(uv.ddy)});
+}
+
 /// A texture's colours and alphas in several fragments. Structs of vectors are passed to functions
 /// through memory, and that may take longer than the function itself. `flatten` inlines all that is
 /// called here, and all that those call.
@@ -190,6 +198,8 @@ template <int N>
 [[gnu::flatten]] glm::vec<4, Floats<N>> sample(const Texture& texture, Filter filter,
                                                const TextureCoordinates<Floats<N>>& uv) {
     using F = Floats<N>;
+    trace_lane(texture, filter, uv);
+    const Untraced others;
     if (has_own_filter(texture)) return sample_one_by_one(texture, filter, uv);
     const F x = wrapped(uv.here.x, texture.wrap.u);
     const F y = F(1.0f) - wrapped(uv.here.y, texture.wrap.v);

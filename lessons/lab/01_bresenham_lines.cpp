@@ -50,8 +50,11 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
 
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>("lab_01_bresenham_lines", "Other lines for lesson 01.",
-                                       just_the_scene<Options>, render);
+        LessonProgram program =
+            lesson_program<Options>("lab_01_bresenham_lines", "Other lines for lesson 01.",
+                                    just_the_scene<Options>, render);
+        program.fills_triangles = false;
+        return program;
     };
     return run_lab(make, "--line bresenham", argc, argv);
 }

@@ -4,7 +4,6 @@
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
-#include "03_z_buffer/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"
@@ -30,15 +29,12 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
         for (const Triangle& triangle : mesh.triangles) {
-            count(Counter::triangles_in);
             const vec3 a = positions_screen[triangle.vertices[0].position];
             const vec3 b = positions_screen[triangle.vertices[1].position];
             const vec3 c = positions_screen[triangle.vertices[2].position];
             const ScreenTriangle on_screen = snap_triangle(a, b, c);
-            if (!is_front_facing(on_screen)) {
-                count(Counter::triangles_culled_by_facing);
-                continue;
-            }
+            count_triangle(mesh, triangle, on_screen);
+            if (!is_front_facing(on_screen)) continue;
             const vec3 face_color = flat_color(mesh, triangle, scene.materials[triangle.material]);
             const TriangleDepth triangle_depth(vec3(a.z, b.z, c.z));
             fill_triangle(on_screen, options.size, [&](ivec2 pixel, vec3 barycentrics) {
@@ -56,12 +52,9 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
 
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>(
-            "lab_03_z_buffer", "Other formats for depths, for lesson 03.", just_the_scene<Options>,
-            render,
-            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
-                return options.depth != DepthMethod{} ? PixelProbe() : depth_probe(options, assets);
-            });
+        return lesson_program<Options>("lab_03_z_buffer",
+                                       "Other formats for depths, for lesson 03.",
+                                       just_the_scene<Options>, render);
     };
     return run_lab(make, "--format float --range 1", argc, argv);
 }

@@ -6,7 +6,6 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/instance.hpp"
-#include "04_mvp/probe.hpp"
 #include "04_mvp/projection.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -59,15 +58,8 @@ static Image<vec3> render(const Options& options, const Scene& scene) {
 
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>(
-            "lab_04_mvp", "Other numbers and clipping, for lesson 04.", just_the_scene<Options>,
-            render,
-            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
-                return options.mvp != MvpMethod{}
-                           ? PixelProbe()
-                           : mvp_probe(options, assets,
-                                       instances_of(assets, world_from_pot(options.turn_degrees)));
-            });
+        return lesson_program<Options>("lab_04_mvp", "Other numbers and clipping, for lesson 04.",
+                                       just_the_scene<Options>, render);
     };
     return run_lab(make, "--precision double --offset 0 --clip six --view camera", argc, argv);
 }

@@ -7,7 +7,6 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
 #include "05_textures/load_textures.hpp"
-#include "05_textures/probe.hpp"
 #include "05_textures/textures.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
@@ -57,12 +56,9 @@ static Image<vec3> render(const Options& options, const TexturedScene& assets) {
 
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>(
-            "lab_05_textures", "Other mappings and filters, for lesson 05.", load_textured_scene,
-            render,
-            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
-                return options.method.mapping != 1 ? PixelProbe() : texture_probe(options, assets);
-            });
+        return lesson_program<Options>("lab_05_textures",
+                                       "Other mappings and filters, for lesson 05.",
+                                       load_textured_scene, render);
     };
     return run_lab(make, "--mapping perspective --filter trilinear --srgb decoded", argc, argv);
 }

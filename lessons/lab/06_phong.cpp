@@ -6,7 +6,6 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
 #include "06_phong/assets.hpp"
-#include "06_phong/probe.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "common/app/lesson_app.hpp"
@@ -66,12 +65,8 @@ static Image<vec3> render(const Options& options, const PhongAssets& assets) {
 
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>(
-            "lab_06_phong", "Other ways to light, for lesson 06.", load_phong_scene, render,
-            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
-                return options.method != ShadingMethod{} ? PixelProbe()
-                                                         : phong_probe(options, assets);
-            });
+        return lesson_program<Options>("lab_06_phong", "Other ways to light, for lesson 06.",
+                                       load_phong_scene, render);
     };
     return run_lab(make, "--shading phong --highlight phong --power double --normals exact", argc,
                    argv);

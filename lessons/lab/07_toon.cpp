@@ -8,7 +8,6 @@
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "07_toon/assets.hpp"
-#include "07_toon/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/toon_methods.hpp"
@@ -78,12 +77,9 @@ static Image<vec3> render(const Options& options, const ToonAssets& assets) {
 
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>(
-            "lab_07_toon", "Tones with smooth borders, and outlines, for lesson 07.",
-            load_toon_scene, render,
-            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
-                return options.smooth ? PixelProbe() : toon_probe(options, assets);
-            });
+        return lesson_program<Options>("lab_07_toon",
+                                       "Tones with smooth borders, and outlines, for lesson 07.",
+                                       load_toon_scene, render);
     };
     return run_lab(make, "--smooth yes --outline edges", argc, argv);
 }

@@ -9,7 +9,6 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/assets.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
-#include "08_normal_maps/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/normal_map_methods.hpp"
@@ -71,13 +70,9 @@ static Image<vec3> render(const Options& options, const NormalMapAssets& assets)
 
 int main(int argc, char** argv) {
     const auto make = [] {
-        return lesson_program<Options>(
-            "lab_08_normal_maps", "Other frames and ways to store normals, for lesson 08.", load,
-            render,
-            [](const auto& options, const auto& assets) {  // of the lesson's own method alone
-                return options.method != NormalMapMethod{} ? PixelProbe()
-                                                           : normal_map_probe(options, assets);
-            });
+        return lesson_program<Options>("lab_08_normal_maps",
+                                       "Other frames and ways to store normals, for lesson 08.",
+                                       load, render);
     };
     return run_lab(make,
                    "--frame vertex --orthonormal pixels --handedness uvs --normal-format unorm "

@@ -147,7 +147,7 @@ template <std::invocable<ivec2, vec3> Emit>
 void fill(const FillMethod& method, const ScreenTriangle& on_screen,
           const std::array<dvec2, 3>& vertices, ivec2 size, Emit&& emit) {
     if (is_another_method(method))
-        fill_bounding_box_as(method, vertices, size, emit);
+        fill_bounding_box_as(method, vertices, size, traced(on_screen.vertices, emit));
     else
         fill_triangle(on_screen, size, emit);
 }

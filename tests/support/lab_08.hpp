@@ -12,7 +12,6 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/assets.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
-#include "08_normal_maps/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "lab/normal_map_methods.hpp"

@@ -6,7 +6,6 @@
 
 // All that main.cpp includes, so that what is left of it are its own lines.
 #include "02_triangle_fill/flat_color.hpp"
-#include "02_triangle_fill/probe.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"

@@ -8,7 +8,6 @@
 #include "02_triangle_fill/flat_color.hpp"
 #include "02_triangle_fill/triangle.hpp"
 #include "03_z_buffer/depth_buffer.hpp"
-#include "03_z_buffer/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/app/orthographic_view.hpp"
 #include "common/image/backdrop.hpp"

@@ -10,7 +10,6 @@
 #include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/instance.hpp"
-#include "04_mvp/probe.hpp"
 #include "04_mvp/projection.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"

@@ -11,7 +11,6 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
 #include "05_textures/load_textures.hpp"
-#include "05_textures/probe.hpp"
 #include "05_textures/textures.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"

@@ -12,7 +12,6 @@
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
 #include "06_phong/assets.hpp"
-#include "06_phong/probe.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "common/app/lesson_app.hpp"

@@ -15,7 +15,6 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/assets.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
-#include "08_normal_maps/probe.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"
 #include "support/run_no_lesson.hpp"

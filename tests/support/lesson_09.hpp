@@ -15,7 +15,6 @@
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
 #include "09_shadow_maps/assets.hpp"
-#include "09_shadow_maps/probe.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "common/app/lesson_app.hpp"
 #include "common/image/backdrop.hpp"

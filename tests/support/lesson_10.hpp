@@ -10,7 +10,6 @@
 #include "04_mvp/camera.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
-#include "09_shadow_maps/probe.hpp"
 #include "10_threading/binned_triangles.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"

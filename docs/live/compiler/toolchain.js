@@ -3,7 +3,7 @@
 //
 //   const toolchain = new Toolchain();
 //   await toolchain.load(({ bytes, of, what }) => ...);
-//   const { messages, log, program, whole } = await toolchain.compile("05_textures", { "main.cpp": text, ... });
+//   const { messages, log, program } = await toolchain.compile("05_textures", { "main.cpp": text, ... });
 //   const { messages, log, tiers, first } = await toolchain.test("05_textures", files, step);
 //
 // What goes wrong in the page rejects with an Error whose message is a sentence; what stop() ends,
@@ -14,7 +14,7 @@ const mostSeconds = { draw: 60, test: 30 };  // for a picture of a test, or a te
 const mostCompileSeconds = 300;
 
 const objectOf = (source) => `${source.replaceAll("/", "_")}.o`;
-const shared = ["docs/live/live_app.cpp", "common/app/empty_picture.cpp", "common/app/option_parser.cpp", "common/probe/pixel_report.cpp"].map(objectOf);
+const shared = ["docs/live/live_app.cpp", "common/app/empty_picture.cpp", "common/app/option_parser.cpp", "common/probe/pixel_trace.cpp"].map(objectOf);
 
 /** Where one compiles, links, draws or runs what the reader wrote; it can be ended at any time. */
 class Helper {
@@ -165,12 +165,7 @@ export class Toolchain {
     return this.compiled.answer(JSON.stringify([lesson, files]), () => this.compileAnew(lesson, files));
   }
 
-  /**
-   * What explains a pixel is compiled when it is asked for: until then, the program has the course's.
-   *
-   * @returns  Among others `program`, null where it does not compile, and `whole`, which returns a promise of
-   *           the program with all that is the reader's; null where `program` has it.
-   */
+  /** @returns  Among others `program`, null where it does not compile. */
   async compileAnew(lesson, files) {
     const isLesson = lesson in this.lessons;
     const main = isLesson ? `lessons/${lesson}/main.cpp` : `lessons/sandbox/main.cpp`;
@@ -188,13 +183,11 @@ export class Toolchain {
       return kept.answer(JSON.stringify([lesson, sources, level, used]), () => compile(free++, sources, level));
     };
     const changed = apart.filter((source) => uses[source]?.length > 0);  // the others are not needed, or compiled already
-    const isOfProbe = (source) => source.endsWith("/probe.cpp");
-    const soon = changed.filter((source) => !isOfProbe(source)), later = changed.filter(isOfProbe);
     // From lesson 06 on there is much to draw: what draws is optimised, apart from the rest. From lesson 11 on, that is not main.cpp.
     const draws = (source) => (source === main ? isLesson && lesson >= "06" && lesson < "11" : /(shaders|shadows)\.cpp$/.test(source));
-    const unlikeMain = soon.filter((source) => draws(source) !== draws(main));
-    const beside = unlikeMain.length > 0 ? unlikeMain : soon;  // on the other core
-    const parts = [[...soon.filter((source) => !beside.includes(source)), main], beside]
+    const unlikeMain = changed.filter((source) => draws(source) !== draws(main));
+    const beside = unlikeMain.length > 0 ? unlikeMain : changed;  // on the other core
+    const parts = [[...changed.filter((source) => !beside.includes(source)), main], beside]
       .filter((sources) => sources.length > 0)
       .map((sources, i) => object(this.objects[i], sources, draws(sources[0]) ? "-O1" : "-O0"));
     const all = Promise.all(parts);
@@ -204,20 +197,12 @@ export class Toolchain {
     const compiled = await all;
     const wrong = compiled.find((part) => !part.object);
     if (wrong) return { messages: wrong.messages, log: wrong.log, program: null };
-    const link = (compiled, which) => this.compilers[0].ask({
+    const { program, log } = await this.compilers[0].ask({
       task: "link", compiled: compiled.map((part) => part.object),
-      names: [...shared, ...this.apartOf(lesson).filter((source) => !which.includes(source)).map(objectOf)],
+      names: [...shared, ...this.apartOf(lesson).filter((source) => !changed.includes(source)).map(objectOf)],
       start: ["/objects/crt1-reactor.o", "--entry", "_initialize"],
     }, mostCompileSeconds);
-    const { program, log } = await link(compiled, soon);
-    const whole = async () => {
-      const probe = await compile(0, later, "-O0");
-      const { program = null } = probe.object ? await link([...compiled, probe], changed) : {};
-      const wrong = probe.messages.find(({ severity }) => severity === "error");
-      if (!program) throw new Error(`What explains a pixel does not compile with this${wrong ? `: ${wrong.file}:${wrong.line}: ${wrong.text}` : ""}.`);
-      return program;
-    };
-    return { messages: program ? messages : linkMessages(log), log, program, whole: later.length > 0 ? whole : null };
+    return { messages: program ? messages : linkMessages(log), log, program };
   }
 
   /** Files that include what is worth to be precompiled: the lesson's, and its tests. */

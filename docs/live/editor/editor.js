@@ -301,7 +301,7 @@ class Editor {
     const drawn = new Promise((resolve) => this.place.addEventListener("drawn", resolve, { once: true }));
     const tests = this.sandbox ? null : this.toolchain.test(...asked, this.step || null, drawn);
     tests?.catch(() => {});  // nobody may wait for them
-    const { messages, log, program, whole } = await compiled;
+    const { messages, log, program } = await compiled;
     if (isOld()) return;
     this.show(messages, log, program);
     const warnings = messages.filter(({ severity }) => severity === "warning").length;
@@ -313,7 +313,7 @@ class Editor {
     }
     const options = this.optionsToDraw();
     this.isNewStep = false;
-    await this.place.setProgram(program, options, whole);
+    await this.place.setProgram(program, options);
     if (isOld()) return;
     if (this.sandbox) return this.say(`Compiled${warned} in ${seconds()}.`, "right");
     this.say(`Compiled${warned} in ${seconds()}. Testing …`);

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "common/math/types.hpp"
+#include "common/probe/pixel_trace.hpp"
 
 namespace rasterbook {
 
@@ -105,7 +106,7 @@ void fill_triangle(const ScreenTriangle& triangle, ivec2 first, ivec2 last, Emit
 /// @param size  Width and height in pixels, each 0 to 2^22.
 template <std::invocable<ivec2, Barycentrics> Emit>
 void fill_triangle(const ScreenTriangle& triangle, ivec2 size, Emit&& emit) {
-    fill_triangle(triangle, ivec2(0), size - 1, emit);
+    fill_triangle(triangle, ivec2(0), size - 1, traced(triangle.vertices, emit));
 }
 
 }  // namespace rasterbook

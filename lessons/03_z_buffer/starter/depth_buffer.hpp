@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/image/image.hpp"
+#include "common/probe/pixel_trace.hpp"
 
 namespace rasterbook {
 
@@ -40,6 +41,7 @@ class DepthBuffer {
     ///
     /// Of equal depths the first stays: -0 equals 0. NaN is never nearer.
     bool test_and_write(ivec2 pixel, float depth) {
+        trace_depth(depths_[pixel], depth);
         // TODO: Eq. 3.1.
         return false;
     }
@@ -62,6 +64,7 @@ class TriangleDepth {
   public:
     /// @param depths  Of the three vertices, finite.
     explicit TriangleDepth(vec3 depths) : farthest_(0), above_farthest_(0) {
+        trace("depths of a, b, c", depths);
         // TODO: in step 1, for Eq. 3.2, above_farthest_ is the depths themselves, and farthest_
         // stays 0. In step 3, for Eq. 3.3, the smallest depth, and by how much each exceeds it.
     }

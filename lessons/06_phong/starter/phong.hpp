@@ -10,6 +10,7 @@
 #include "06_phong/light.hpp"
 #include "common/math/functions.hpp"
 #include "common/model/mesh.hpp"
+#include "common/probe/traced_light.hpp"
 
 namespace rasterbook {
 
@@ -85,10 +86,12 @@ template <typename F, typename Highlight, typename Visibility>
 LightSum<F> reflected_light(std::span<const Light> lights, const SurfacePoint<F>& point,
                             const Highlight& highlight, const Visibility& visibility) {
     LightSum<F> sum;
-    for (std::size_t l = 0; l < lights.size(); ++l)
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+        const TracedLight traced(l, lights[l], point, highlight, sum);
         add_light(
             sum, lights[l], point, [&](auto... mask) { return F(visibility(l, mask...)); },
             highlight);
+    }
     return sum;
 }
 
@@ -135,6 +138,7 @@ Vec3<F> unlit(const FragmentColor<F>& color) {
 /// @param light     0 to 10.
 template <typename F>
 Vec3<F> phong(const FragmentColor<F>& color, vec3 ambient, const LightSum<F>& light) {
+    trace_sum(ambient, light);
     // TODO: step 1, the diffuse term of Eq. 6.5; step 2, the others. Until then, the surface's own
     // colour.
     return unlit(color);

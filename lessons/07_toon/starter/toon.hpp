@@ -48,6 +48,8 @@ inline float level_of(int tone, int tones) {
 ///
 /// @param brightness,tones  As for tone_of().
 inline float quantised(float brightness, int tones) {
+    trace("brightness", brightness, "Eq. 7.1");
+    trace("tone", tone_of(brightness, tones), "Eq. 7.2");
     // TODO: the two above, one after the other.
     return 0;
 }
@@ -70,6 +72,7 @@ inline vec3 paint(const SurfaceColor& color, vec3 from_all_around, float level, 
 
 /// Whether a highlight can be seen in a fragment: what Phong's model would add is bright enough.
 inline bool is_highlight(const SurfaceColor& color, const ReflectedLight& light) {
+    trace("highlight", brightness(color.specular * light.specular), "Eq. 7.4");
     // TODO: the first half of Eq. 7.4.
     return false;
 }

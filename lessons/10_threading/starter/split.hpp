@@ -144,7 +144,7 @@ void for_each_strip(const Tile& tile, Visit&& visit) {
 template <typename Emit>
 void fill_tile(const ScreenTriangle& triangle, const Tile& tile, Emit&& emit) {
     for_each_strip(tile, box_around(triangle), [&](const PixelBox& strip) {
-        fill_triangle(triangle, strip.first, strip.last, emit);
+        fill_triangle(triangle, strip.first, strip.last, traced(triangle.vertices, emit));
     });
 }
 

@@ -42,6 +42,7 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
     fill_tile(projected.on_screen, tile, [&](ivec2 pixel, Barycentrics on_screen) {
         count(Counter::fragments_tested);
         const float depth = projected.depth.at(on_screen);
+        trace_depth(frame.depth.depths()[pixel], depth);
         if (!(depth > frame.depth.depths()[pixel])) return;
         const FragmentBarycentrics at = perspective_correct(inputs.setup, on_screen);
         const vec4 in_texture = texture_sample(inputs.surface, at, frame.filter);
@@ -50,7 +51,8 @@ void for_each_nearer_fragment(const Frame<Maps>& frame, const ProjectedTriangle&
             opacity = opacity_at(inputs.surface, inputs.colors, at.here, in_texture);
         if (is_masked) {
             count(Counter::alpha_tested_fragments);
-            if (!passes_alpha_test(opacity, inputs.surface.material.alpha_cutoff)) return;
+            if (!passes_alpha_test(opacity, inputs.surface.material.alpha_cutoff))
+                return trace_hole(opacity, inputs.surface.material.alpha_cutoff);
             opacity = 1;
         }
         visit(FragmentToShade{{pixel, depth, opacity, vec3(in_texture)}, on_screen});
@@ -132,7 +134,9 @@ template <typename Maps>
 void shade_visible(const Frame<Maps>& frame, const VisibleShaders<Maps>& shaders,
                    VisibilityBuffer& visible, Show show, HeatMap& heat) {
     visible.take_visible([&](const ProjectedTriangle& projected, std::span<const PixelSpan> spans) {
-        shaders[projected.triangle.material].shade_pixels(frame, projected, spans);
+        shade_traced(projected.on_screen.vertices, spans, [&](std::span<const PixelSpan> some) {
+            shaders[projected.triangle.material].shade_pixels(frame, projected, some);
+        });
         for (const PixelSpan& span : spans) heat.add(span);
         if (show == Show::ids)
             for (const PixelSpan& span : spans)
@@ -150,7 +154,10 @@ void draw_transparent(const Frame<Maps>& frame, const ProjectedTriangle& project
         fragments.push_back(nearer);
         heat.add(nearer.fragment.pixel);
     });
-    shaders[projected.triangle.material].shade_fragments(frame, projected, fragments);
+    shade_traced(projected.on_screen.vertices, std::span(fragments),
+                 [&](std::span<FragmentToShade> some) {
+                     shaders[projected.triangle.material].shade_fragments(frame, projected, some);
+                 });
     for (const FragmentToShade& shaded : fragments) transparent.add(shaded.fragment);
 }
 
