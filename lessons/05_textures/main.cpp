@@ -2,8 +2,6 @@
 /// @file
 /// Lesson 05: textures on the surfaces.
 #include "02_triangle_fill/flat_color.hpp"
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
 #include "04_mvp/projection.hpp"
 #include "05_textures/load_textures.hpp"

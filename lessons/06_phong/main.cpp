@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 06: light on the surfaces.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/projection.hpp"
 #include "06_phong/assets.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 07: light in tones, and outlines.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/projection.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "07_toon/assets.hpp"

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Lesson 09: shadows.
-#include "02_triangle_fill/triangle.hpp"
-#include "03_z_buffer/depth_buffer.hpp"
 #include "04_mvp/camera.hpp"
-#include "04_mvp/projection.hpp"
 #include "06_phong/studio_lights.hpp"
 #include "06_phong/surface.hpp"
 #include "08_normal_maps/normal_mapping.hpp"
