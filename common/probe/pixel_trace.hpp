@@ -229,19 +229,22 @@ void trace_position(const glm::vec<3, F>& position_world) {
 
 /// Notes that a fragment is blended over what lies behind.
 inline void trace_blended(float opacity, vec3 color) {
-    if (is_traced()) pixel_trace->blend(opacity, color);
+    if constexpr (has_probe)
+        if (is_traced()) pixel_trace->blend(opacity, color);
 }
 
 /// Notes that a fragment lies in a hole.
 inline void trace_hole(float opacity, float cutoff) {
-    if (is_traced())
-        pixel_trace->end_as("a hole: alpha " + words(opacity) + " is below " + words(cutoff) +
-                            " (Eq. 11.7)");
+    if constexpr (has_probe)
+        if (is_traced())
+            pixel_trace->end_as("a hole: alpha " + words(opacity) + " is below " + words(cutoff) +
+                                " (Eq. 11.7)");
 }
 
 /// Notes that a fragment's depth is compared with that in a depth buffer.
 inline void trace_depth(const float& nearest, float depth) {
-    if (is_traced()) note_depth(&nearest, depth);
+    if constexpr (has_probe)
+        if (is_traced()) note_depth(&nearest, depth);
 }
 
 /// What comes next is drawn over all before.

@@ -103,7 +103,8 @@ void trace_sample(const Texture& texture, Filter filter, const Uv& uv, vec2 posi
 
 /// Says what the texture is that is sampled next.
 inline void label_sample(const char* name) {
-    if (is_traced()) pixel_trace->label_next(name);
+    if constexpr (has_probe)
+        if (is_traced()) pixel_trace->label_next(name);
 }
 
 }  // namespace rasterbook

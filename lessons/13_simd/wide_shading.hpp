@@ -34,7 +34,8 @@ namespace rasterbook {
 /// Notes for `--probe` that depths are compared, of as many pixels of a row as F has numbers.
 template <typename F>
 void trace_lane_depth(TileDepths& depths, ivec2 pixel, const F& depth) {
-    if (is_traced()) trace_depth(depths.from(pixel)[pixel_trace->lane], traced_lane(depth));
+    if constexpr (has_probe)
+        if (is_traced()) trace_depth(depths.from(pixel)[pixel_trace->lane], traced_lane(depth));
 }
 
 /// Visits the fragments of a triangle in a tile that are nearer than what is there, but for holes.
