@@ -284,7 +284,8 @@ float light_visibility(const ShadowMaps& shadow_maps, std::size_t l, ShadowBiasC
     const std::size_t i = of_light.map_of_view[of_light.has_faces ? cube_face(from_light) : 0];
     const float faded = of_light.is_drawn ? min(cosine / full_cosine, 1.0f) : 1.0f;
     if (i == LightShadowMaps::no_map) {
-        if (is_traced()) trace("  visibility", words(faded) + ": outside of the shadow map");
+        if constexpr (has_probe)
+            if (is_traced()) trace("  visibility", words(faded) + ": outside of the shadow map");
         return faded;
     }
     count(Counter::shadow_tests);

@@ -179,6 +179,7 @@ inline VertexLighting light_vertices(const ShadingMethod& method, std::span<cons
         return result;
     }
     for (std::size_t i = 0; i < 3; ++i) {
+        trace("light at vertex", std::array{"a", "b", "c"}[i]);
         Barycentrics vertex(0);
         vertex[static_cast<int>(i)] = 1;
         light(i, vertex, surface.normals_world[i]);
