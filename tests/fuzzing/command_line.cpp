@@ -73,7 +73,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                            &options.threads.threads,
                            [&](OptionParser& parser) { options.declare(parser); },
                            {},
-                           {}},
+                           {},
+                           true},
                           static_cast<int>(arguments.size()), arguments.data());
     if (status)
         expect(*status == 0 || *status == 2);
