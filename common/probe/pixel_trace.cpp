@@ -228,7 +228,7 @@ std::string PixelTrace::in_words(const Image<vec3>& picture, int samples_per_sid
                     0, end) +
             seen(end) + blending(end);
     for (std::size_t i = 0; i < sections_.size(); ++i) {
-        const Section& section = sections_[i];
+        const TracedSection& section = sections_[i];
         const std::size_t last =
             i + 1 < sections_.size() ? sections_[i + 1].first : triangles_.size();
         text += '\n' + (section.lines.empty() ? history(section.title, section.first, last)

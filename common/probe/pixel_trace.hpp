@@ -43,6 +43,13 @@ struct TriangleInPixel {
     std::string lines{};            ///< What has been noted of it.
 };
 
+/// What is drawn over all triangles before, in one pixel.
+struct TracedSection {
+    std::string title;
+    std::size_t first;    ///< Of its triangles.
+    std::string lines{};  ///< What has been noted of it.
+};
+
 /// What happens in one pixel while a picture is drawn, by one thread.
 class PixelTrace {
   public:
@@ -128,13 +135,6 @@ class PixelTrace {
     /// Whether notes are taken from now on.
     void update();
 
-    /// What is drawn over all triangles before.
-    struct Section {
-        std::string title;
-        std::size_t first;  ///< Of its triangles.
-        std::string lines{};
-    };
-
     std::string history(const std::string& title, std::size_t begin, std::size_t end) const;
     std::string seen(std::size_t end) const;
     std::string blending(std::size_t end) const;
@@ -143,7 +143,7 @@ class PixelTrace {
     const Scene& scene_;
     std::vector<TriangleInPixel> triangles_;  ///< In drawing order.
     std::size_t current_ = none;
-    std::vector<Section> sections_;
+    std::vector<TracedSection> sections_;
     bool is_muted_ = false, is_of_section_ = false;
     const float* nearest_ = nullptr;  ///< In a depth buffer; null: no depth was compared.
     float before_ = 0;                ///< The depth there before.
