@@ -78,8 +78,8 @@ inline bool is_highlight(const SurfaceColor& color, const ReflectedLight& light)
 /// @param tones  1 to max_tones.
 inline vec3 toon(const SurfaceColor& color, vec3 from_all_around, const ReflectedLight& light,
                  int tones) {
-    return paint(color, from_all_around, quantised(brightness(light.diffuse), tones),
-                 is_highlight(color, light));
+    const float level = quantised(brightness(light.diffuse), tones);
+    return paint(color, from_all_around, level, is_highlight(color, light));
 }
 
 /// The facing ratio: 1 where a surface is seen from straight above, 0 at a silhouette (Eq. 7.6).
