@@ -220,11 +220,16 @@ inline vec3 normal_mapped(const NormalMapMethod& method, const NormalMapOf& map,
                           const FragmentBarycentrics& at, vec3 normal, Filter filter) {
     if (map.texture == nullptr) return normal;
     count(Counter::normal_map_samples);
+    trace("normal, interpolated", normal, "Eq. 5.1");
+    label_sample("normal map");
     vec3 in_map = sample_normal(*map.texture, filter, fragment_uv(map.uvs, at));
+    trace("  normal of the map", in_map, "Eq. 8.1");
     if (method.channels == Channels::xy) in_map = with_z(vec2(in_map));
     if (map.space == MapSpace::object) return map.side * in_map;
     if (map.bump_multiplier != 1) in_map.x *= map.bump_multiplier, in_map.y *= map.bump_multiplier;
-    return perturbed(frame_at(method, map, at.here, normal), in_map, normal);
+    const TangentBasis<float> frame = frame_at(method, map, at.here, normal);
+    if (is_traced()) note_perturbed(frame, in_map, normal);
+    return perturbed(frame, in_map, normal);
 }
 
 }  // namespace rasterbook
