@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What `--probe` notes of a triangle before it is filled.
+/// A triangle is counted for `--stats`, and noted for `--probe`, before it is filled.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -43,32 +42,31 @@ inline std::string why_not_covered(const ScreenTriangle& triangle, ivec2 pixel) 
 ///
 /// @param w         Of its vertices; none where there is no perspective.
 /// @param is_whole  Else clipping has cut it off.
-[[gnu::cold, gnu::noinline]] inline void note_triangle(PixelTrace& trace, const Mesh& mesh,
+[[gnu::cold, gnu::noinline]] inline void note_triangle(PixelTrace& notes, const Mesh& mesh,
                                                        const Triangle& triangle,
                                                        const ScreenTriangle& on_screen,
                                                        std::optional<vec3> w, bool is_whole) {
-    const ivec2 pixel = trace.pixel(), center = pixel * subpixels + subpixels / 2;
+    const ivec2 pixel = notes.pixel(), center = pixel * subpixels + subpixels / 2;
     const auto [a, b, c] = on_screen.vertices;
     const ivec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
     const bool is_in_box =
         low.x <= center.x && low.y <= center.y && center.x <= high.x && center.y <= high.y;
-    TriangleInPixel of{trace.name_of(mesh, triangle) + (is_whole ? "" : ", a clipped piece"),
+    if (!is_in_box) return notes.leave();
+    TriangleInPixel of{notes.name_of(mesh, triangle) + (is_whole ? "" : ", a clipped piece"),
                        on_screen.vertices, 1.0f / w.value_or(vec3(1)), is_front_facing(on_screen)};
-    if (!is_in_box) return trace.leave();
     fill_triangle(on_screen, pixel, pixel, [&](ivec2 filled, Barycentrics at) {
         if (filled == pixel) of.barycentrics = at;
     });
     if (!of.barycentrics) of.fate = why_not_covered(on_screen, pixel);
-    trace.add(of);
+    notes.add(of);
     if (!is_traced()) return;
     const auto in_pixels = [](ivec2 vertex) { return words(vec2(vertex) / float{subpixels}); };
-    if (w) rasterbook::trace("w of a, b, c", *w, "Eq. 4.8");
-    rasterbook::trace("vertices a, b, c, px",
-                      in_pixels(a) + ",  " + in_pixels(b) + ",  " + in_pixels(c), "Eq. 2.8");
-    rasterbook::trace("area, square px",
-                      static_cast<float>(on_screen.twice_area) / (2.0f * subpixels * subpixels),
-                      "Eq. 2.2");
-    rasterbook::trace("barycentrics", *of.barycentrics, "Eq. 2.4");
+    if (w) trace("w of a, b, c", *w, "Eq. 4.8");
+    trace("vertices a, b, c, px", in_pixels(a) + ",  " + in_pixels(b) + ",  " + in_pixels(c),
+          "Eq. 2.8");
+    trace("area, square px",
+          static_cast<float>(on_screen.twice_area) / (2.0f * subpixels * subpixels), "Eq. 2.2");
+    trace("barycentrics", *of.barycentrics, "Eq. 2.4");
 }
 
 inline void trace_triangle(const Mesh& mesh, const Triangle& triangle,
