@@ -3,7 +3,7 @@
 # Elsewhere the README names the packages, and the presets work by themselves.
 
 packages=(g++ cmake ninja-build libglm-dev libcli11-dev libpng-dev libstb-dev nlohmann-json3-dev libtinygltf-dev
-          libgtest-dev libtinyobjloader-dev)
+          libgtest-dev)
 
 set_up() {
     command -v dpkg-query >/dev/null || return 0

@@ -3,7 +3,6 @@
 // 05_textures_sampling_test.cpp and 05_textures_files_test.cpp.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -22,13 +21,12 @@
 #include "support/printers.hpp"
 #include "support/projected.hpp"
 #include "support/reference.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
 
 namespace {
-
-using lvec2 = glm::vec<2, real>;
 
 constexpr ivec2 small(64, 48);
 
@@ -41,18 +39,6 @@ ClippedTriangle whole(vec3 w) {
 /// A right angle in the picture's upper left corner, with sides of 8 pixels: the second vertex's
 /// barycentric coordinate is y / 8, the third one's x / 8.
 const ScreenTriangle eighths = snap_triangle({0, 0}, {0, 8}, {8, 0});
-
-/// A number and how fast it changes: the sum, product and quotient of two keep that exact.
-struct Changing {
-    real value = 0, change = 0;
-    Changing operator+(Changing b) const { return {value + b.value, change + b.change}; }
-    Changing operator*(Changing b) const {
-        return {value * b.value, change * b.value + value * b.change};
-    }
-    Changing operator/(Changing b) const {
-        return {value / b.value, (change - value / b.value * b.change) / b.value};
-    }
-};
 
 /// Twice the areas on the screen that belong to the vertices.
 std::array<int128, 3> areas(const ScreenTriangle& triangle, ivec2 pixel) {
@@ -67,37 +53,29 @@ struct ExactBarycentrics {
     std::array<lvec3, 2> of_sizes;  ///< What the steps would be if nothing in them cancelled.
 };
 
+real sum_of(lvec3 v) { return v.x + v.y + v.z; }
+
 /// The oracle for Eq. 5.2, 5.3 and 5.7: of the triangle and the piece as they are given.
 ExactBarycentrics exact_barycentrics(const ScreenTriangle& on_screen, const ClippedTriangle& piece,
                                      ivec2 pixel) {
-    ExactBarycentrics exact;
     const auto here = areas(on_screen, pixel);
+    const auto area = static_cast<real>(on_screen.twice_area);
+    lvec3 numerators(0);
+    std::array<lvec3, 2> steps{}, sizes{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const lvec3 over_w = lvec3(piece[k].barycentrics) / real{piece[k].position_clip.w};
+        numerators += static_cast<real>(here[k]) / area * over_w;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const auto next = areas(on_screen, pixel + ivec2(axis == 0, axis == 1));
+            const real step = static_cast<real>(next[k] - here[k]) / area;
+            steps[axis] += step * over_w, sizes[axis] += std::abs(step) * over_w;
+        }
+    }
+    const real sum = sum_of(numerators);
+    ExactBarycentrics exact{numerators / sum, {}, {}};
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        const auto next = areas(on_screen, pixel + (axis == 0 ? ivec2(1, 0) : ivec2(0, 1)));
-        std::array<Changing, 3> shares;
-        lvec3 sizes(0);
-        Changing sum;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto area = static_cast<real>(on_screen.twice_area);
-            const Changing on_screen_share = {static_cast<real>(here[k]) / area,
-                                              static_cast<real>(next[k] - here[k]) / area};
-            for (int i = 0; i < 3; ++i) {
-                const Changing share =
-                    on_screen_share *
-                    Changing{piece[k].barycentrics[i] / static_cast<real>(piece[k].position_clip.w),
-                             0};
-                shares[static_cast<std::size_t>(i)] = shares[static_cast<std::size_t>(i)] + share;
-                sum = sum + share;
-                sizes[i] += std::abs(share.change);
-            }
-        }
-        for (int i = 0; i < 3; ++i) {
-            const Changing coordinate = shares[static_cast<std::size_t>(i)] / sum;
-            exact.here[i] = coordinate.value;
-            exact.step[axis][i] = coordinate.change;
-            exact.of_sizes[axis][i] =
-                (sizes[i] + coordinate.value * (sizes.x + sizes.y + sizes.z)) / sum.value;
-        }
+        exact.step[axis] = (steps[axis] - exact.here * sum_of(steps[axis])) / sum;
+        exact.of_sizes[axis] = (sizes[axis] + exact.here * sum_of(sizes[axis])) / sum;
     }
     return exact;
 }
@@ -121,36 +99,29 @@ constexpr Tolerance of_piece = {11, 23};
 /// Whether derivatives are compared, too, of Eq. 5.7.
 enum class Compared { coordinates, derivatives_too };
 
+/// For EXPECT_TRUE: each component within its tolerance.
+testing::AssertionResult are_near(const char* name, vec3 actual, lvec3 exact, lvec3 tolerance) {
+    for (int i = 0; i < 3; ++i)
+        if (const auto result = is_near(actual[i], exact[i], tolerance[i]); !result)
+            return testing::AssertionFailure()
+                   << name << " = " << shown(actual) << " instead of " << shown(vec3(exact)) << "; "
+                   << name << "[" << i << "] is " << result.message();
+    return testing::AssertionSuccess();
+}
+
 /// For EXPECT_TRUE: barycentrics that are those of the oracle, and whose sum is 1.
-testing::AssertionResult are_near(const FragmentBarycentrics& barycentrics,
-                                  const ExactBarycentrics& exact, Tolerance tolerance,
-                                  Compared compared) {
-    const auto failure = [] { return testing::AssertionFailure(); };
-    const auto in_full = [](const char* name, vec3 actual, lvec3 expected) {
-        return std::string("; ") + name + " = " + shown(actual) + " instead of " +
-               shown(vec3(expected));
+testing::AssertionResult are_near(const FragmentBarycentrics& at, const ExactBarycentrics& exact,
+                                  Tolerance tolerance, Compared compared) {
+    // The sum: two sums, a quotient and a product, half an eps each.
+    auto result = is_near(sum_of(lvec3(at.here)), 1, 2 * eps) << " is the sum";
+    if (result)
+        result = are_near("here", at.here, exact.here, tolerance.coordinate * eps * exact.here);
+    if (!result || compared == Compared::coordinates) return result;
+    const auto of_step = [&](std::size_t axis) {
+        return tolerance.step * eps * exact.of_sizes[axis];
     };
-    for (int i = 0; i < 3; ++i) {
-        const auto here = is_near(barycentrics.here[i], exact.here[i],
-                                  tolerance.coordinate * eps * exact.here[i]);
-        if (!here)
-            return failure() << "here[" << i << "] is " << here.message()
-                             << in_full("here", barycentrics.here, exact.here);
-        if (compared == Compared::coordinates) continue;
-        const vec3 steps[] = {barycentrics.ddx, barycentrics.ddy};
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            const auto step = is_near(steps[axis][i], exact.step[axis][i],
-                                      tolerance.step * eps * exact.of_sizes[axis][i]);
-            if (!step)
-                return failure() << "dd" << "xy"[axis] << "[" << i << "] is " << step.message()
-                                 << in_full(axis == 0 ? "ddx" : "ddy", steps[axis],
-                                            exact.step[axis])
-                                 << in_full("here", barycentrics.here, exact.here);
-        }
-    }
-    return is_near(real{barycentrics.here.x} + barycentrics.here.y + barycentrics.here.z, 1,
-                   2 * eps)
-           << " is the sum";  // two sums, a quotient and a product, half an eps each
+    result = are_near("ddx", at.ddx, exact.step[0], of_step(0));
+    return result ? are_near("ddy", at.ddy, exact.step[1], of_step(1)) : result;
 }
 
 /// Seeded triangles on the screen, seen from the front.
@@ -185,17 +156,11 @@ class AnyTriangle {
     std::mt19937 random_;
 };
 
-/// The piece's w, and what it has of the whole triangle, if it was cut.
 std::string described(const ClippedTriangle& piece) {
-    std::string text = "w = ", cut;
-    for (const ClippedVertex& vertex : piece) {
-        text += (&vertex == &piece[0] ? "" : ", ") + shown(vertex.position_clip.w);
-        cut += (&vertex == &piece[0] ? "" : ", ") + shown(vertex.barycentrics);
-    }
-    const bool is_whole = piece[0].barycentrics == vec3(1, 0, 0) &&
-                          piece[1].barycentrics == vec3(0, 1, 0) &&
-                          piece[2].barycentrics == vec3(0, 0, 1);
-    return text + (is_whole ? " (not cut)" : "; a piece whose vertices have " + cut);
+    std::string text = "a piece of";
+    for (const auto& [position_clip, barycentrics] : piece)
+        text += " w = " + shown(position_clip.w) + " at " + shown(barycentrics);
+    return text;
 }
 
 /// Compares every pixel of a triangle with the oracle.
@@ -244,13 +209,6 @@ TEST(Textures, Eq5_1_ExampleOfASum) {
     EXPECT_EQ(interpolate(std::array{vec2(0, 0), vec2(1, 0), vec2(1, 1)}, barycentrics),
               vec2(0.5f, 0.25f))
         << "with the barycentric coordinates 1/2, 1/4 and 1/4";
-    const std::array vertices = {vec3(1, 2, 3), vec3(4, 5, 6), vec3(7, 8, 10)};
-    for (int i = 0; i < 3; ++i) {
-        vec3 only(0);
-        only[i] = 1;
-        EXPECT_EQ(interpolate(vertices, only), vertices[static_cast<std::size_t>(i)])
-            << "with the barycentric coordinates " << shown(only);
-    }
 }
 
 TEST(Textures, Eq5_1_SumsOfAllSizes) {
@@ -280,22 +238,6 @@ TEST(Textures, Eq5_2_HalfwayOnTheScreenIsNotHalfwayOnTheSurface) {
         << "s = (1/4, 1/2, 1/4), w = 1, 3, 3";
 }
 
-TEST(Textures, Eq5_2_VerticesKeepTheirOwn) {
-    AnyTriangle any(2);
-    for (int i = 0; i < 1000; ++i) {
-        const vec3 w(any.of_sizes(1e-6f, 1e6f), any.of_sizes(1e-6f, 1e6f),
-                     any.of_sizes(1e-6f, 1e6f));
-        const PerspectiveSetup setup = perspective_setup(any.on_screen(), whole(w));
-        for (int vertex = 0; vertex < 3; ++vertex) {
-            vec3 only(0);
-            only[vertex] = 1;
-            ASSERT_TRUE(are_near(perspective_correct(setup, only).here, dvec3(only),
-                                 static_cast<double>(eps)))
-                << "seed 2, case " << i << ": s = " << shown(only) << ", w = " << shown(w);
-        }
-    }
-}
-
 TEST(Textures, Eq5_2_HardCase_WOfAllOrdersInOneTriangle) {
     AnyTriangle any(3);
     int pixels = 0;
@@ -314,103 +256,51 @@ TEST(Textures, HardCase_EqualWLeavesTheBarycentricsOnTheScreen) {
     look_up("Eq. 5.2: what is the same in all shares can be cancelled");
     AnyTriangle any(4);
     for (int i = 0; i < 300; ++i) {
-        const float w = any.of_sizes(1e-38f, 1e38f);
-        const ScreenTriangle on_screen = any.on_screen();
-        const PerspectiveSetup setup = perspective_setup(on_screen, whole(vec3(w)));
-        fill_triangle(on_screen, small, [&](ivec2, vec3 screen_barycentrics) {
-            const vec3 here = perspective_correct(setup, screen_barycentrics).here;
-            // The sum of fill_triangle's barycentrics is 1 within 2 eps; two sums, a quotient, a
-            // product.
-            for (int k = 0; k < 3; ++k)
-                ASSERT_NEAR(here[k], screen_barycentrics[k],
-                            static_cast<float>(4 * eps) * screen_barycentrics[k])
-                    << "here[" << k << "]; seed 4, case " << i
-                    << ": s = " << shown(screen_barycentrics) << ", all w = " << shown(w);
-        });
+        const vec3 w(any.of_sizes(1e-38f, 1e38f));
+        ASSERT_GE(compare(any.on_screen(), whole(w), of_whole), 0) << "seed 4, case " << i;
     }
 }
 
 TEST(Textures, HardCase_SubnormalWBesideAHugeOne) {
     look_up("Eq. 5.2: only the proportions of the w count, and those have limits");
-    constexpr float tiny = std::numeric_limits<float>::denorm_min();
     AnyTriangle any(5);
-    int on_far_side = 0;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 3000; ++i) {
+        const int near_vertex = i % 3;
         vec3 w(1e30f);
-        w[i % 3] = i % 2 ? tiny : 1e-40f;
+        w[near_vertex] = i % 2 ? std::numeric_limits<float>::denorm_min() : 1e-40f;
         if (i % 4 < 2) w[(i + 1) % 3] = 1e-30f;
-        // The far side through the centres of pixels: there the near vertex's coordinate is 0.
-        const float row = std::floor(any.between(0, 47)) + 0.5f;
-        std::array<vec2, 3> vertices = {vec2(1, row), vec2(60, row),
-                                        vec2(any.between(0, 64), row - 8)};
-        std::rotate(vertices.begin(), vertices.begin() + (5 - i % 3) % 3, vertices.end());
-        const ScreenTriangle on_screen = snap_triangle(vertices[0], vertices[1], vertices[2]);
-        ASSERT_TRUE(is_front_facing(on_screen));
-        const PerspectiveSetup setup = perspective_setup(on_screen, whole(w));
-        const auto check = [&](ivec2 pixel, vec3 screen_barycentrics) {
-            const std::string what = "case " + std::to_string(i) +
-                                     ": s = " + shown(screen_barycentrics) + ", w = " + shown(w);
-            const FragmentBarycentrics barycentrics =
-                perspective_correct(setup, screen_barycentrics);
-            ASSERT_TRUE(is_near(
-                real{barycentrics.here.x} + barycentrics.here.y + barycentrics.here.z, 1, 2 * eps))
-                << "the sum of here; " << what;
-            for (int k = 0; k < 3; ++k) {
-                ASSERT_GE(barycentrics.here[k], 0) << "here[" << k << "]; " << what;
-                ASSERT_TRUE(std::isfinite(barycentrics.ddx[k]) &&
-                            std::isfinite(barycentrics.ddy[k]))
-                    << "ddx = " << shown(barycentrics.ddx) << ", ddy = " << shown(barycentrics.ddy)
-                    << "; " << what;
-            }
-            const real near_coordinate = screen_barycentrics[i % 3];
-            if (near_coordinate == 0) {
-                ++on_far_side;
-                return;
-            }
-            const ExactBarycentrics exact = exact_barycentrics(on_screen, whole(w), pixel);
-            for (int k = 0; k < 3; ++k)  // a w counts as 2^80 times the least one at most
-                ASSERT_TRUE(
-                    is_near(barycentrics.here[k], exact.here[k],
-                            of_whole.coordinate * eps * exact.here[k] + 0x1p-80L / near_coordinate))
-                    << "here[" << k << "]; " << what;
-        };
-        fill_triangle(on_screen, small, check);
-        ASSERT_FALSE(HasFatalFailure());
-        // Centres on a lower side belong to the triangle below; here they are asked for.
-        for (int x = 1; x < 60 && !HasFatalFailure(); ++x) {
-            const auto here = areas(on_screen, {x, static_cast<int>(row)});
-            vec3 screen_barycentrics;
+        ClippedTriangle piece = whole(w);
+        for (std::size_t k = 0; k < 3 && i % 5 == 0; ++k) piece[k].barycentrics = any.shares();
+        ScreenTriangle on_screen = any.on_screen();
+        if (i % 16 == 0) on_screen = snap_triangle({-4e6f, -4e6f}, {-4e6f, 4e6f}, {4e6f, 0});
+        if (i % 16 == 1) on_screen = snap_triangle({1, 1}, {1, 1 + 1 / 64.0f}, {4, 1 + 1 / 64.0f});
+        const PerspectiveSetup setup = perspective_setup(on_screen, piece);
+        // On the far side the near vertex's coordinate is 0; else it may be tiny.
+        for (const float share : {0.0f, 0x1p-36f, 0x1p-20f, 0.25f}) {
+            vec3 s;
+            s[near_vertex] = share;
+            s[(i + 1) % 3] = any.between(0, 1 - share);
+            s[(i + 2) % 3] = 1 - share - s[(i + 1) % 3];
+            const FragmentBarycentrics at = perspective_correct(setup, s);
+            const auto what = [&] {
+                return "; s = " + shown(s) + ", " + described(piece) + "; seed 5";
+            };
+            ASSERT_TRUE(is_near(sum_of(lvec3(at.here)), 1, 2 * eps)) << "the sum of here" << what();
+            ASSERT_GE(std::min({at.here.x, at.here.y, at.here.z}), 0) << "least of here" << what();
+            ASSERT_TRUE(is_finite(at.ddx) && is_finite(at.ddy))
+                << "ddx = " << shown(at.ddx) << ", ddy = " << shown(at.ddy) << what();
+            if (share == 0) continue;
+            lvec3 shares(0);
             for (int k = 0; k < 3; ++k)
-                screen_barycentrics[k] =
-                    static_cast<float>(static_cast<double>(here[static_cast<std::size_t>(k)]) /
-                                       static_cast<double>(on_screen.twice_area));
-            check({x, static_cast<int>(row)}, screen_barycentrics);
+                shares +=
+                    real{s[k]} / w[k] * lvec3(piece[static_cast<std::size_t>(k)].barycentrics);
+            const lvec3 exact = shares / sum_of(shares);
+            // A w counts as 2^80 times the least one at most.
+            ASSERT_TRUE(are_near("here", at.here, exact,
+                                 of_piece.coordinate * eps * exact + 0x1p-80L / share))
+                << what();
         }
     }
-    EXPECT_GT(on_far_side, 10'000);
-}
-
-TEST(Textures, HardCase_FloorFromOneToAHundredIsRightToA256thOfATexel) {
-    look_up("Eq. 5.2");
-    constexpr int texels = 1024, width = 512;
-    const ScreenTriangle on_screen = snap_triangle({0, 0}, {0, width}, {width, 0});
-    const PerspectiveSetup setup = perspective_setup(on_screen, whole({1, 1, 100}));
-    double greatest = 0, greatest_affine = 0;
-    int pixels = 0;
-    fill_triangle(on_screen, {width, 1}, [&](ivec2 pixel, vec3 screen_barycentrics) {
-        const std::array us = {0.0f, 0.0f, 1.0f};
-        const double along = (pixel.x + 0.5) / width;
-        const double exact = along / 100 / (1 - along + along / 100);
-        const auto error = [&](vec3 barycentrics) {
-            return texels * std::abs(double{interpolate(us, barycentrics)} - exact);
-        };
-        greatest = std::max(greatest, error(perspective_correct(setup, screen_barycentrics).here));
-        greatest_affine = std::max(greatest_affine, error(screen_barycentrics));
-        ++pixels;
-    });
-    EXPECT_LE(greatest, 1.0 / 256);
-    EXPECT_GT(greatest_affine, 830) << "barycentrics on the screen alone are far off";
-    EXPECT_GE(pixels, width - 1);
 }
 
 TEST(Textures, Eq5_3_PieceOfTheWorkedExample) {
@@ -426,84 +316,36 @@ TEST(Textures, Eq5_3_PieceOfTheWorkedExample) {
 
 TEST(Textures, Eq5_3_PiecesWithWOfAllSizes) { compare_pieces(Compared::coordinates); }
 
-namespace {
-
-/// The barycentrics of a triangle's vertices where the ray through a place in NDC meets its plane:
-/// no clipping, no division by a vertex's w.
-lvec3 barycentrics_of_whole(const std::array<vec4, 3>& vertices, lvec2 place_ndc) {
-    std::array<lvec3, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = {vertices[i].x, vertices[i].y, vertices[i].w};
-    const lvec3 ray(place_ndc, 1);
-    const lvec3 shares(glm::dot(ray, glm::cross(p[1], p[2])), glm::dot(ray, glm::cross(p[2], p[0])),
-                       glm::dot(ray, glm::cross(p[0], p[1])));
-    return shares / (shares.x + shares.y + shares.z);
-}
-
-/// How far a piece may be from where its vertices' barycentrics say, in pixels: it is snapped to
-/// 1/256 pixel, coming to the screen rounds four times, and clipping is off by up to 39 eps of the
-/// greatest coordinate, over w (04_mvp_clip_math_test.cpp), in x or y and in w.
-real displacement_px(const std::array<vec4, 3>& vertices, const ClippedTriangle& piece) {
-    real greatest = 0, least_w = piece[0].position_clip.w;
-    for (const vec4 vertex : vertices)
-        for (int axis = 0; axis < 4; ++axis)
-            greatest = std::max(greatest, std::abs(real{vertex[axis]}));
-    for (const ClippedVertex& vertex : piece)
-        least_w = std::min(least_w, real{vertex.position_clip.w});
-    return 1.0L / 512 + small.x * (2 * eps + 39 * eps * greatest / least_w);
-}
-
-}  // namespace
-
 TEST(Textures, Eq5_3_HardCase_PiecesHaveTheBarycentricsOfTheWholeTriangle) {
     AnyTriangle any(7);
-    int pixels = 0, sharp = 0, across_near = 0, across_many = 0;
+    int pixels = 0;
     for (int i = 0; i < 3000; ++i) {
         std::array<vec4, 3> vertices;
-        unsigned outside = 0;
         for (vec4& vertex : vertices) {
             const float x = any.between(-3, 3), y = any.between(-3, 3), z = any.between(-2, 2);
             vertex = {x, y, z, any.between(-1, 3)};
-            for (int plane = 0; plane < frustum_planes; ++plane)
-                outside |= static_cast<unsigned>(plane_distance(plane, vertex) < 0) << plane;
         }
-        int visited = 0;
         for (const ClippedTriangle& piece : clip_triangle(vertices)) {
-            const auto [mesh, triangle, clipped, on_screen, depth, is_back_facing] =
-                projected(piece, small);
-            if (is_back_facing) continue;
-            const PerspectiveSetup setup = perspective_setup(on_screen, piece);
-            const real reach_px = displacement_px(vertices, piece);
-            fill_triangle(on_screen, small, [&](ivec2 pixel, vec3 screen_barycentrics) {
+            const ProjectedTriangle on_screen = projected(piece, small);
+            if (on_screen.is_back_facing) continue;
+            const PerspectiveSetup setup = perspective_setup(on_screen);
+            fill_triangle(on_screen.on_screen, small, [&](ivec2 pixel, vec3 screen_barycentrics) {
+                // The point of the whole triangle that they stand for lies behind this pixel.
                 const vec3 here = perspective_correct(setup, screen_barycentrics).here;
-                // A quotient of linear functions is greatest and least in the corners of a square.
-                lvec3 least(2), most(-2);
-                for (int corner = 0; corner < 4; ++corner) {
-                    const lvec2 way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1);
-                    const lvec2 place = (lvec2(pixel) + 0.5L + reach_px * way) / lvec2(small);
-                    const lvec3 there =
-                        barycentrics_of_whole(vertices, {2 * place.x - 1, 1 - 2 * place.y});
-                    least = glm::min(least, there), most = glm::max(most, there);
-                }
-                for (int k = 0; k < 3; ++k) {
-                    const real rounding = of_piece.coordinate * eps * std::abs(real{here[k]});
-                    ASSERT_TRUE(here[k] >= least[k] - rounding && here[k] <= most[k] + rounding)
-                        << "seed 7, case " << i << ", pixel " << testing::PrintToString(pixel)
-                        << ": here[" << k << "] is " << here[k] << " instead of from " << least[k]
-                        << " to " << most[k] << "; " << described(piece);
-                    sharp += most[k] - least[k] < 0.001L;
-                }
-                ++visited;
+                const vec4 p = interpolate(vertices, here);
+                if (p.w < 0.05f) return;  // where clipping's roundings count more
+                const vec2 place = (vec2(p.x, -p.y) / p.w + 1.0f) * 0.5f * vec2(small);
+                // Pieces are snapped to 1/256 pixel; the rest is rounding.
+                ASSERT_TRUE(are_near(place - 0.5f, dvec2(pixel), 0.02))
+                    << "where the point of here = " << shown(here)
+                    << " is seen, in pixels; seed 7, "
+                    << "case " << i << ", " << described(piece);
+                ++pixels;
             });
         }
         ASSERT_FALSE(HasFatalFailure());
-        pixels += visited;
-        if (outside >> 4 & 1) across_near += visited;
-        if (std::popcount(outside) > 3) across_many += visited;
     }
     EXPECT_GT(pixels, 100'000);
-    EXPECT_GT(across_near, 50'000);
-    EXPECT_GT(across_many, 50'000);
-    EXPECT_GT(sharp, 3 * pixels / 2) << "the tolerance of most barycentrics is below 1/1000";
 }
 
 TEST(Textures, Eq5_7_DerivativesInTheWorkedExample) {
@@ -521,28 +363,4 @@ TEST(Textures, Eq5_7_DerivativesInTheWorkedExample) {
 
 TEST(Textures, Eq5_7_DerivativesOfPiecesWithWOfAllSizes) {
     compare_pieces(Compared::derivatives_too);
-}
-
-TEST(Textures, Eq5_7_DerivativesLeadToTheNextPixelWhereThereIsNoPerspective) {
-    AnyTriangle any(8);
-    for (int i = 0; i < 200; ++i) {
-        const ScreenTriangle on_screen = any.on_screen();
-        const PerspectiveSetup setup = perspective_setup(on_screen, whole(vec3(2)));
-        FragmentBarycentrics last{};
-        ivec2 last_pixel(-2);
-        fill_triangle(on_screen, small, [&](ivec2 pixel, vec3 screen_barycentrics) {
-            const FragmentBarycentrics barycentrics =
-                perspective_correct(setup, screen_barycentrics);
-            const bool is_next = pixel == last_pixel + ivec2(1, 0);
-            // Both barycentrics, and the derivative, which is not above 1.
-            for (int k = 0; k < 3 && is_next; ++k)
-                ASSERT_NEAR(barycentrics.here[k] - last.here[k], last.ddx[k],
-                            static_cast<float>((2 * of_whole.coordinate + of_whole.step) * eps) *
-                                std::max(1.0f, 2 * std::abs(last.ddx[k])))
-                    << "seed 8, case " << i << ", pixel " << testing::PrintToString(pixel)
-                    << ": by how much here[" << k << "] grew from the pixel to the left, and ddx["
-                    << k << "] there";
-            last = barycentrics, last_pixel = pixel;
-        });
-    }
 }

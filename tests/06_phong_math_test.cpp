@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Numbers from 10^-8 to 10^8 against long double, or against exact values. Rounding is off by at
-// most u = 2^-24 of the result; bounds count how often, to the first order, and `of_higher_order`
-// is for u times u.
+// Numbers from 10^-8 to 10^8 against long double. Rounding is off by at most u = 2^-24 of the
+// result; bounds count how often, to the first order, and `of_higher_order` is for u times u. And
+// zeros, denormals, infinities and NaN at the entries: no light that is none.
+#include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,13 +17,16 @@
 #include "06_phong/light.hpp"
 #include "06_phong/normals.hpp"
 #include "06_phong/phong.hpp"
+#include "06_phong/studio_lights.hpp"
 #include "lab/shading_methods.hpp"
 #include "support/any_size.hpp"
 #include "support/light_in_words.hpp"
+#include "support/look_up.hpp"
 #include "support/near.hpp"
 #include "support/one_triangle.hpp"
 #include "support/printers.hpp"
 #include "support/reference.hpp"
+#include "support/special_numbers.hpp"
 
 using namespace rasterbook;
 using namespace rasterbook::test;
@@ -95,105 +102,22 @@ ExactIncoming exact_incoming(const Light& light, vec3 position) {
     return {toward, of_toward, share * spot, of_share * spot + of_spot * share + u * share * spot};
 }
 
-Light any_light(AnySize& any) {
-    const vec3 color = glm::abs(any.vector()), shines = any_direction(any), place = any.vector();
-    const float half_distance = any.positive();
-    const float full = 0.001f * static_cast<float>(any.whole(-900, 1000));
-    return {static_cast<LightKind>(any.whole(0, 2)),
-            color,
-            shines,
-            place,
-            half_distance,
-            full,
-            full - 0.001f * static_cast<float>(any.whole(1, 100))};
+/// @param kinds  0: a directional light; 2: one of any kind.
+Light any_light(AnySize& any, int kinds, vec3 position) {
+    Light light;
+    light.kind = static_cast<LightKind>(any.whole(0, kinds));
+    light.color = glm::abs(any.vector());
+    light.direction_world = any_direction(any);
+    light.position_world = any.vector();
+    light.half_distance = any.positive();
+    light.cos_inner = 0.001f * static_cast<float>(any.whole(-900, 1000));
+    light.cos_outer = light.cos_inner - 0.001f * static_cast<float>(any.whole(1, 100));
+    // Every other spotlight shines at the point, more or less; else hardly one would.
+    if (light.kind == LightKind::spot && any.whole(0, 1))
+        light.direction_world = vec3(unit(unit(lvec3(position) - lvec3(light.position_world)) +
+                                          0.1L * lvec3(light.direction_world)));
+    return light;
 }
-
-}  // namespace
-
-TEST(Phong, Eq6_8_DirectionsOfVectorsOfAllSizes) {
-    for (const float size : {decades, 37.0f}) {
-        AnySize any(1, size);
-        for (int i = 0; i < cases; ++i) {
-            const vec3 v = any.vector();
-            const lvec3 exact = unit(lvec3(v));
-            ASSERT_TRUE(are_near(unit_or(v, vec3(0)), exact, of_unit(lvec3(v)) * u * sizes(exact)))
-                << "unit_or(" << shown(v) << "), which is given; seed 1, case " << i;
-        }
-    }
-}
-
-TEST(Phong, Eq6_6_AttenuationOverDistancesOfAllSizes) {
-    AnySize any(2, decades);
-    for (int i = 0; i < cases; ++i) {
-        const vec3 to_light = any.vector();
-        const real square = glm::dot(lvec3(to_light), lvec3(to_light)), exact = 1 / (1 + square);
-        // 3 u of the square's part, a sum and a quotient.
-        ASSERT_TRUE(is_near(distance_attenuation(to_light), exact,
-                            u * exact * (2 + 3 * square * exact) * of_higher_order))
-            << "distance_attenuation(" << shown(to_light) << "); seed 2, case " << i;
-    }
-}
-
-TEST(Phong, Eq6_7_SpotAttenuationBetweenNumbersOfAllSizes) {
-    AnySize any(3, decades);
-    for (int i = 0; i < cases; ++i) {
-        const float none = any.number(), full = none + any.positive();
-        if (!(full > none)) continue;
-        const float t = 0.001f * static_cast<float>(any.whole(-200, 1200));
-        const float cosine = none + t * (full - none);
-        const real exact_t = (real{cosine} - none) / (real{full} - none);
-        // Two differences and a quotient.
-        const auto [exact, tolerance] =
-            exact_spot_attenuation(exact_t, 3 * u * std::min(std::abs(exact_t), real{2}));
-        ASSERT_TRUE(
-            is_near(spot_attenuation(cosine, full, none), exact, tolerance * of_higher_order))
-            << "spot_attenuation(" << shown(cosine) << ", " << shown(full) << ", " << shown(none)
-            << "); seed 3, case " << i;
-    }
-}
-
-TEST(Phong, Eq6_7_LightOfPointLightsAndSpotlightsOfAllSizes) {
-    AnySize any(4, decades);
-    std::array<int, 3> seen{};
-    for (int i = 0; i < 3 * cases; ++i) {
-        Light light = any_light(any);
-        const vec3 position = any.vector();
-        // Every other spotlight shines at the point, more or less; else hardly one would.
-        if (light.kind == LightKind::spot && i % 2)
-            light.direction_world = vec3(unit(unit(lvec3(position) - lvec3(light.position_world)) +
-                                              0.1L * lvec3(light.direction_world)));
-        const Incoming<float> actual = incoming_light(light, position);
-        const ExactIncoming exact = exact_incoming(light, position);
-        ASSERT_TRUE(are_near(actual.toward, exact.toward, exact.of_toward))
-            << "toward, at " << shown(position) << ", a " << described(light) << "; seed 4, case "
-            << i;
-        const lvec3 color = light.color;
-        const real of_product = light.kind == LightKind::directional ? 0 : u * exact.share;
-        // The share may be below the normal numbers, before a colour of up to 10^8 multiplies it.
-        ASSERT_TRUE(are_near(actual.color, exact.share * color,
-                             (exact.of_share + of_product + least) * color))
-            << "color, at " << shown(position) << ", a " << described(light) << "; seed 4, case "
-            << i;
-        seen[static_cast<std::size_t>(light.kind)] += actual.color.x > 0;
-    }
-    for (const int count : seen) EXPECT_GT(count, cases / 10);
-}
-
-TEST(Phong, Eq6_2_MirrorDirectionsOfVectorsOfAllSizes) {
-    AnySize any(5, decades);
-    for (int i = 0; i < cases; ++i) {
-        // Of length 1, or any vectors: the bound is in proportion to the terms.
-        const vec3 n = i % 2 ? any_direction(any) : any.vector();
-        const vec3 l = i % 2 ? any_direction(any) : any.vector();
-        const lvec3 exact = 2 * glm::dot(lvec3(n), lvec3(l)) * lvec3(n) - lvec3(l);
-        // 3 u of the dot product's terms, one more for the product, one for the difference.
-        const lvec3 of_product = 2 * glm::dot(sizes(n), sizes(l)) * sizes(n);
-        ASSERT_TRUE(are_near(reflected(n, l), exact, u * (5.0L * of_product + sizes(l))))
-            << "reflected(" << shown(n) << ", " << shown(l) << "); seed 5, case " << i;
-    }
-}
-
-namespace {
 
 float highlight_cosine(Highlight highlight, const SurfacePoint<float>& point, vec3 toward_light) {
     return highlight == Highlight::phong ? phong_cosine(point, toward_light)
@@ -230,39 +154,16 @@ std::pair<real, real> exact_highlight_cosine(Highlight highlight, lvec3 n, lvec3
             glm::dot(sizes(n), of_h) + 3 * u * glm::dot(sizes(n), sizes(h))};
 }
 
-}  // namespace
-
-TEST(Phong, Eq6_3_HighlightsOfDirectionsOfAllSizes) {
-    AnySize any(6, decades);
-    for (int i = 0; i < 2 * cases; ++i) {
-        const auto highlight = static_cast<Highlight>(i % 2);
-        const vec3 n = any_direction(any), l = any_direction(any);
-        vec3 v = any_direction(any);
-        if (i % 3 == 0) v = vec3(unit(lvec3(reflected(n, l)) + 1e-3L * lvec3(v)));  // near mirror
-        if (i % 3 == 1) v = vec3(unit(1e-3L * lvec3(v) - lvec3(l)));  // nearly opposite
-        const auto [exact, tolerance] = exact_highlight_cosine(highlight, n, l, lvec3(0), v);
-        // Directions are rounded, so the exact cosine may exceed 1, which the stage does not.
-        ASSERT_TRUE(is_near(highlight_cosine(highlight, {vec3(0), n, v}, l),
-                            std::min(exact, real{1}), tolerance * of_higher_order))
-            << "the cosine of " << name_of(highlight) << ", N = " << shown(n)
-            << ", L = " << shown(l) << ", V = " << shown(v) << "; seed 6, case " << i;
-    }
-}
-
-namespace {
-
 /// Compares the light of three lights with the sum in long double.
 ///
-/// @param kinds  Directional lights alone, or all kinds.
-enum class Kinds { directional, all };
-void compare_reflected_light(unsigned seed, Kinds kinds) {
+/// @param kinds  As any_light() has it.
+void compare_reflected_light(unsigned seed, int kinds) {
     AnySize any(seed, decades);
     int lit = 0;
     for (int i = 0; i < cases; ++i) {
-        std::array lights = {any_light(any), any_light(any), any_light(any)};
-        if (kinds == Kinds::directional)
-            for (Light& light : lights) light.kind = LightKind::directional;
         const SurfacePoint<float> point{any.vector(), any_direction(any), any_direction(any)};
+        std::vector<Light> lights;
+        for (int k = 0; k < 3; ++k) lights.push_back(any_light(any, kinds, point.position_world));
         const auto highlight = static_cast<Highlight>(i % 2);
         const ReflectedLight actual =
             reflected_light(std::span<const Light>(lights), point, SquaredCosine{highlight});
@@ -305,85 +206,9 @@ void compare_reflected_light(unsigned seed, Kinds kinds) {
 
 }  // namespace
 
-TEST(Phong, Eq6_5_ReflectedLightOfDirectionalLightsOfAllSizes) {
-    compare_reflected_light(12, Kinds::directional);
-}
+TEST(Phong, Eq6_5_ReflectedLightOfDirectionalLightsOfAllSizes) { compare_reflected_light(12, 0); }
 
-TEST(Phong, Eq6_7_ReflectedLightOfLightsOfAllSizes) { compare_reflected_light(7, Kinds::all); }
-
-TEST(Phong, Eq6_5_SumsOfColorsOfAllSizes) {
-    AnySize any(8, decades);
-    for (int i = 0; i < cases; ++i) {
-        Material material;
-        material.ambient = any.vector(), material.diffuse = any.vector();
-        material.specular = any.vector(), material.emission = any.vector();
-        SurfaceColor color = surface_color(material);
-        const vec3 tint = any.vector(), ambient_light = any.vector();
-        const ReflectedLight light{any.vector(), any.vector()};
-        const vec3 plain = unlit(color), sent = phong(color, ambient_light, light);
-        const SurfaceColor before = color;
-        color.tint(tint);
-        for (int c = 0; c < 3; ++c) {
-            const auto what = [&] {
-                return "component " + std::to_string(c) + "; Ka = " + shown(material.ambient) +
-                       ", Kd = " + shown(material.diffuse) + ", Ks = " + shown(material.specular) +
-                       ", Ke = " + shown(material.emission) + "; seed 8, case " + std::to_string(i);
-            };
-            ASSERT_EQ(before.ambient[c], std::min(material.ambient[c], material.diffuse[c]))
-                << "surface_color().ambient, " << what();
-            ASSERT_EQ(before.diffuse[c], material.diffuse[c])
-                << "surface_color().diffuse, " << what();
-            const real kd = before.diffuse[c], ke = before.emission[c], t = tint[c];
-            ASSERT_TRUE(is_near(color.ambient[c], before.ambient[c] * t,
-                                u * std::abs(before.ambient[c] * t)))
-                << "ambient after tint(" << shown(tint) << "), " << what();
-            ASSERT_TRUE(is_near(color.diffuse[c], kd * t, u * std::abs(kd * t)))
-                << "diffuse after tint(" << shown(tint) << "), " << what();
-            ASSERT_TRUE(is_near(plain[c], kd + ke, u * std::abs(kd + ke))) << "unlit(), " << what();
-            Sum sum;
-            sum.add(ke), sum.add(real{before.ambient[c]} * ambient_light[c]);
-            sum.add(kd * light.diffuse[c]), sum.add(real{before.specular[c]} * light.specular[c]);
-            // A product and three sums.
-            ASSERT_TRUE(is_near(sent[c], sum.value, 4 * u * sum.of_sizes * of_higher_order))
-                << "phong() in ambient light " << shown(ambient_light) << ", diffuse light "
-                << shown(light.diffuse) << " and specular light " << shown(light.specular) << ", "
-                << what();
-        }
-    }
-}
-
-namespace {
-
-struct ExactFace {
-    lvec3 normal;
-    real of_normal;  ///< How far each component may be off before it is rounded to float.
-    std::array<real, 3> angles;
-};
-
-/// In double: two differences and a product, 3 roundings, and one of what is left: the cross
-/// product is off by 4 of them, in proportion to its terms. Scaling may turn it by that once more.
-ExactFace exact_face(const Mesh& mesh, const Triangle& triangle) {
-    std::array<lvec3, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = mesh.positions[triangle.vertices[i].position];
-    const lvec3 s = p[1] - p[0], t = p[2] - p[0], normal = glm::cross(s, t);
-    const lvec3 a = sizes(s), b = sizes(t);
-    const lvec3 terms(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
-    ExactFace face;
-    face.normal = unit(normal);
-    face.of_normal = 2 * 4.1L * u_of_double * length_of(terms) / length_of(normal);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const lvec3 v = p[(i + 1) % 3] - p[i], w = p[(i + 2) % 3] - p[i];
-        face.angles[i] = std::atan2(length_of(glm::cross(v, w)), glm::dot(v, w));
-    }
-    return face;
-}
-
-/// The angle is off by what its cross and dot products are, by the sides: for the first, 4 double
-/// roundings of three components that add up to less than twice the sides; for the second, 5. Then
-/// a length and the arc, and one in float.
-real of_angle(real angle) { return 20 * u_of_double + u * angle; }
-
-}  // namespace
+TEST(Phong, Eq6_7_ReflectedLightOfLightsOfAllSizes) { compare_reflected_light(7, 2); }
 
 TEST(Phong, Eq6_9_NormalsAndAnglesOfFacesOfAllSizes) {
     AnySize any(9, decades);
@@ -393,87 +218,191 @@ TEST(Phong, Eq6_9_NormalsAndAnglesOfFacesOfAllSizes) {
             for (std::size_t k = 1; k < 3; ++k)
                 positions[k] = positions[0] + 0.01f * positions[0].x * any_direction(any);
         const Mesh mesh = mesh_of(positions, {{0, 1, 2}});
-        const lvec3 s = lvec3(positions[1]) - lvec3(positions[0]),
-                    t = lvec3(positions[2]) - lvec3(positions[0]);
-        if (length_of(glm::cross(s, t)) == 0) continue;
-        const ExactFace exact = exact_face(mesh, mesh.triangles[0]);
-        ASSERT_TRUE(are_near(face_normal(mesh, mesh.triangles[0]), exact.normal,
-                             exact.of_normal + u * sizes(exact.normal)))
-            << "face_normal() of " << shown(positions[0]) << ", " << shown(positions[1]) << ", "
-            << shown(positions[2]) << "; seed 9, case " << i;
-        for (std::size_t k = 0; k < 3; ++k)
-            ASSERT_TRUE(is_near(vertex_angle_radians(mesh, mesh.triangles[0], k), exact.angles[k],
-                                of_angle(exact.angles[k])))
-                << "the angle at vertex " << k << " of " << shown(positions[0]) << ", "
-                << shown(positions[1]) << ", " << shown(positions[2]) << "; seed 9, case " << i;
-    }
-}
-
-TEST(Phong, Eq6_9_MeansOfNormalsAroundPositionsOfAllSizes) {
-    AnySize any(10, decades);
-    int sure = 0;
-    for (int i = 0; i < cases; ++i) {
-        // A fan around the first position: up to six faces of any shape, or a tent.
-        const auto count = static_cast<std::uint32_t>(any.whole(1, 6));
-        std::vector<vec3> positions = {any.vector()};
-        std::vector<std::array<std::uint32_t, 3>> faces;
-        const float radius = any.positive();
-        for (std::uint32_t k = 1; k <= count + 1; ++k) {
-            const float angle = static_cast<float>(k) * 1.04f;
-            positions.push_back(i % 2 ? any.vector()
-                                      : radius * vec3(std::sin(angle), -0.3f, std::cos(angle)));
-            if (k <= count) faces.push_back({0, k, k + 1});
-        }
-        if (i % 2 == 0) positions[0] = vec3(0);
-        Mesh mesh = mesh_of(positions, faces);
-        const SmoothNormals smooth(mesh);
-        std::vector<ExactFace> exact;
-        for (const Triangle& triangle : mesh.triangles) exact.push_back(exact_face(mesh, triangle));
-        const vec3 of_face = face_normal(mesh, mesh.triangles[0]);
-        lvec3 sum(0), of_sum(0);
-        bool is_sure = true;
-        for (const ExactFace& face : exact) {
-            // Two directions in float, each off by u and its own error; their dot product by 3 u.
-            const real cosine = glm::dot(face.normal, lvec3(of_face));
-            is_sure = is_sure && std::abs(cosine - cos_sharp) > 10 * u + 2 * face.of_normal;
-            if (cosine <= cos_sharp) continue;
-            sum += face.angles[0] * face.normal;
-            // Normal, product and at most six sums; the angle; the normal's own error.
-            of_sum += 8 * u * face.angles[0] * sizes(face.normal) +
-                      of_angle(face.angles[0]) * sizes(face.normal) +
-                      face.angles[0] * face.of_normal;
-        }
-        if (!is_sure) continue;  // an edge that is just sharp
-        ++sure;
-        const vec3 actual = smooth.at(0, of_face);
-        ASSERT_TRUE(are_near(actual, sum, of_sum))
-            << "SmoothNormals::at(0, " << shown(of_face) << "), where " << count
-            << " faces meet; seed 10, case " << i;
-
-        complete_normals(mesh);
-        const vec3 completed = mesh.normals[mesh.triangles[0].vertices[0].normal];
-        const lvec3 scaled = unit(lvec3(actual));  // within half an ulp and what double rounds
-        ASSERT_TRUE(are_near(completed, scaled, 1.01L * u * sizes(scaled)))
-            << "of length 1, by complete_normals(); seed 10, case " << i;
-    }
-    EXPECT_GT(sure, cases / 2);
-}
-
-TEST(Phong, Eq6_9_NormalsOfFilesOfAllSizes) {
-    AnySize any(11, decades);
-    for (int i = 0; i < cases; ++i) {
-        Mesh mesh = mesh_of({any.vector(), any.vector(), any.vector()}, {{0, 1, 2}});
-        const std::array<vec3, 3> in_file = {any.vector(), any.vector(), any.vector()};
-        mesh.normals = {in_file[2], in_file[1], in_file[0]};
-        for (std::uint32_t k = 0; k < 3; ++k) mesh.triangles[0].vertices[k].normal = 2 - k;
-        complete_normals(mesh);
-        ASSERT_EQ(mesh.normals.size(), 3u);
+        const auto side = [&](std::size_t from, std::size_t to) {
+            return lvec3(positions[to % 3]) - lvec3(positions[from]);
+        };
+        const lvec3 across = glm::cross(side(0, 1), side(0, 2));
+        if (length_of(across) == 0) continue;
+        const auto what = [&] {
+            return shown(positions[0]) + ", " + shown(positions[1]) + ", " + shown(positions[2]) +
+                   "; seed 9, case " + std::to_string(i);
+        };
+        // In double: two differences and a product, 3 roundings, and one of what is left, in
+        // proportion to the sides; scaling may turn the normal by that once more.
+        const real of_double =
+            15 * u_of_double * length_of(side(0, 1)) * length_of(side(0, 2)) / length_of(across);
+        ASSERT_TRUE(are_near(face_normal(mesh, mesh.triangles[0]), unit(across),
+                             of_double + u * sizes(unit(across))))
+            << "face_normal() of " << what();
         for (std::size_t k = 0; k < 3; ++k) {
-            const lvec3 exact = unit(lvec3(in_file[k]));
-            ASSERT_TRUE(are_near(mesh.normals[mesh.triangles[0].vertices[k].normal], exact,
-                                 1.01L * u * sizes(exact)))
-                << "complete_normals(): vertex " << k << ", whose normal in the file is "
-                << shown(in_file[k]) << "; seed 11, case " << i;
+            const lvec3 v = side(k, k + 1), w = side(k, k + 2);
+            const real angle = std::atan2(length_of(glm::cross(v, w)), glm::dot(v, w));
+            // In double: what the products are off by, in proportion to the sides, a length and the
+            // arc. Then one rounding to float.
+            ASSERT_TRUE(is_near(vertex_angle_radians(mesh, mesh.triangles[0], k), angle,
+                                20 * u_of_double + u * angle))
+                << "the angle at vertex " << k << " of " << what();
         }
     }
+}
+
+namespace {
+
+constexpr int many_cases = 300'000;
+
+/// Special numbers, and lights of such.
+class Mix : public SpecialNumbers {
+  public:
+    using SpecialNumbers::SpecialNumbers;
+
+    float finite() { return place().x; }
+    float amount() { return std::abs(finite()); }
+    float up_to(float most) { return std::min(amount(), most); }
+    vec3 direction() { return unit_or(place(), vec3(0, 1, 0)); }
+    /// A light as the lesson makes them: any place, any size.
+    Light light() {
+        const vec3 color(up_to(10), up_to(10), up_to(10)), toward = direction(), where = place();
+        const float cos_inner = std::clamp(finite(), -1 + FLT_EPSILON, 1.0f);
+        return {static_cast<LightKind>(below(3)),
+                color,
+                toward,
+                where,
+                std::max(amount(), FLT_MIN),
+                cos_inner,
+                std::max(-1.0f, cos_inner - std::max(up_to(1), FLT_EPSILON))};
+    }
+};
+
+/// For EXPECT_TRUE: no number but those from `low` to `high`.
+testing::AssertionResult are_within(const char* what, vec3 v, float low, float high) {
+    for (int i = 0; i < 3; ++i)
+        if (!(v[i] >= low && v[i] <= high))  // also for NaN
+            return testing::AssertionFailure()
+                   << what << " " << shown(v) << ", which is not from " << low << " to " << high;
+    return testing::AssertionSuccess();
+}
+
+/// Of length 1, but for a few roundings, and for components below the least normal number.
+testing::AssertionResult is_direction(vec3 v) {
+    if (std::abs(glm::length(dvec3(v)) - 1) <= 4 * FLT_EPSILON) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << testing::PrintToString(v) << " is not of length 1";
+}
+
+}  // namespace
+
+TEST(Phong, HardCase_SpecialNumbersOfLights) {
+    look_up("Eq. 6.6");
+    Mix mix(2);
+    for (int i = 0; i < many_cases; ++i) {
+        const Light light = mix.light();
+        vec3 position = mix.any_three();  // infinite ones, too
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::isnan(position[axis])) position[axis] = 0;
+        const Incoming<float> incoming = incoming_light(light, position);
+        ASSERT_TRUE(is_direction(incoming.toward)) << "toward, at " << shown(position) << ": "
+                                                   << described(light) << "; seed 2, case " << i;
+        ASSERT_TRUE(are_within("color", incoming.color, 0, 10))
+            << "at " << shown(position) << ": " << described(light) << "; seed 2, case " << i;
+    }
+}
+
+TEST(Phong, HardCase_SpecialNumbersOfHighlights) {
+    look_up("Eq. 6.3");
+    Mix mix(3);
+    for (int i = 0; i < many_cases; ++i) {
+        // Not even of length 1.
+        const SurfacePoint<float> point{vec3(0), mix.any_three(), mix.any_three()};
+        const vec3 toward_light = mix.any_three();
+        const auto highlight = static_cast<Highlight>(mix.below(2));
+        const float cosine = highlight_cosine(highlight, point, toward_light);
+        ASSERT_TRUE(cosine >= 0 && cosine <= 1)
+            << "the cosine of " << name_of(highlight) << " is " << cosine << ", "
+            << described(point) << ", L = " << shown(toward_light) << "; seed 3, case " << i;
+    }
+}
+
+TEST(Phong, HardCase_SpecialNumbersOfReflectedLight) {
+    look_up("Eq. 6.5");
+    Mix mix(4);
+    for (int i = 0; i < many_cases; ++i) {
+        const std::array lights = {mix.light(), mix.light()};
+        const float shininess = mix.amount();
+        const SurfacePoint<float> point{mix.place(), mix.direction(), mix.direction()};
+        const ReflectedLight light =
+            reflected_light(std::span<const Light>(lights), point, PhongHighlight{true, shininess});
+        const auto what = [&] {
+            return "n = " + shown(shininess) + ", " + described(point) +
+                   ", of: " + described(lights[0]) + "; " + described(lights[1]) +
+                   "; seed 4, case " + std::to_string(i);
+        };
+        constexpr float most = 2 * 10 * (1 + 4 * FLT_EPSILON);  // directions may be a bit long
+        ASSERT_TRUE(are_within("diffuse", light.diffuse, 0, most)) << what();
+        ASSERT_TRUE(are_within("specular", light.specular, 0, most)) << what();
+
+        // Colours as MTL may have them, also negative ones.
+        const auto color = [&] { return glm::clamp(mix.place(), -1e37f, 1e37f); };
+        const SurfaceColor surface{color(), color(), color(), color()};
+        const ReflectedLight some{0.5f * light.diffuse, 0.5f * light.specular};
+        ASSERT_TRUE(
+            are_within("sum", phong(surface, glm::abs(mix.direction()), some), -FLT_MAX, FLT_MAX))
+            << "seed 4, case " << i;
+    }
+}
+
+TEST(Phong, HardCase_SpecialNumbersOfTriangles) {
+    look_up("Eq. 6.8");
+    Mix mix(5);
+    Material material;
+    material.specular = vec3(1);
+    OneTriangle triangle({vec3(0), vec3(1), vec3(2)}, {vec3(0), vec3(1), vec3(2)}, material);
+    int lit = 0;
+    for (int i = 0; i < many_cases; ++i) {
+        Mesh& mesh = triangle.mesh();
+        mesh.positions = {mix.place(), mix.place(), mix.place()};
+        mesh.normals = {mix.any_three(), mix.any_three(), mix.any_three()};
+        for (std::uint32_t k = 0; k < 3; ++k)
+            mesh.triangles[0].vertices[k].normal = mix.below(16) == 0 ? no_index : k;
+        complete_normals(mesh);
+        for (const vec3 normal : mesh.normals)
+            ASSERT_TRUE(is_direction(normal)) << "seed 5, case " << i;
+
+        ShadingMethod& variant = triangle.variant();
+        variant.shading = static_cast<Shading>(mix.below(3));
+        variant.highlight = static_cast<Highlight>(mix.below(2));
+        variant.power = static_cast<Power>(mix.below(4));
+        variant.normals = static_cast<NormalScaling>(mix.below(3));
+        triangle.material().shininess = mix.amount();
+        // In the triangle; a pixel's centre, its border, a vertex.
+        const float x = mix.up_to(1), y = mix.up_to(1 - x);
+        const std::array lights = {mix.light(), mix.light()};
+        const ReflectedLight light =
+            triangle.light_at({x, y, 1 - x - y}, lights, mix.place(), mix.below(2) == 0);
+        constexpr float most = 2 * 10 * 1.002f;  // approximate normals are .18% too long at most
+        ASSERT_TRUE(are_within("diffuse", light.diffuse, 0, most)) << "seed 5, case " << i;
+        ASSERT_TRUE(are_within("specular", light.specular, 0, most)) << "seed 5, case " << i;
+        lit += light.diffuse.x > 0;
+    }
+    EXPECT_GT(lit, many_cases / 20);
+}
+
+TEST(Phong, HardCase_StudioLightsOfAnySizeAreLights) {
+    look_up("Robust: A light at the surface, and scenes of all sizes");
+    constexpr std::array sizes = {0.0f, 1e-45f, 1e-30f, 1.0f, 1e30f};
+    for (const LightKind kind : light_kinds)
+        for (const float size : sizes)
+            for (const float length : sizes) {
+                Bounds bounds;
+                bounds.add(vec3(-size));
+                bounds.add(vec3(size));
+                for (const Light& light :
+                     studio_lights(kind, bounds, length * vec3(-0.6f, 0.8f, 0))) {
+                    const std::string what = described(light) + "; of a scene of size " +
+                                             shown(size) + ", key light " + shown(length) + " away";
+                    ASSERT_TRUE(is_direction(light.direction_world)) << what;
+                    const float most = 2 * size + 1;
+                    ASSERT_TRUE(are_within("place", light.position_world, -most, most)) << what;
+                    ASSERT_GE(light.half_distance, FLT_MIN) << what;
+                    ASSERT_LT(light.cos_outer, light.cos_inner) << what;
+                }
+            }
 }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Normals in textures: UNORM values, heights, channels, and the surface normals they perturb.
 #include <algorithm>
-#include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -26,23 +25,16 @@ namespace {
 
 constexpr vec3 out_of_the_surface(0, 0, 1);
 
-/// One rounding, and a few, of numbers up to 1.
-constexpr float one_rounding = FLT_EPSILON, roundings = 4 * FLT_EPSILON;
+/// One rounding of numbers up to 1.
+constexpr float one_rounding = FLT_EPSILON;
 
-/// Not parallel to the axes, so that nothing is right by chance.
-TangentFrame some_frame(float handedness = 1) {
-    return {vec3(2, 2, 1) / 3.0f, handedness / 3.0f * vec3(-2, 1, 2), vec3(1, -2, 2) / 3.0f};
-}
+const std::filesystem::path textures = std::filesystem::path(RASTERBOOK_ASSETS) / "textures";
 
-/// A height map, from a function of the texels' centres; x right and y up, 0 to 1.
-template <typename Height>
-Image<u8vec4> heights(ivec2 size, Height&& height) {
-    Image<u8vec4> picture(size);
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            const double code = height((x + 0.5) / size.x, 1 - (y + 0.5) / size.y);
-            picture[{x, y}] = u8vec4(u8vec3(static_cast<std::uint8_t>(code)), 255);
-        }
+/// A picture of black, but for the texels of the leftmost column or the lowest row.
+Image<u8vec4> with_edge(ivec2 size, bool is_column, std::uint8_t code) {
+    Image<u8vec4> picture(size, {0, 0, 0, 255});
+    for (int i = 0; i < (is_column ? size.y : size.x); ++i)
+        picture[is_column ? ivec2(0, i) : ivec2(i, size.y - 1)] = {code, code, code, 255};
     return picture;
 }
 
@@ -75,36 +67,6 @@ TEST(NormalMaps, Eq8_1_ValuesAtTheEndsAndOnEitherSideOfTheMiddle) {
     }
 }
 
-TEST(NormalMaps, Eq8_1_WhatAnEncoderRoundsIsDecodedWithinHalfAStep) {
-    // As tools store a normal: 255 (n + 1) / 2, rounded.
-    std::mt19937 random(4);
-    std::normal_distribution<double> any;
-    double greatest_degrees = 0, sum_of_squares = 0;
-    dvec3 sum(0);
-    constexpr int count = 100'000;
-    for (int i = 0; i < count; ++i) {
-        const dvec3 n = glm::normalize(dvec3(any(random), any(random), any(random)));
-        vec3 decoded;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto value = static_cast<std::uint32_t>(255 * (n[axis] + 1) / 2 + 0.5);
-            decoded[axis] = component_from_unorm(value);
-            ASSERT_NEAR(decoded[axis], n[axis], 1 / 255.0 + one_rounding)
-                << "the value " << value << ", which a tool stores for " << n[axis]
-                << " (seed 4, case " << i << ")";
-        }
-        const double degrees = degrees_between(decoded, vec3(n));
-        greatest_degrees = std::max(greatest_degrees, degrees);
-        sum_of_squares += degrees * degrees;
-        sum += dvec3(decoded) - n;
-    }
-    // Half a step in each of three components: sqrt(3)/2 times 2/255, as an angle.
-    EXPECT_LT(greatest_degrees, 0.3892);
-    EXPECT_NEAR(std::sqrt(sum_of_squares / count), 0.184, 0.001) << "degrees, RMS";
-    for (int axis = 0; axis < 3; ++axis)
-        EXPECT_NEAR(sum[axis] / count, 0, 0.0001)
-            << "the mean error; (c - 128) / 127 has -0.0039, half a step";
-}
-
 TEST(NormalMaps, Eq8_1_GreenUpAndGreenDown) {
     Image<u8vec4> image({2, 1}, {192, 160, 240, 255});
     image[{1, 0}] = {10, 20, 30, 40};
@@ -123,15 +85,10 @@ TEST(NormalMaps, Eq8_1_GreenUpAndGreenDown) {
 TEST(NormalMaps, Eq8_7_AWorkedExample) {
     for (const float handedness : {1.0f, -1.0f}) {
         const TangentFrame frame{{0.8f, -0.6f, 0}, {0, 0, -handedness}, {0.6f, 0.8f, 0}};
-        const vec3 normal = perturbed(frame, {0.36f, 0.48f, 0.8f}, frame.normal);
-        const vec3 expected(0.768f, 0.424f, -0.48f * handedness);
-        const vec3 off = glm::abs(normal - expected);
-        ASSERT_LE(std::max({off.x, off.y, off.z}), roundings)
-            << "the texel (0.36, 0.48, 0.8) in the frame of tangent "
-            << testing::PrintToString(frame.tangent) << ", bitangent "
-            << testing::PrintToString(frame.bitangent) << ", normal "
-            << testing::PrintToString(frame.normal) << ": perturbed() gives "
-            << testing::PrintToString(normal) << ", expected " << testing::PrintToString(expected);
+        EXPECT_TRUE(are_near(perturbed(frame, {0.36f, 0.48f, 0.8f}, frame.normal),
+                             {0.768, 0.424, -0.48 * handedness}, 4 * one_rounding))
+            << "the texel (0.36, 0.48, 0.8) in the frame of tangent " << shown(frame.tangent)
+            << ", bitangent " << shown(frame.bitangent) << ", normal " << shown(frame.normal);
     }
 }
 
@@ -143,45 +100,22 @@ TEST(NormalMaps, Eq8_7_TheMapsNormalInTheFrame) {
     const TangentFrame floor{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
     EXPECT_EQ(perturbed(floor, {0.6f, 0, 0.8f}, floor.normal), vec3(0.6f, 0.8f, 0));
     EXPECT_EQ(perturbed(floor, {0, 0.6f, 0.8f}, floor.normal), vec3(0, 0.8f, -0.6f));
-    // Each direction counts by itself, and lengths and angles stay.
-    std::mt19937 random(1);
-    std::uniform_real_distribution<float> any(-1, 1);
-    for (const float handedness : {1.0f, -1.0f}) {
-        const TangentFrame frame = some_frame(handedness);
-        for (int i = 0; i < 1000; ++i) {
-            const vec3 a(any(random), any(random), any(random));
-            const vec3 normal = perturbed(frame, a, frame.normal);
-            ASSERT_NEAR(glm::dot(normal, frame.tangent), a.x, roundings)
-                << "seed 1, case " << i << ": along the tangent, the map has "
-                << testing::PrintToString(a);
-            ASSERT_NEAR(glm::dot(normal, frame.bitangent), a.y, roundings)
-                << "seed 1, case " << i << ": along the bitangent, the map has "
-                << testing::PrintToString(a);
-            ASSERT_NEAR(glm::dot(normal, frame.normal), a.z, roundings)
-                << "seed 1, case " << i << ": along the normal, the map has "
-                << testing::PrintToString(a);
-        }
-    }
 }
 
 TEST(NormalMaps, HardCase_AFlatNormalPerturbsNothing) {
     look_up("Robust: A flat map changes nothing");
     const Image<vec4> flat({4, 4}, vec4(out_of_the_surface, 1));
-    const TangentFrame frame = some_frame();
+    const TangentFrame frame{vec3(2, 2, 1) / 3.0f, vec3(-2, 1, 2) / 3.0f, vec3(1, -2, 2) / 3.0f};
     const vec3 interpolated = 0.97f * frame.normal;  // not of length 1
-    for (const Wrap wrap : all_wraps) {
-        const Texture texture = make_texture(flat, wrap);
-        for (const Filter filter : all_filters)
-            for (const vec2 uv : {vec2(0), vec2(0.3f, 0.7f), vec2(-3.3f, 7.9f)}) {
-                const FragmentUv at{uv, vec2(0.9f, 0.1f), vec2(0.2f, 0.3f)};
-                const vec3 normal = sample_normal(texture, filter, at);
-                ASSERT_EQ(normal, out_of_the_surface)
-                    << "a map of (0, 0, 1) at uv " << testing::PrintToString(uv);
-                ASSERT_EQ(perturbed(frame, normal, interpolated), interpolated)
-                    << "to the last bit: a map's (0, 0, 1) leaves the normal as it is, even if "
-                       "that is not of length 1";
-            }
-    }
+    for (const Wrap wrap : all_wraps)
+        for (const Filter filter : all_filters) {
+            const FragmentUv at{vec2(-3.3f, 7.9f), vec2(0.9f, 0.1f), vec2(0.2f, 0.3f)};
+            const vec3 normal = sample_normal(make_texture(flat, wrap), filter, at);
+            ASSERT_EQ(normal, out_of_the_surface) << "a map of (0, 0, 1) at uv (-3.3, 7.9)";
+            ASSERT_EQ(perturbed(frame, normal, interpolated), interpolated)
+                << "to the last bit: a map's (0, 0, 1) leaves the normal as it is, even if that is "
+                   "not of length 1";
+        }
 }
 
 TEST(NormalMaps, HardCase_TheFlatTexelIsAThirdOfADegreeOff) {
@@ -197,117 +131,57 @@ TEST(NormalMaps, HardCase_TheFlatTexelIsAThirdOfADegreeOff) {
 TEST(NormalMaps, HardCase_GreenUpAndGreenDownMapsLookTheSame) {
     look_up("Robust: Up or down");
     // The same surface, stored either way, and read as it is stored.
-    const Image<u8vec4> up =
-        read_image(std::filesystem::path(RASTERBOOK_ASSETS) / "textures/hammered_normal.png");
-    Image<u8vec4> down = up;
-    for (u8vec4& texel : down.pixels()) texel.g = static_cast<std::uint8_t>(255 - texel.g);
-    const Image<vec4> a = normals_from_unorm(up, Green::up);
-    const Image<vec4> b = normals_from_unorm(down, Green::down);
-    const Image<vec4> wrong = normals_from_unorm(up, Green::down);
-    double greatest = 0, greatest_of_wrong = 0;
-    for (std::size_t i = 0; i < a.pixels().size(); ++i) {
-        const vec3 normal(a.pixels()[i]);
-        greatest = std::max(greatest, degrees_between(vec3(b.pixels()[i]), normal));
-        greatest_of_wrong =
-            std::max(greatest_of_wrong, degrees_between(vec3(wrong.pixels()[i]), normal));
+    for (int green = 0; green < 256; ++green) {
+        const Image<u8vec4> up({1, 1}, u8vec4(200, green, 220, 255));
+        const Image<u8vec4> down({1, 1}, u8vec4(200, 255 - green, 220, 255));
+        ASSERT_TRUE(are_near(normals_from_unorm(down, Green::down)[{0, 0}],
+                             dvec4(normals_from_unorm(up, Green::up)[{0, 0}]), one_rounding))
+            << "of the texel (200, " << 255 - green << ", 220), green down";
     }
-    EXPECT_LT(greatest, 1e-4) << "degrees: green down, beside the same surface with green up";
-    EXPECT_GT(greatest_of_wrong, 10) << "green down makes no difference";
 }
 
 TEST(NormalMaps, Eq8_8_TheThirdComponentFromTwo) {
-    EXPECT_EQ(with_z(vec2(0, 0)), out_of_the_surface);
-    EXPECT_NEAR(with_z(vec2(0.6f, 0)).z, 0.8f, one_rounding);
     EXPECT_NEAR(with_z(vec2(0.6f, 0.48f)).z, 0.64f, one_rounding);  // the worked example
+    EXPECT_EQ(with_z(vec2(0, 0)), out_of_the_surface);
     EXPECT_NEAR(with_z(vec2(0.48f, -0.64f)).z, 0.6f, one_rounding);
     EXPECT_EQ(with_z(vec2(1, 0)).z, 0);
     EXPECT_EQ(with_z(vec2(0.9f, 0.9f)).z, 0) << "too long for a third";
     EXPECT_EQ(with_z(vec2(-3, 4)), vec3(-3, 4, 0));
-    std::mt19937 random(2);
-    std::uniform_real_distribution<float> any(-1, 1);
-    for (int i = 0; i < 1000; ++i) {
-        const vec3 unit = unit_or({any(random), any(random), any(random)}, vec3(1, 0, 0));
-        const vec3 found = with_z(vec2(unit));
-        ASSERT_EQ(vec2(found), vec2(unit)) << "x and y stay; seed 2, case " << i;
-        // Where z is small, its square is what is left of 1: that rounds to some 2^-23.
-        ASSERT_NEAR(found.z * found.z, unit.z * unit.z, 4 * one_rounding)
-            << "with_z() of " << testing::PrintToString(vec2(unit)) << ", seed 2, case " << i;
-    }
 }
 
 TEST(NormalMaps, Eq8_9_AWorkedExample) {
-    Image<u8vec4> picture({4, 3}, {102, 102, 102, 255});
-    for (int y = 0; y < 3; ++y) picture[{0, y}] = {0, 0, 0, 255};
-    const vec4 n = normals_from_heights(picture, Wrap::repeat)[{1, 1}];
-    const char* const where =
-        "4 x 3 texels, the column on the left 0, the others 102; the texel (1, 1)";
-    EXPECT_NEAR(n.x, -0.8f, one_rounding) << where;
-    EXPECT_EQ(n.y, 0) << where;
-    EXPECT_EQ(n.z, 1) << where;
-    EXPECT_NEAR(degrees_between(vec3(n), out_of_the_surface), 38.7, 0.05);
-    EXPECT_NEAR(degrees_between({0.5f * n.x, n.y, n.z}, out_of_the_surface), 21.8, 0.05);
-    // The same from below.
-    Image<u8vec4> low({4, 3}, {0, 0, 0, 255});
-    for (int x = 0; x < 4; ++x) low[{x, 2}] = {102, 102, 102, 255};
-    EXPECT_NEAR((normals_from_heights(low, Wrap::repeat)[{1, 1}].y), 0.6f, one_rounding)
+    const vec4 n = normals_from_heights(with_edge({4, 3}, false, 102), Wrap::repeat)[{1, 1}];
+    EXPECT_NEAR(n.y, 0.6f, one_rounding)
         << "4 x 3 texels, the lowest row 102, the others 0; the texel (1, 1): the surface falls "
            "upwards, so the normal leans up. Rows run down";
-}
-
-TEST(NormalMaps, Eq8_9_SlopesOfHeights) {
-    // A ramp: one code higher with each texel to the right, two with each one upwards. So from side
-    // to side it rises by 16/255 and 2 * 8/255 sides.
-    const ivec2 size(16, 8);
-    const Image<u8vec4> ramp = heights(size, [&](double x, double y) {
-        return 50 + std::floor(x * size.x) + 2 * std::floor(y * size.y);
-    });
-    const Image<vec4> normals = normals_from_heights(ramp, Wrap::clamp);
-    for (int y = 1; y + 1 < size.y; ++y)
-        for (int x = 1; x + 1 < size.x; ++x) {
-            const vec4 n = normals[{x, y}];
-            ASSERT_NEAR(n.x, -16 / 255.0f, 16 * one_rounding)
-                << "16 x 8 texels, each one code higher than that on its left; texel (" << x << ", "
-                << y << ")";
-            ASSERT_NEAR(n.y, -16 / 255.0f, 16 * one_rounding)
-                << "16 x 8 texels, each two codes higher than that below it; texel (" << x << ", "
-                << y << ")";
-            ASSERT_EQ(n.z, 1);
-            ASSERT_EQ(n.w, 1);
-        }
-    // A step up to the right has a normal that points to the left, one upwards points down.
-    EXPECT_LT((normals[{5, 5}].x), 0) << "higher to the right: the normal leans to the left";
-    EXPECT_LT((normals[{5, 5}].y), 0) << "higher upwards: the normal leans down";
+    Image<u8vec4> picture({4, 3}, {102, 102, 102, 255});
+    for (int y = 0; y < 3; ++y) picture[{0, y}] = {0, 0, 0, 255};
+    EXPECT_TRUE(are_near(normals_from_heights(picture, Wrap::repeat)[{1, 1}], {-0.8, 0, 1, 1},
+                         one_rounding))
+        << "4 x 3 texels, the column on the left 0, the others 102; the texel (1, 1)";
 }
 
 TEST(NormalMaps, Eq8_9_HeightsBeyondTheBorder) {
-    // One high column at the left border.
-    Image<u8vec4> picture({4, 4}, {0, 0, 0, 255});
-    for (int y = 0; y < 4; ++y) picture[{0, y}] = {255, 255, 255, 255};
-    const auto row = [&](Wrap wrap) {
-        const Image<vec4> normals = normals_from_heights(picture, wrap);
-        for (int y = 0; y < 4; ++y) EXPECT_EQ((normals[{1, y}].y), 0);
-        return std::array{normals[{0, 2}].x, normals[{1, 2}].x, normals[{2, 2}].x,
-                          normals[{3, 2}].x};
-    };
+    const Image<u8vec4> picture = with_edge({4, 4}, true, 255), low = with_edge({4, 4}, false, 255);
     // Differences over two texels of 1/4: a step of 1 is a slope of 2.
-    const char* const what =
-        "x of a row's normals; 4 x 4 texels, the column on the left 255, the others 0";
-    EXPECT_EQ(row(Wrap::repeat), (std::array{0.0f, 2.0f, 0.0f, -2.0f})) << what;
-    EXPECT_EQ(row(Wrap::clamp), (std::array{2.0f, 2.0f, 0.0f, 0.0f})) << what;
-    EXPECT_EQ(row(Wrap::mirror), (std::array{2.0f, 2.0f, 0.0f, 0.0f})) << what;
-    // The same from bottom to top; rows run down.
-    Image<u8vec4> low({4, 4}, {0, 0, 0, 255});
-    for (int x = 0; x < 4; ++x) low[{x, 3}] = {255, 255, 255, 255};
-    const Image<vec4> normals = normals_from_heights(low, Wrap::clamp);
-    for (int y = 0; y < 4; ++y)
-        EXPECT_EQ((normals[{1, y}].y), y >= 2 ? 2 : 0)
-            << "4 x 4 texels, the lowest row 255, the others 0, Wrap::clamp; texel (1, " << y
-            << ")";
+    for (const auto& [wrap, expected] : {std::pair{Wrap::repeat, vec4(0, 2, 0, -2)},
+                                         {Wrap::clamp, vec4(2, 2, 0, 0)},
+                                         {Wrap::mirror, vec4(2, 2, 0, 0)}}) {
+        const Image<vec4> across = normals_from_heights(picture, wrap);
+        const Image<vec4> upwards = normals_from_heights(low, wrap);
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_EQ(across[ivec2(i, 2)], vec4(expected[i], 0, 1, 1))
+                << "4 x 4 texels, the column on the left 255, the others 0; texel (" << i
+                << ", 2), wrap " << name_of(wrap);
+            EXPECT_EQ(upwards[ivec2(1, 3 - i)], vec4(0, expected[i], 1, 1))
+                << "4 x 4 texels, the lowest row 255, the others 0; texel (1, " << 3 - i
+                << "), wrap " << name_of(wrap);
+        }
+    }
 }
 
 TEST(NormalMaps, Eq8_9_HeightMapsAndNormalMapsAgree) {
     // The generator made both maps from the same surface, the heights rounded to 255 steps.
-    const std::filesystem::path textures = std::filesystem::path(RASTERBOOK_ASSETS) / "textures";
     const Image<vec4> normals =
         normals_from_unorm(read_image(textures / "brick_normal.png"), Green::up);
     const Image<vec4> from_heights =
@@ -316,41 +190,36 @@ TEST(NormalMaps, Eq8_9_HeightMapsAndNormalMapsAgree) {
     // A difference of two codes is off by at most one step in all: .8 degrees; a component of the
     // normal map by half a step.
     const double most =
-        std::atan(std::sqrt(2.0) * bump_multiplier * 512 / 2 / 255) * 180 / 3.14159 + 0.4;
-    double greatest = 0, sum = 0;
+        glm::degrees(std::atan(std::sqrt(2.0) * bump_multiplier * 512 / 2 / 255)) + 0.4;
+    double greatest = 0;
     for (std::size_t i = 0; i < normals.pixels().size(); ++i) {
         const vec4 n = from_heights.pixels()[i];
-        const double off = degrees_between(vec3(normals.pixels()[i]),
-                                           {bump_multiplier * n.x, bump_multiplier * n.y, n.z});
-        greatest = std::max(greatest, off), sum += off;
+        greatest = std::max(greatest,
+                            degrees_between(vec3(normals.pixels()[i]),
+                                            {bump_multiplier * n.x, bump_multiplier * n.y, n.z}));
     }
     EXPECT_LT(greatest, most)
         << "degrees between brick_normal.png and the normals of brick_height.png";
-    EXPECT_GT(greatest, 0.1) << "as if there were no steps";
-    EXPECT_LT(sum / static_cast<double>(normals.pixels().size()), 0.5);
 }
 
 TEST(NormalMaps, HardCase_HeightsThatAreAllEqualAreFlat) {
     look_up("Eq. 8.9");
     for (const ivec2 size : {ivec2(1), ivec2(1, 7), ivec2(5, 1), ivec2(3, 5)})
-        for (const int code : {0, 1, 128, 255})
-            for (const Wrap wrap : all_wraps) {
-                const Image<u8vec4> flat(size, u8vec4(static_cast<std::uint8_t>(code)));
-                ASSERT_TRUE(are_equal(normals_from_heights(flat, wrap),
-                                      Image<vec4>(size, vec4(0, 0, 1, 1))))
-                    << "all heights are " << code;
-            }
+        for (const Wrap wrap : all_wraps)
+            ASSERT_TRUE(are_equal(normals_from_heights(Image<u8vec4>(size, u8vec4(128)), wrap),
+                                  Image<vec4>(size, vec4(0, 0, 1, 1))))
+                << "all heights are 128";
 }
 
 TEST(NormalMaps, HardCase_MirroredCopiesOfAMap) {
     look_up("Robust: Seen from behind, and in mirrored copies");
     // The normals all point to the right and up: in a mirrored copy they point to the left.
-    Texture texture = make_texture(Image<vec4>({8, 8}, vec4(0.6f, 0.48f, 0.64f, 1)), Wrap::mirror);
+    const vec3 n(0.6f, 0.48f, 0.64f);
+    Texture texture = make_texture(Image<vec4>({8, 8}, vec4(n, 1)), Wrap::mirror);
     const auto at = [&](vec2 uv) {
         return sample_normal(texture, Filter::bilinear, FragmentUv{uv, vec2(0), vec2(0)});
     };
-    const vec3 n(0.6f, 0.48f, 0.64f);
-    for (const float copy : {-4.0f, -2.0f, 0.0f, 2.0f, 100.0f}) {
+    for (const float copy : {-4.0f, 0.0f, 100.0f}) {
         EXPECT_EQ(at({copy + 0.3f, 0.2f}), n);
         EXPECT_EQ(at({copy + 1.3f, 0.2f}), n * vec3(-1, 1, 1));
         EXPECT_EQ(at({0.2f, copy + 1.7f}), n * vec3(1, -1, 1));
@@ -370,7 +239,6 @@ TEST(NormalMaps, HardCase_ColouredHeightsAreNormals) {
     look_up("Robust: Heights, or normals after all");
     EXPECT_TRUE(is_gray(Image<u8vec4>({3, 3}, {7, 7, 7, 1})));
     EXPECT_TRUE(is_gray(Image<u8vec4>()));
-    EXPECT_FALSE(is_gray(Image<u8vec4>({3, 3}, {128, 128, 255, 255})));
     for (int channel = 0; channel < 3; ++channel) {
         Image<u8vec4> picture({3, 3}, {7, 7, 7, 255});
         picture[{2, 2}][channel] = 8;

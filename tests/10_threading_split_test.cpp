@@ -7,12 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <random>
 #include <set>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,23 +25,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-/// How many tiles each pixel of a picture is in.
-Image<int> hits_of(const Tiling& tiling) {
-    Image<int> hits(tiling.size(), 0);
-    for (std::size_t i = 0; i < tiling.count(); ++i)
-        for_each_strip(tiling[i], [&](const PixelBox& strip) {
-            for (int y = strip.first.y; y <= strip.last.y; ++y)
-                for (int x = strip.first.x; x <= strip.last.x; ++x)
-                    if (hits.contains({x, y}))
-                        ++hits[{x, y}];
-                    else if (!testing::Test::HasFailure())
-                        ADD_FAILURE() << "tile " << i << " has the pixel (" << x << ", " << y
-                                      << "), which is outside of the picture of " << tiling.size().x
-                                      << " x " << tiling.size().y;
-        });
-    return hits;
-}
-
 /// "tile 2 of 7"
 std::string numbered(std::size_t tile, const Tiling& tiling) {
     return "tile " + std::to_string(tile) + " of " + std::to_string(tiling.count());
@@ -55,14 +35,6 @@ std::string named(ivec2 size, Split split, int workers, int side) {
     return "a picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) + ", " +
            name_of(split) + ", " + std::to_string(workers) + " workers, tile side " +
            std::to_string(side);
-}
-
-/// "the triangle (3, 4), (5, 0), (1, 1) in pixels"
-std::string named(const ScreenTriangle& triangle) {
-    std::string name = "the triangle ";
-    for (const ivec2 vertex : triangle.vertices)
-        name += testing::PrintToString(vec2(vertex) / static_cast<float>(subpixels)) + ", ";
-    return name + "in pixels";
 }
 
 /// By definition, pixel by pixel: which tile a pixel is in.
@@ -108,21 +80,6 @@ TEST(Threading, Eq10_3_NoWorkerHasTwoRowsMoreThanAnother) {
             << "last pixel of " << where;
         ASSERT_EQ(tiling[i].row_step, 1) << where;
     }
-    for (const auto& [rows, workers] :
-         {std::pair{1023, 256}, {121, 61}, {16384, 1024}, {1'000'000, 1023}}) {
-        const Tiling even(Split::rows, {10, rows}, static_cast<std::size_t>(workers), 64);
-        for (std::size_t i = 0; i < even.count(); ++i) {
-            const auto [first, last] = even[i].box;
-            const int height = last.y - first.y + 1;
-            ASSERT_TRUE(height == rows / workers || height == rows / workers + 1)
-                << "rows of " << numbered(i, even) << ", of " << rows << ": " << height;
-            for (const int y : {first.y, last.y})
-                even.for_each_in({{0, y}, {0, y}}, [&](std::size_t of) {
-                    ASSERT_EQ(of, i) << "whose row " << y << " is, of " << rows << " rows and "
-                                     << workers << " workers";
-                });
-        }
-    }
 }
 
 TEST(Threading, Eq10_4_InterleavedRowsGoRound) {
@@ -158,91 +115,79 @@ TEST(Threading, Eq10_5_TilesOfTheWorkedExample) {
 
 TEST(Threading, HardCase_EachPixelIsInOneTile) {
     look_up("Eq. 10.5");
-    for (const ivec2 size : {ivec2(1, 1), {1, 9}, {9, 1}, {64, 64}, {65, 63}, {33, 130}, {3, 60}})
+    for (const ivec2 size : {ivec2(1, 1), {1, 9}, {9, 1}, {64, 64}, {65, 63}, {33, 130}, {3, 1021}})
         for (const int workers : thread_counts)
             for (const Split split : splits)
                 for (const int side : {1, 2, 8, 63, 64, 1000}) {
                     const Tiling tiling(split, size, static_cast<std::size_t>(workers), side);
-                    const Image<int> hits = hits_of(tiling);
                     const std::string where = named(size, split, workers, side);
-                    ASSERT_FALSE(HasFailure()) << where;
-                    for (int y = 0; y < size.y; ++y)
-                        for (int x = 0; x < size.x; ++x)
-                            ASSERT_EQ((hits[{x, y}]), 1) << "so many tiles have the pixel (" << x
-                                                         << ", " << y << ") of " << where;
+                    int pixels = 0;
                     for (std::size_t i = 0; i < tiling.count(); ++i)
                         for_each_strip(tiling[i], [&](const PixelBox& strip) {
-                            for (const ivec2 pixel : {strip.first, strip.last})
-                                ASSERT_EQ(i, tile_of(pixel, split, size, workers, side))
-                                    << "the tile of the pixel " << testing::PrintToString(pixel)
-                                    << " of " << where;
+                            for (int y = strip.first.y; y <= strip.last.y; ++y)
+                                for (int x = strip.first.x; x <= strip.last.x; ++x, ++pixels) {
+                                    ASSERT_TRUE(x >= 0 && y >= 0 && x < size.x && y < size.y)
+                                        << "tile " << i << " has (" << x << ", " << y << "), "
+                                        << where;
+                                    ASSERT_EQ(i, tile_of({x, y}, split, size, workers, side))
+                                        << "the tile of (" << x << ", " << y << "), " << where;
+                                }
                         });
                     ASSERT_FALSE(HasFatalFailure());
+                    ASSERT_EQ(pixels, size.x * size.y) << "pixels of all tiles, " << where;
                 }
 }
 
 TEST(Threading, HardCase_MoreWorkersThanRowsOrTiles) {
     look_up("Eq. 10.3");
-    for (const Split split : {Split::rows, Split::interleaved}) {
-        ASSERT_EQ(Tiling(split, {100, 3}, 61, 64).count(), 3u)
+    for (const Split split : splits) {
+        const std::size_t tiles = split == Split::tiles ? 2 : 3;
+        EXPECT_EQ(Tiling(split, {100, 3}, 61, 64).count(), tiles)
             << name_of(split) << " of a picture of 100 x 3, 61 workers";
-        ASSERT_EQ(Tiling(split, {100, 1}, 61, 64).count(), 1u)
-            << name_of(split) << " of a picture of 100 x 1, 61 workers";
-    }
-    EXPECT_EQ(Tiling(Split::tiles, {100, 3}, 61, 64).count(), 2u);
-    for (const Split split : splits)
         for (const ivec2 size : {ivec2(0), ivec2(0, 5), ivec2(5, 0)}) {
             const Tiling none(split, size, 4, 64);
             EXPECT_EQ(none.count(), 0u) << "no pixels, no tiles";
             none.for_each_in({{0, 0}, {5, 5}}, [](std::size_t) { ADD_FAILURE(); });
         }
+    }
 }
 
 TEST(Threading, Eq10_6_ATriangleIsListedInJustTheTilesThatItsBoxMeets) {
+    const auto tiles_met = [](const Tiling& tiling, const PixelBox& box) {
+        std::vector<std::size_t> met;
+        tiling.for_each_in(box, [&](std::size_t tile) { met.push_back(tile); });
+        std::ranges::sort(met);
+        return met;
+    };
     // The worked example: a box of pixels from (100, 50) to (130, 70) meets four tiles.
-    std::vector<std::size_t> met;
-    Tiling(Split::tiles, {1920, 1080}, 4, 64)
-        .for_each_in({{100, 50}, {130, 70}}, [&](std::size_t i) { met.push_back(i); });
-    EXPECT_EQ(met, (std::vector<std::size_t>{1, 2, 31, 32}))
+    EXPECT_EQ(tiles_met(Tiling(Split::tiles, {1920, 1080}, 4, 64), {{100, 50}, {130, 70}}),
+              (std::vector<std::size_t>{1, 2, 31, 32}))
         << "tiles of 64 x 64, 30 a row, that a box from (100, 50) to (130, 70) meets";
 
     // Of a triangle: the pixels whose centres lie in its box.
     const PixelBox known =
         box_around(snap_triangle({1.25f, 2.75f}, {4.75f, 2.75f}, {1.25f, 5.25f}));
-    EXPECT_EQ(known.first, ivec2(1, 3)) << "the first pixel of the triangle (1.25, 2.75), "
-                                           "(4.75, 2.75), (1.25, 5.25): centres lie at 1/2";
-    EXPECT_EQ(known.last, ivec2(4, 4)) << "the last pixel of the triangle (1.25, 2.75), "
-                                          "(4.75, 2.75), (1.25, 5.25): centres lie at 1/2";
+    const char* const what =
+        " pixel of the triangle (1.25, 2.75), (4.75, 2.75), (1.25, 5.25): centres lie at 1/2";
+    EXPECT_EQ(known.first, ivec2(1, 3)) << "the first" << what;
+    EXPECT_EQ(known.last, ivec2(4, 4)) << "the last" << what;
 
     std::mt19937 random(1);
     const ivec2 size(70, 50);
     for (int k = 0; k < 2000; ++k) {
-        const ScreenTriangle triangle = any_triangle(random, size);
-        const PixelBox box = box_around(triangle);
-        fill_triangle(triangle, size, [&](ivec2 pixel, vec3) {
-            ASSERT_TRUE(glm::all(glm::greaterThanEqual(pixel, box.first)) &&
-                        glm::all(glm::lessThanEqual(pixel, box.last)))
-                << "the triangle has the pixel " << testing::PrintToString(pixel)
-                << ", and its box is from " << testing::PrintToString(box.first) << " to "
-                << testing::PrintToString(box.last) << ": " << named(triangle) << " (seed 1, " << k
-                << ")";
-        });
-        ASSERT_FALSE(HasFatalFailure());
+        const auto [first, last] = box_around(any_triangle(random, size));
         const Split split = splits[random() % 3];
         const int workers = thread_counts[random() % thread_counts.size()];
         const int side = 1 + static_cast<int>(random() % 40);
         std::set<std::size_t> expected;
-        for (int y = std::max(box.first.y, 0); y <= std::min(box.last.y, size.y - 1); ++y)
-            for (int x = std::max(box.first.x, 0); x <= std::min(box.last.x, size.x - 1); ++x)
+        for (int y = std::max(first.y, 0); y <= std::min(last.y, size.y - 1); ++y)
+            for (int x = std::max(first.x, 0); x <= std::min(last.x, size.x - 1); ++x)
                 expected.insert(tile_of({x, y}, split, size, workers, side));
-        std::set<std::size_t> actual;
-        Tiling(split, size, static_cast<std::size_t>(workers), side)
-            .for_each_in(box, [&](std::size_t tile) {
-                ASSERT_TRUE(actual.insert(tile).second) << "seed 1, triangle " << k << ": twice";
-            });
-        ASSERT_EQ(actual, expected)
-            << "tiles that the box from " << testing::PrintToString(box.first) << " to "
-            << testing::PrintToString(box.last) << " meets in " << named(size, split, workers, side)
+        ASSERT_EQ(
+            tiles_met(Tiling(split, size, static_cast<std::size_t>(workers), side), {first, last}),
+            std::vector(expected.begin(), expected.end()))
+            << "tiles that the box from " << testing::PrintToString(first) << " to "
+            << testing::PrintToString(last) << " meets in " << named(size, split, workers, side)
             << " (seed 1, " << k << ")";
     }
 }
@@ -253,37 +198,30 @@ TEST(Threading, Eq10_7_TilesTogetherAreTheWholeTriangleBitForBit) {
     long pixels = 0;
     for (int k = 0; k < 3000; ++k) {
         const ScreenTriangle triangle = any_triangle(random, size);
-        std::map<std::tuple<int, int>, vec3> whole;
-        fill_triangle(triangle, size, [&](ivec2 pixel, vec3 barycentrics) {
-            whole[{pixel.y, pixel.x}] = barycentrics;
-        });
         const Split split = splits[static_cast<std::size_t>(k) % 3];
         const int workers = thread_counts[random() % thread_counts.size()];
         const int side = 1 + static_cast<int>(random() % 80);
+        const std::string where = "the triangle " + testing::PrintToString(triangle.vertices) +
+                                  " in 1/256 pixel, " + named(size, split, workers, side) +
+                                  " (seed 2, " + std::to_string(k) + ")";
+        Image<vec3> left(size, vec3(-1));
+        long pixels_left = 0;
+        fill_triangle(triangle, size, [&](ivec2 pixel, vec3 barycentrics) {
+            left[pixel] = barycentrics;
+            ++pixels_left, ++pixels;
+        });
         const Tiling tiling(split, size, static_cast<std::size_t>(workers), side);
         for (std::size_t i = 0; i < tiling.count(); ++i)
             fill_tile(triangle, tiling[i], [&](ivec2 pixel, vec3 barycentrics) {
-                const auto where = [&] {
-                    return "at the pixel " + testing::PrintToString(pixel) + " of " +
-                           named(triangle) + ", in " + numbered(i, tiling) + ", " +
-                           named(size, split, workers, side) + " (seed 2, " + std::to_string(k) +
-                           ")";
-                };
-                ASSERT_EQ(i, tile_of(pixel, split, size, workers, side)) << where();
-                const auto found = whole.find({pixel.y, pixel.x});
-                ASSERT_TRUE(found != whole.end())
-                    << "drawn twice, or not the triangle's, " << where();
-                ASSERT_EQ(barycentrics, found->second)
-                    << "as fill_tile() and as fill_triangle() have it, " << where();
-                whole.erase(found);
-                ++pixels;
+                ASSERT_EQ(barycentrics, left[pixel])
+                    << "as fill_tile() and as fill_triangle() have it; -1 where it is drawn twice, "
+                    << "or not the triangle's: at the pixel " << testing::PrintToString(pixel)
+                    << ", in " << numbered(i, tiling) << " of " << where;
+                left[pixel] = vec3(-1);
+                --pixels_left;
             });
         ASSERT_FALSE(HasFatalFailure());
-        ASSERT_TRUE(whole.empty())
-            << whole.size() << " pixels of " << named(triangle) << " are in no tile of "
-            << named(size, split, workers, side) << ": the first is ("
-            << std::get<1>(whole.begin()->first) << ", " << std::get<0>(whole.begin()->first)
-            << ") (seed 2, " << k << ")";
+        ASSERT_EQ(pixels_left, 0) << "pixels that are in no tile, of " << where;
     }
     EXPECT_GT(pixels, 100000);
 }
@@ -293,9 +231,7 @@ TEST(Threading, Eq10_1_NoScheduleIsShorterThanItsWorkOrItsLongestTask) {
     const std::array times = {4.0, 3.0, 2.0, 2.0, 1.0};
     EXPECT_EQ(schedule_of(times, 1).least(), 12) << "tasks of 4, 3, 2, 2, 1; one worker: all";
     EXPECT_EQ(schedule_of(times, 2).least(), 6) << "tasks of 4, 3, 2, 2, 1; two workers: half";
-    EXPECT_EQ(schedule_of(times, 3).least(), 4) << "tasks of 4, 3, 2, 2, 1; three workers";
-    EXPECT_EQ(schedule_of(times, 5).least(), 4)
-        << "tasks of 4, 3, 2, 2, 1; five workers: the longest task";
+    EXPECT_EQ(schedule_of(times, 3).least(), 4) << "tasks of 4, 3, 2, 2, 1; three workers: the 4";
 }
 
 TEST(Threading, Eq10_2_WhatIsLeftToOneWorkerBoundsAll) {
@@ -313,54 +249,18 @@ TEST(Threading, Eq10_8_EachTaskGoesToWhoeverIsFreeFirst) {
         << "tasks of 4, 3, 2, 2, 1, two workers";
     EXPECT_EQ(schedule_of(std::array{1.0, 2.0, 2.0, 3.0, 4.0}, 2).finish, 7)
         << "tasks of 1, 2, 2, 3, 4, two workers";
+    EXPECT_EQ(schedule_of(std::array{9.0, 1.0, 2.0, 3.0}, 3).finish, 9)
+        << "tasks of 9, 1, 2, 3, three workers: the first is the last to be done";
     EXPECT_EQ(schedule_of({}, 3).finish, 0) << "no tasks";
-
-    // Another way to the same: go through time in small steps; who is free takes the next task.
-    std::mt19937 random(3);
-    for (int k = 0; k < 300; ++k) {
-        std::vector<double> times(random() % 40);
-        for (double& t : times) t = static_cast<double>(random() % 9);
-        const std::size_t workers = 1 + random() % 9;
-        std::vector<double> busy_until(workers, 0);
-        std::size_t next = 0;
-        double finish = 0;
-        for (double now = 0; next < times.size(); ++now)
-            for (bool took = true; took;) {
-                took = false;
-                for (double& until : busy_until)
-                    if (until <= now && next < times.size()) {
-                        until = now + times[next++];
-                        finish = std::max(finish, until);
-                        took = true;
-                    }
-            }
-        ASSERT_EQ(schedule_of(times, workers).finish, finish)
-            << workers << " workers, tasks of " << testing::PrintToString(times)
-            << " (seed 3, case " << k << ")";
-    }
 }
 
-TEST(Threading, Eq10_9_TheBoundHoldsInAnyOrderAndIsMet) {
+TEST(Threading, Eq10_9_TheBoundIsMet) {
     // The worked example: 12 tasks of 1, and one of 4 that comes last.
     std::vector<double> worst(12, 1);
     worst.push_back(4);
     const Schedule met = schedule_of(worst, 4);
     EXPECT_EQ(met.finish, 7) << "12 tasks of 1 and then one of 4; four workers";
     EXPECT_EQ(met.most(), 7) << "12 tasks of 1 and then one of 4; four workers: no less would hold";
-    std::mt19937 random(4);
-    for (int k = 0; k < 3000; ++k) {
-        std::vector<double> times(1 + random() % 60);
-        for (double& t : times) t = static_cast<double>(random() % 1000) / 8;  // exact sums
-        const std::size_t workers = 1 + random() % 20;
-        const Schedule schedule = schedule_of(times, workers);
-        // 1e-9: a quotient by p and its product are rounded.
-        ASSERT_LE(schedule.finish, schedule.most() * (1 + 1e-9))
-            << workers << " workers, tasks of " << testing::PrintToString(times)
-            << " (seed 4, case " << k << ")";
-        ASSERT_GE(schedule.finish * (1 + 1e-9), schedule.least())
-            << workers << " workers, tasks of " << testing::PrintToString(times)
-            << " (seed 4, case " << k << ")";
-    }
 }
 
 TEST(Threading, Eq10_10_IdleShares) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Drawing allocates memory for pictures and meshes, never for a triangle or a pixel.
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -54,12 +53,16 @@ std::atomic<int> failures = 0;
 
 namespace {
 
-/// How many allocations `work` makes.
+/// How many allocations `work` makes. It has to count more than 1000 of each of some counters.
 template <typename Work>
-std::size_t allocations_of(const Work& work) {
+std::size_t allocations_of(const Work& work, const std::vector<Counter>& many = {}) {
+    const test::CountedSince counters;
     const std::size_t before = allocations;
     work();
-    return allocations - before;
+    const std::size_t count = allocations - before;
+    for (const Counter counter : many)
+        EXPECT_GT(counters[counter], 1000u) << counter_names[static_cast<std::size_t>(counter)];
+    return count;
 }
 
 /// Two waves of side * side squares, in two meshes, with uv.
@@ -77,17 +80,16 @@ Scene waves(int side) {
                 mesh.uvs.push_back(4.0f * at);
                 mesh.bounds.add(mesh.positions.back());
             }
-        const auto vertex = [&](int x, int y) {
-            const auto index = static_cast<std::uint32_t>(y * (side + 1) + x);
-            return Vertex{index, index};
+        const auto add = [&](ivec2 a, ivec2 b, ivec2 c) {
+            const auto vertex = [&](ivec2 at) {
+                const auto index = static_cast<std::uint32_t>(at.y * (side + 1) + at.x);
+                return Vertex{index, index};
+            };
+            mesh.triangles.push_back({{vertex(a), vertex(b), vertex(c)}, 1});
         };
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                mesh.triangles.push_back(
-                    {{vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1)}, 1});
-                mesh.triangles.push_back(
-                    {{vertex(x, y), vertex(x + 1, y + 1), vertex(x, y + 1)}, 1});
-            }
+        for (ivec2 p(0); p.y < side; ++p.y)
+            for (p.x = 0; p.x < side; ++p.x)
+                add(p, p + ivec2(1, 0), p + 1), add(p, p + 1, p + ivec2(0, 1));
     }
     return scene;
 }
@@ -95,11 +97,6 @@ Scene waves(int side) {
 std::shared_ptr<const Texture> texture_of(vec4 texel) {
     return std::make_shared<const Texture>(
         make_texture(Image<vec4>({16, 16}, texel), Wrap::repeat));
-}
-
-void expect_many(const Counters& counters, Counter counter) {
-    const auto i = static_cast<std::size_t>(counter);
-    EXPECT_GT(counters.values[i], 1000u) << counter_names[i];
 }
 
 /// For EXPECT_TRUE: a picture of n triangles and one of 16 n make as many allocations, seen from
@@ -110,51 +107,58 @@ testing::AssertionResult does_not_depend_on_triangles(Options options, const Dra
     for (const float distance : {1.4f, 0.2f}) {
         options.orbit.distance = distance;
         const std::size_t few = draw(options, waves(8)), many = draw(options, waves(32));
-        if (few != many || few == 0)
-            return testing::AssertionFailure() << few << " and " << many << " allocations";
-        options.size = 2 * options.size;
-        if (const std::size_t large = draw(options, waves(8)); large != few)
+        Options large = options;
+        large.size *= 2;
+        const std::size_t of_large = draw(large, waves(8));
+        if (few == 0 || few != many || few != of_large)
             return testing::AssertionFailure()
-                   << few << " and, for four times as many pixels, " << large << " allocations";
-        options.size = options.size / 2;
+                   << few << " allocations; " << many << " with 16 times as many triangles, "
+                   << of_large << " with four times as many pixels";
     }
     return testing::AssertionSuccess();
+}
+
+std::ptrdiff_t fails = 0;  // of the allocations of watched(): this one, or none
+std::ptrdiff_t watched_allocations = 0;
+
+template <typename Draw>
+Image<vec3> watched(const Draw& draw) {
+    const std::size_t before = allocations;
+    until_one_fails = fails;
+    Image<vec3> picture = draw();
+    until_one_fails = 0;
+    watched_allocations = static_cast<std::ptrdiff_t>(allocations - before);
+    return picture;
 }
 
 /// Runs a lesson's program on three threads, once as it is, and then so that one of the allocations
 /// of its picture fails: the program has to end in one line and leave no file.
 ///
-/// @param run_with  Called as run_with(argc, argv, begin, end): runs the program, whose render()
-///                  calls begin() and end().
-template <typename RunWith>
-void expect_one_line_for_each_failure(const char* lesson, const RunWith& run_with) {
+/// @param run  Called as run(argc, argv): runs the program, whose render() is watched().
+template <typename Run>
+void expect_one_line_for_each_failure(const char* lesson, const Run& run) {
+    SCOPED_TRACE(lesson);
     const std::filesystem::path folder = test::fresh_folder("allocations");
     std::vector<std::string> words = {
         lesson,      "--model", "crate.obj", "--size", "96x54", "--shadow-size",       "128",
         "--threads", "3",       "--tile",    "16",     "--out", folder / "picture.png"};
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
-    std::size_t before = 0, count = 0;
-    const auto status_when = [&](std::ptrdiff_t fails) {
-        return run_with(
-            static_cast<int>(argv.size()), argv.data(),
-            [&] { before = allocations, until_one_fails = fails; },
-            [&] { until_one_fails = 0, count = allocations - before; });
-    };
-    ASSERT_EQ(status_when(0), 0);
-    const auto all = static_cast<std::ptrdiff_t>(count);
+    const auto argc = static_cast<int>(argv.size());
+    fails = 0;
+    ASSERT_EQ(run(argc, argv.data()), 0);
+    const std::ptrdiff_t all = watched_allocations;
     ASSERT_GT(all, 20);
     failures = 0;
-    for (std::ptrdiff_t fails = 1; fails < all; fails += all / 16) {
+    for (fails = 1; fails < all; fails += all / 16) {
         std::filesystem::remove(folder / "picture.png");
         const int failures_before = failures;
         testing::internal::CaptureStderr();
-        const int status = status_when(fails);
+        const int status = run(argc, argv.data());
         const std::string said = testing::internal::GetCapturedStderr();
         until_one_fails = 0;
         const bool has_failed = failures > failures_before;  // a worker may sleep through it all
-        ASSERT_EQ(status, has_failed ? 1 : 0)
-            << "allocation " << fails << " of about " << all << " of " << lesson;
+        ASSERT_EQ(status, has_failed ? 1 : 0) << "allocation " << fails << " of about " << all;
         ASSERT_EQ(said, has_failed ? "error: not enough memory for this model at this size\n" : "");
         ASSERT_EQ(std::filesystem::is_empty(folder), has_failed);
     }
@@ -163,52 +167,35 @@ void expect_one_line_for_each_failure(const char* lesson, const RunWith& run_wit
 
 }  // namespace
 
-TEST(Allocations, AreCounted) {
-    EXPECT_EQ(allocations_of([] {}), 0u);
-    std::vector<std::vector<int>> kept;
-    EXPECT_EQ(allocations_of([&] { kept.emplace_back(3); }), 2u);
-    EXPECT_EQ(kept.at(0).size(), 3u);
-}
-
 TEST(Allocations, OfLesson04DoNotDependOnTriangles) {
-    EXPECT_TRUE(
-        does_not_depend_on_triangles(PotOptions(), [](const auto& options, const Scene& scene) {
-            const test::CountedSince counters;
-            const std::size_t count = allocations_of([&] { lesson_04::render(options, scene); });
-            expect_many(counters, Counter::fragments_shaded);
-            return count;
-        }));
+    EXPECT_TRUE(does_not_depend_on_triangles(PotOptions(), [](const auto& options, Scene scene) {
+        return allocations_of([&] { lesson_04::render(options, scene); },
+                              {Counter::fragments_shaded});
+    }));
 }
 
 TEST(Allocations, OfLesson05DoNotDependOnTriangles) {
     for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear}) {
         TexturedSceneOptions knobs;
         knobs.texture.filter = filter;
-        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options,
-                                                           const Scene& scene) {
+        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options, Scene scene) {
             TexturedScene assets = load_textured_scene(scene, options);
             assets.textures[1] = texture_of(vec4(0.5f));
-            const test::CountedSince counters;
-            const std::size_t count = allocations_of([&] { lesson_05::render(options, assets); });
-            expect_many(counters, Counter::texture_samples);
-            return count;
+            return allocations_of([&] { lesson_05::render(options, assets); },
+                                  {Counter::texture_samples});
         }));
     }
 }
 
 TEST(Allocations, OfLesson06DoNotDependOnTriangles) {
     lesson_06::Options knobs;
-    EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
-        Scene shiny = scene;
-        shiny.materials[1].specular = vec3(0.5f), shiny.materials[1].shininess = 10;
-        PhongAssets assets = lesson_06::make_assets(shiny, options);
+    EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options, Scene scene) {
+        scene.materials[1].specular = vec3(0.5f), scene.materials[1].shininess = 10;
+        PhongAssets assets = lesson_06::make_assets(scene, options);
         assets.textures.diffuse[1] = texture_of(vec4(0.5f));
         assets.effects[1].set(Effect::texture);
-        const test::CountedSince counters;
-        const std::size_t count = allocations_of([&] { lesson_06::render(options, assets); });
-        expect_many(counters, Counter::highlights);
-        expect_many(counters, Counter::texture_samples);
-        return count;
+        return allocations_of([&] { lesson_06::render(options, assets); },
+                              {Counter::highlights, Counter::texture_samples});
     }));
 }
 
@@ -216,13 +203,10 @@ TEST(Allocations, OfLesson07DoNotDependOnTriangles) {
     for (const Outline outline : {Outline::none, Outline::facing, Outline::hull, Outline::edges}) {
         ToonOptions knobs;
         knobs.orbit = {}, knobs.shading.outline = outline;
-        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options,
-                                                           const Scene& scene) {
+        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options, Scene scene) {
             const ToonAssets assets = lesson_07::make_assets(scene, options);
-            const test::CountedSince counters;
-            const std::size_t count = allocations_of([&] { lesson_07::render(options, assets); });
-            expect_many(counters, Counter::toon_fragments);
-            return count;
+            return allocations_of([&] { lesson_07::render(options, assets); },
+                                  {Counter::toon_fragments});
         }));
     }
 }
@@ -230,13 +214,11 @@ TEST(Allocations, OfLesson07DoNotDependOnTriangles) {
 TEST(Allocations, OfLesson08DoNotDependOnTriangles) {
     lesson_08::Options knobs;
     knobs.shading.all_effects = true;  // a map for each mesh
-    EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options, const Scene& scene) {
+    EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options, Scene scene) {
         NormalMapAssets assets = lesson_08::make_assets(scene, options);
         assets.normal_maps.textures[1] = texture_of(vec4(0.6f, 0, 0.8f, 1));
-        const test::CountedSince counters;
-        const std::size_t count = allocations_of([&] { lesson_08::render(options, assets); });
-        expect_many(counters, Counter::normal_map_samples);
-        return count;
+        return allocations_of([&] { lesson_08::render(options, assets); },
+                              {Counter::normal_map_samples});
     }));
 }
 
@@ -245,15 +227,11 @@ TEST(Allocations, OfLesson09DoNotDependOnTriangles) {
         lesson_09::Options knobs;
         knobs.shading.key_light = light, knobs.shadow.size = 64;
         knobs.shading.all_effects = true;  // maps for each mesh and light
-        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options,
-                                                           const Scene& scene) {
+        EXPECT_TRUE(does_not_depend_on_triangles(knobs, [](const auto& options, Scene scene) {
             ShadowAssets assets = lesson_09::make_assets(scene, options);
             assets.normal_maps.textures[1] = texture_of(vec4(0.6f, 0, 0.8f, 1));
-            const test::CountedSince counters;
-            const std::size_t count = allocations_of([&] { lesson_09::render(options, assets); });
-            expect_many(counters, Counter::shadow_fragments);
-            expect_many(counters, Counter::shadow_tests);
-            return count;
+            return allocations_of([&] { lesson_09::render(options, assets); },
+                                  {Counter::shadow_fragments, Counter::shadow_tests});
         }));
     }
 }
@@ -267,11 +245,8 @@ TEST(Allocations, OfLesson10DependOnBatchesAndNotOnTriangles) {
             const auto count_for = [&](int side) {
                 const ShadowAssets assets = lesson_10::make_assets(waves(side), options);
                 ThreadPool pool(3);
-                const test::CountedSince counters;
-                const std::size_t count =
-                    allocations_of([&] { lesson_10::render(options, assets, pool); });
-                expect_many(counters, Counter::shadow_fragments);
-                return count;
+                return allocations_of([&] { lesson_10::render(options, assets, pool); },
+                                      {Counter::shadow_fragments});
             };
             const std::size_t triangles = 2 * 32 * 32 * 2, few = count_for(8);
             // The picture and the map have batches. Each batch has three lists, and one of them may
@@ -311,33 +286,24 @@ TEST(Allocations, OfLesson12sIdsAreMadeForTheLargestTileAlone) {
 }
 
 TEST(Allocations, ThatFailInAnyThreadEndTheProgramInOneLine) {
-    expect_one_line_for_each_failure(
-        "10_threading", [](int argc, char** argv, const auto& begin, const auto& end) {
-            using Options = lesson_10::Options;
-            return rasterbook::run_lesson<Options>(
-                argc, argv, "10_threading", "", load_shadow_scene,
-                [&](const auto& options, const auto& assets) {
-                    ThreadPool pool(options.threads.threads);
-                    begin();
-                    Image<vec3> picture = lesson_10::render(options, assets, pool);
-                    end();
-                    return picture;
-                });
-        });
-    const auto scene_lesson = [](const char* name, auto options, const auto& render) {
-        expect_one_line_for_each_failure(
-            name, [&](int argc, char** argv, const auto& begin, const auto& end) {
-                return rasterbook::run_scene_lesson<decltype(options)>(
-                    argc, argv, name, "", [&](auto&... of) {
-                        begin();
-                        Image<vec3> picture = render(of...);
-                        end();
-                        return picture;
-                    });
+    expect_one_line_for_each_failure("10_threading", [](int argc, char** argv) {
+        return rasterbook::run_lesson<lesson_10::Options>(
+            argc, argv, "10_threading", "", load_shadow_scene,
+            [](const auto& options, const auto& assets) {
+                ThreadPool pool(options.threads.threads);
+                return watched([&] { return lesson_10::render(options, assets, pool); });
             });
+    });
+    const auto expect_of_scenes = []<typename Options>(const char* name, const Options&,
+                                                       auto render) {
+        expect_one_line_for_each_failure(name, [&](int argc, char** argv) {
+            return rasterbook::run_scene_lesson<Options>(argc, argv, name, "", [&](auto&... of) {
+                return watched([&] { return render(of...); });
+            });
+        });
     };
-    scene_lesson("12_visibility_buffer", lesson_12::Options(),
-                 [](auto&... of) { return lesson_12::render(of...); });
-    scene_lesson("13_simd", lesson_13::Options(),
-                 [](auto&... of) { return lesson_13::render(of...); });
+    expect_of_scenes("12_visibility_buffer", lesson_12::Options(),
+                     [](auto&... of) { return lesson_12::render(of...); });
+    expect_of_scenes("13_simd", lesson_13::Options(),
+                     [](auto&... of) { return lesson_13::render(of...); });
 }

@@ -22,10 +22,10 @@
 #include "common/math/error_metrics.hpp"
 #include "common/math/numerics.hpp"
 #include "common/model/obj.hpp"
-#include "support/lesson_process.hpp"
+#include "support/texts.hpp"
 
 using namespace rasterbook;
-using rasterbook::test::read_text;
+using rasterbook::test::read_text, rasterbook::test::root;
 
 namespace {
 
@@ -34,8 +34,6 @@ constexpr float tolerance = 1e-6f;  // some ulp near 1, for GLM's sines and squa
 void expect_near(vec3 actual, vec3 expected) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], tolerance);
 }
-
-const std::filesystem::path root = std::filesystem::path(RASTERBOOK_ASSETS).parent_path();
 
 /// C6 as the table has it, to hold the lessons' viewport against.
 vec2 screen_from_ndc(vec2 ndc, vec2 size) {

@@ -26,8 +26,6 @@ using rasterbook::test::ProcessResult, rasterbook::test::diagnose;
 
 namespace {
 
-const std::filesystem::path course = std::filesystem::path(RASTERBOOK_ASSETS).parent_path();
-
 /// The course's picture of a lesson, drawn with these options.
 struct Drawn {
     ProcessResult process;
@@ -52,11 +50,12 @@ struct OtherPicture {
 
 /// Those that the lesson's README names in its comment: lines "MARK: OPTIONS | MEANING".
 std::vector<OtherPicture> other_pictures(const std::string& lesson, const std::string& mark) {
-    std::istringstream readme(test::read_text(course / "lessons" / lesson / "README.md"));
     std::vector<OtherPicture> others;
-    for (std::string line; std::getline(readme, line);)
-        if (const auto bar = line.find(" | "); line.starts_with(mark) && bar != line.npos)
-            others.push_back({line.substr(mark.size(), bar - mark.size()), line.substr(bar + 3)});
+    for (const std::string& part : test::parts_after(test::readme_of(lesson), '\n' + mark)) {
+        const std::string line = part.substr(0, part.find('\n'));
+        if (const auto bar = line.find(" | "); bar != line.npos)
+            others.push_back({line.substr(0, bar), line.substr(bar + 3)});
+    }
     return others;
 }
 
@@ -84,7 +83,7 @@ struct WrongPicture {
 };
 
 std::vector<WrongPicture> wrong_pictures(const std::string& lesson) {
-    const std::filesystem::path docs = course / "docs";
+    const std::filesystem::path docs = test::root / "docs";
     const std::string command = "| `./lessons/run " + lesson.substr(0, 2);
     std::vector<WrongPicture> found;
     for (const std::string& section :
@@ -143,25 +142,15 @@ std::string known_mistakes(const std::string& lesson, bool& is_right) {
     return lines;
 }
 
-/// A picture of tests/golden/, and the options that its lesson draws it with.
-struct GoldenPicture {
-    std::filesystem::path file;
-    std::vector<std::string> options;
-};
-
-GoldenPicture golden_picture(const std::string& lesson) {
-    const std::filesystem::path folder = RASTERBOOK_GOLDEN;
-    if (lesson == "07_toon") return {folder / "07_toon.png", {"--samples", "16"}};
-    if (lesson == "10_threading") return {folder / "09_shadow_maps.png", {}};  // the same picture
-    return {folder / (lesson + ".png"), {}};
-}
-
 /// Draws with the reader's own program, if this is built with the files in mine/.
 ///
 /// @return  The exit status.
 int examine_own(const std::string& lesson) {
-    const auto& [file, options] = golden_picture(lesson);
-    const Image<u8vec4> expected = read_image(file);
+    const std::string golden = lesson == "10_threading" ? "09_shadow_maps" : lesson;  // the same
+    const Image<u8vec4> expected =
+        read_image(std::filesystem::path(RASTERBOOK_GOLDEN) / (golden + ".png"));
+    std::vector<std::string> options;
+    if (lesson == "07_toon") options = {"--samples", "16"};
     const Drawn own = draw(lesson, options, expected.size());
     std::cerr << own.process.err;
     bool is_right = true;
@@ -206,13 +195,12 @@ int examine(const std::string& file, const std::string& lesson,
         return 0;
     }
     const OtherPicture mistake = recognised(lesson, options, "diagnose: ", actual);
-    if (!mistake.options.empty()) {
+    if (!mistake.options.empty())
         std::cout << file << ": looks as with " << mistake.options << ": " << mistake.meaning
                   << '\n';
-        return 1;
-    }
-    std::cout << file << ": " << found << '\n';
-    if (!options.empty()) return 1;
+    else
+        std::cout << file << ": " << found << '\n';
+    if (!mistake.options.empty() || !options.empty()) return 1;
     const OtherPicture other = recognised(lesson, {}, "gallery: ", actual);
     if (!other.options.empty())
         std::cout << "It is the lesson's picture with " << other.options << '\n';
@@ -224,7 +212,7 @@ int examine(const std::string& file, const std::string& lesson,
 int main(int argc, char** argv) {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     const auto is_lesson = [](const std::string& name) {
-        return std::filesystem::is_directory(course / "lessons" / name);
+        return std::filesystem::is_directory(test::root / "lessons" / name);
     };
     const bool is_own = arguments.size() == 1 && is_lesson(arguments[0]);
     if (!is_own && arguments.size() < 2) {

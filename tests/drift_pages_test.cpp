@@ -16,27 +16,11 @@
 namespace fs = std::filesystem;
 using namespace rasterbook::test;
 
-TEST(Drift, LinksWithinATextLeadToItsHeadings) {
-    int links = 0;
-    for (const fs::path& file : files_with({".md"})) {
-        const std::string text = read_text(file);
-        std::set<std::string> anchors;
-        for (const std::string& part : parts_after(text, "\n## "))
-            anchors.insert(anchor_of(part.substr(0, part.find('\n'))));
-        for (const std::string& anchor : all_between(without_code(text), "](#", ")")) {
-            ++links;
-            EXPECT_TRUE(anchors.contains(anchor)) << file << ": " << anchor;
-        }
-    }
-    EXPECT_GT(links, 20);
-}
-
 // What ./tests/run --mine NN --step K goes by: "step: EQUATIONS | OPTIONS | PICTURES | TITLE".
 TEST(Drift, EachEquationAndPictureBelongsToOneStepOfItsLesson) {
     for (const std::string& name : lessons()) {
         std::multiset<std::string> equations, pictures;
-        for (const std::string& part :
-             parts_after(read_text(root / "lessons" / name / "README.md"), "\nstep: ")) {
+        for (const std::string& part : parts_after(readme_of(name), "\nstep: ")) {
             const std::string step = part.substr(0, part.find('\n'));
             std::istringstream fields(step);
             std::string numbers, options, of_step, title, word;
@@ -75,8 +59,7 @@ TEST(Drift, TheStripHasAPanelForEachLessonThatAsksForOne) {
     constexpr std::size_t panel = 168, gap = 6;  // px, as docs/pictures.py has them
     std::size_t panels = 0;
     for (const std::string& name : lessons())
-        panels +=
-            read_text(root / "lessons" / name / "README.md").find("\nstrip:") != std::string::npos;
+        panels += readme_of(name).find("\nstrip:") != std::string::npos;
     const std::string png = read_text(root / "docs/strip.png");
     ASSERT_GT(png.size(), 24u);
     std::size_t width = 0;

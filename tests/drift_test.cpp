@@ -30,8 +30,7 @@ TEST(Drift, EveryLessonHasAllItsParts) {
         if (!fs::is_directory(lesson / "starter")) continue;
         for (const auto& starter : fs::directory_iterator(lesson / "starter"))
             EXPECT_TRUE(fs::exists(lesson / starter.path().filename())) << starter.path();
-        const std::string readme = read_text(lesson / "README.md"),
-                          front = read_text(root / "README.md");
+        const std::string readme = readme_of(name), front = read_text(root / "README.md");
         EXPECT_EQ(readme.rfind("# Lesson " + name.substr(0, 2) + ": ", 0), 0u) << name;
         for (const char* part : {"\n> ", "\n## What goes wrong", "\n## What accuracy costs",
                                  "\n## Write it yourself", "\n## Your turn"})
@@ -61,57 +60,42 @@ TEST(Drift, StartersHaveTheFunctionsOfTheirHeaders) {
     EXPECT_GT(count, 100u);
 }
 
-TEST(Drift, NoLessonIncludesALaterOne) {
+TEST(Drift, NoLessonIncludesALaterOneAndNothingInCommonALesson) {
     int includes = 0;
-    for (const std::string& name : lessons())
-        for (const auto& entry : fs::recursive_directory_iterator(root / "lessons" / name))
-            if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
-                for (const std::string& header :
-                     all_between(read_text(entry.path()), "#include \"", "\"")) {
-                    if (header.rfind("common/", 0) == 0) continue;
-                    ++includes;
-                    EXPECT_LE(header.substr(0, header.find('/')), name)
-                        << entry.path() << ": " << header;
-                }
+    for (const char* folder : {"common", "lessons"})
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            if (!entry.is_regular_file() || entry.path().extension() == ".md") continue;
+            const std::string owner =
+                fs::relative(entry.path(), root / "lessons").begin()->string();
+            for (const std::string& header :
+                 all_between(read_text(entry.path()), "#include \"", "\"")) {
+                if (header.starts_with("common/")) continue;
+                ++includes;
+                EXPECT_TRUE(owner != ".." && header.substr(0, header.find('/')) <= owner)
+                    << entry.path() << ": " << header;
+            }
+        }
     EXPECT_GT(includes, 5);
 }
 
 TEST(Drift, ALessonBuildsOnAnEarlierOne) {  // what ./lessons/run --diff compares it with
     const std::vector<std::string> names = lessons();
-    const std::string mark = "builds on: ";
     int marks = 0;
-    for (const std::string& name : names) {
-        std::istringstream readme(read_text(root / "lessons" / name / "README.md"));
-        for (std::string line; std::getline(readme, line);) {
-            if (!line.starts_with(mark)) continue;
+    for (const std::string& name : names)
+        for (const std::string& part : parts_after(readme_of(name), "\nbuilds on: ")) {
             ++marks;
-            const std::string before = line.substr(mark.size());
-            EXPECT_TRUE(std::binary_search(names.begin(), names.end(), before)) << name;
-            EXPECT_LT(before, name);
+            const std::string before = part.substr(0, part.find('\n'));
+            EXPECT_TRUE(std::ranges::count(names, before) == 1 && before < name)
+                << name << " builds on " << before;
         }
-    }
     EXPECT_GT(marks, 0);
 }
 
-TEST(Drift, NothingInCommonIncludesALesson) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / "common")) {
-        if (!entry.is_regular_file()) continue;
-        for (const std::string& header : all_between(read_text(entry.path()), "#include \"", "\""))
-            EXPECT_EQ(header.rfind("common/", 0), 0u) << entry.path() << ": " << header;
-    }
-}
-
 TEST(Drift, EveryNumberedEquationIsCitedInCodeAndInATest) {
-    std::set<std::string> numbered, in_code, in_tests;
+    std::set<std::string> numbered, in_tests;
     for (const std::string& name : lessons())
-        for (const std::string& number :
-             all_between(read_text(root / "docs/derivations" / (name + ".md")), "\\tag{", "}"))
+        for (const std::string& number : all_between(derivation_of(name), "\\tag{", "}"))
             EXPECT_TRUE(numbered.insert(number).second) << number << " is there twice";
-    for (const char* folder : {"common", "lessons"})
-        for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-            if (entry.is_regular_file() && entry.path().parent_path().filename() != "starter" &&
-                entry.path().extension() != ".md")
-                in_code.merge(cited_equations(read_text(entry.path())));
     for (const auto& entry : fs::directory_iterator(root / "tests"))
         if (entry.path().extension() == ".cpp" && entry.path().filename() != "drift_test.cpp")
             for (std::string number : all_between(read_text(entry.path()), ", Eq", ")")) {
@@ -123,12 +107,9 @@ TEST(Drift, EveryNumberedEquationIsCitedInCodeAndInATest) {
     for (const std::string& name : lessons()) {
         const std::string test = tests_of(name);
         const auto count = [&](const std::string& piece) {
-            int times = 0;
-            for (auto at = test.find(piece); at != test.npos; at = test.find(piece, at + 1))
-                ++times;
-            return times;
+            return parts_after(test, piece).size();
         };
-        EXPECT_GT(count("\nTEST("), 5);
+        EXPECT_GT(count("\nTEST("), 5u);
         EXPECT_EQ(count("\nTEST("), count(", Eq" + std::to_string(std::stoi(name)) + "_") +
                                         count(", PictureOf") + count("    look_up("))
             << name << ": each test names an equation or says where to read";
@@ -136,7 +117,7 @@ TEST(Drift, EveryNumberedEquationIsCitedInCodeAndInATest) {
             for (const std::string& number : cited_equations(place))
                 EXPECT_TRUE(numbered.contains(number)) << name << ": " << place;
     }
-    EXPECT_EQ(in_code, numbered);
+    EXPECT_EQ(cited_equations(all_code()), numbered);
     EXPECT_EQ(in_tests, numbered);
     EXPECT_GT(numbered.size(), 15u);
 }
@@ -148,31 +129,33 @@ TEST(Drift, CodeInTextsIsQuotedFromCompiledFiles) {
         for (const auto& entry : fs::directory_iterator(root / "lessons" / name))
             if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
                 code += without_indentation(read_text(entry.path()));
-        for (const fs::path& text :
-             {root / "lessons" / name / "README.md", root / "docs/derivations" / (name + ".md")}) {
-            const std::string words = read_text(text), fence = "```cpp\n";
-            for (auto at = words.find(fence); at != words.npos; at = words.find(fence, at)) {
-                at += fence.size();
-                const std::string quote = words.substr(at, words.find("```", at) - at);
+        for (const std::string& text : {readme_of(name), derivation_of(name)})
+            for (const std::string& part : parts_after(text, "```cpp\n")) {
+                const std::string quote = part.substr(0, part.find("```"));
                 ++quotes;
                 EXPECT_NE(code.find(without_indentation(quote)), std::string::npos)
-                    << text << " quotes what is not there:\n"
+                    << "a text of " << name << " quotes what is not there:\n"
                     << quote;
             }
-        }
     }
     EXPECT_GT(quotes, 5);
 }
 
 TEST(Drift, LinksAndPicturesInTextsLeadSomewhere) {
     int links = 0;
-    for (const fs::path& file : files_with({".md"}))
-        for (const std::string& link : all_between(without_code(read_text(file)), "](", ")")) {
-            if (link.rfind("http", 0) == 0) continue;
+    for (const fs::path& file : files_with({".md"})) {
+        const std::string text = read_text(file);
+        std::set<std::string> anchors;
+        for (const std::string& part : parts_after(text, "\n## "))
+            anchors.insert('#' + anchor_of(part.substr(0, part.find('\n'))));
+        for (const std::string& link : all_between(without_code(text), "](", ")")) {
+            if (link.starts_with("http")) continue;
             ++links;
-            EXPECT_TRUE(fs::exists(file.parent_path() / link.substr(0, link.find('#'))))
+            EXPECT_TRUE(fs::exists(file.parent_path() / link.substr(0, link.find('#'))) &&
+                        (link[0] != '#' || anchors.contains(link)))
                 << file << ": " << link;
         }
+    }
     EXPECT_GT(links, 30);
 }
 
@@ -181,8 +164,7 @@ TEST(Drift, PicturesInReadmesAreGoldenOnesThatATestDraws) {
     for (const std::string& name : lessons()) tests += tests_of(name);
     int pictures = 0;
     for (const std::string& name : lessons())
-        for (const std::string& picture :
-             all_between(read_text(root / "lessons" / name / "README.md"), "](", ".png)")) {
+        for (const std::string& picture : all_between(readme_of(name), "](", ".png)")) {
             ++pictures;
             if (picture.starts_with("../../docs/answers/"))
                 continue;  // docs/pictures.py draws them

@@ -20,14 +20,6 @@ using namespace rasterbook::test;
 
 namespace {
 
-std::string readme_of(const std::string& lesson) {
-    return read_text(root / "lessons" / lesson / "README.md");
-}
-
-std::string derivation_of(const std::string& lesson) {
-    return read_text(root / "docs/derivations" / (lesson + ".md"));
-}
-
 /// A text without all that stands between two marks, and without the marks.
 std::string without(std::string text, const std::string& begin, const std::string& end) {
     for (auto at = text.find(begin); at != text.npos; at = text.find(begin, at)) {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "common/image/bmp.hpp"
+#include "support/first_difference.hpp"
 #include "support/lesson_06.hpp"
 #include "support/lesson_07.hpp"
 #include "support/lesson_08.hpp"
@@ -25,15 +26,6 @@ using namespace rasterbook;
 using namespace rasterbook::test;
 
 namespace {
-
-/// A scene that does not call for an effect.
-struct Row {
-    const char* effect;
-    Drawn as_called_for;
-    Drawn forced;                  ///< The effect is on, with inputs that change nothing.
-    std::vector<Counter> work;     ///< Of the effect; all of it is done where it is forced.
-    std::vector<Counter> changes;  ///< What it would find to do; nothing where it is neutral.
-};
 
 /// The scene with a change of all of its materials.
 template <typename Change>
@@ -75,16 +67,12 @@ lesson_13::Options small_scene() {
     return options;
 }
 
-Drawn drawn_by_11(const SceneAssets& assets, const lesson_11::Options& options) {
+Drawn drawn_scene(const Scene& scene, const lesson_11::Options& options) {
     ThreadPool pool(2);
     StepClock clock;
-    return drawn(options, assets, [&](const auto& of, const auto& with) {
+    return drawn(options, make_scene_assets(scene, options), [&](const auto& of, const auto& with) {
         return lesson_11::render(of, with, pool, clock);
     });
-}
-
-Drawn drawn_scene(const Scene& scene, const lesson_11::Options& options) {
-    return drawn_by_11(make_scene_assets(scene, options), options);
 }
 
 /// Calls check(drawn) for a scene as lessons 11 and 12 draw it, and lesson 13 in each width.
@@ -93,11 +81,11 @@ void for_each_lesson(const Scene& scene, const Check& check) {
     lesson_13::Options options = small_scene();
     const SceneAssets assets = make_scene_assets(scene, options);
     ThreadPool pool(2);
-    const Drawn by_11 = drawn_by_11(assets, options);
+    const Drawn by_11 = drawn_scene(scene, lesson_11::Options(options));
     const auto checked = [&](const std::string& lesson, const Drawn& one) {
         SCOPED_TRACE("lesson " + lesson);
         check(one);
-        EXPECT_TRUE(are_the_same_bits(one.picture, by_11.picture)) << "as lesson 11 draws it";
+        EXPECT_TRUE(have_the_same_bits(one.picture, by_11.picture)) << "as lesson 11 draws it";
     };
     checked("11", by_11);
     checked("12", drawn_by_12(options, assets, pool));
@@ -134,38 +122,55 @@ SceneLight spotlight(vec3 position, vec3 direction, float angle_degrees) {
     return light;
 }
 
-/// Forced as the lessons do it themselves.
-template <typename Options>
-Row with_all_effects(const char* effect, const Scene& scene, Options options,
-                     std::vector<Counter> work, std::vector<Counter> changes = {}) {
-    Row row{effect, drawn_scene(scene, options), {}, std::move(work), std::move(changes)};
-    options.shading.all_effects = true;
-    row.forced = drawn_scene(scene, options);
-    return row;
+/// A scene that does not call for an effect takes no work for it, and keeps its bits where the
+/// effect is forced, with inputs that change nothing.
+///
+/// @param work     Of the effect; all of it is done where it is forced.
+/// @param changes  What it would find to do; nothing where it is neutral.
+void expect_no_work(const char* effect, const Drawn& as_called_for, const Drawn& forced,
+                    const std::vector<Counter>& work, const std::vector<Counter>& changes = {}) {
+    SCOPED_TRACE(effect);
+    EXPECT_GT(as_called_for.count(Counter::fragments_shaded), 5000u);
+    const auto expect_none = [](const Drawn& drawn, Counter counter) {
+        EXPECT_EQ(drawn.count(counter), 0u) << counter_names[static_cast<std::size_t>(counter)];
+    };
+    for (const Counter counter : work) {
+        expect_none(as_called_for, counter);
+        EXPECT_GT(forced.count(counter), 0u) << "else this could not fail";
+    }
+    for (const Counter counter : changes)
+        expect_none(as_called_for, counter), expect_none(forced, counter);
+    EXPECT_TRUE(have_the_same_bits(forced.picture, as_called_for.picture));
 }
 
-std::vector<Row> rows() {
-    using enum Counter;
-    std::vector<Row> rows;
+/// Forced as the lessons do it themselves.
+template <typename Options>
+void expect_no_work(const char* effect, const Scene& scene, Options options,
+                    const std::vector<Counter>& work, const std::vector<Counter>& changes = {}) {
+    const Drawn as_called_for = drawn_scene(scene, options);
+    options.shading.all_effects = true;
+    expect_no_work(effect, as_called_for, drawn_scene(scene, options), work, changes);
+}
 
+}  // namespace
+
+TEST(Effects, ThatAreNotCalledForTakeNoWorkAndWouldChangeNothing) {
+    using enum Counter;
     // The crate is of illum 1. Forced: a highlight whose colour is black.
-    rows.push_back(with_all_effects("highlight", loaded("crate.obj"), small(lesson_06::Options()),
-                                    {highlights}));
+    expect_no_work("highlight", loaded("crate.obj"), small(lesson_06::Options()), {highlights});
 
     // The teapot's materials name no texture. Forced: white ones.
-    rows.push_back(with_all_effects("texture", loaded("teapot.obj"), small(lesson_06::Options()),
-                                    {texture_samples}));
+    expect_no_work("texture", loaded("teapot.obj"), small(lesson_06::Options()), {texture_samples});
 
     // No material of lesson 06's scene has a normal map. Forced: flat ones.
-    rows.push_back(with_all_effects("normal map", loaded("scene.obj"), small(lesson_08::Options()),
-                                    {normal_map_samples, meshes_with_tangents}));
+    expect_no_work("normal map", loaded("scene.obj"), small(lesson_08::Options()),
+                   {normal_map_samples, meshes_with_tangents});
 
     // Every material lets light through: none casts a shadow. Forced: empty shadow maps.
     lesson_09::Options shadowed = small(lesson_09::Options());
     shadowed.shadow.size = 256;
     const Scene clear = with_materials(loaded("scene.obj"), [](Material& m) { m.opacity = 0.5f; });
-    rows.push_back(with_all_effects("shadow", clear, shadowed, {shadow_passes, shadow_tests},
-                                    {shadow_fragments}));
+    expect_no_work("shadow", clear, shadowed, {shadow_passes, shadow_tests}, {shadow_fragments});
 
     // Unlit materials have their colour and no tones. Forced: lit ones that reflect nothing and
     // emit that colour.
@@ -176,8 +181,8 @@ std::vector<Row> rows() {
     const Scene glowing = with_materials(figure, [](Material& m) {
         m.illumination = 1, m.emission += m.diffuse, m.diffuse = m.ambient = vec3(0);
     });
-    rows.push_back(
-        {"toon", drawn_scene(unlit, comic), drawn_scene(glowing, comic), {toon_fragments}, {}});
+    expect_no_work("toon", drawn_scene(unlit, comic), drawn_scene(glowing, comic),
+                   {toon_fragments});
 
     // An option calls for an outline, not the scene. Forced: outlines of width 0, or below a facing
     // ratio of 0.
@@ -187,11 +192,8 @@ std::vector<Row> rows() {
         lesson_07::Options inked = comic;
         inked.shading.outline = outline;
         inked.shading.outline_width_px = inked.shading.min_facing = 0;
-        rows.push_back({name,
-                        drawn_scene(figure, comic),
-                        drawn_scene(figure, inked),
-                        {outline_tests},
-                        {outline_pixels}});
+        expect_no_work(name, drawn_scene(figure, comic), drawn_scene(figure, inked),
+                       {outline_tests}, {outline_pixels});
     }
 
     // A material without holes takes no alpha test, neither in the picture nor in a shadow map.
@@ -199,32 +201,9 @@ std::vector<Row> rows() {
     const Scene solid = loaded("textured.gltf");
     const Scene masked =
         with_materials(solid, [](Material& m) { m.alpha = AlphaMode::mask, m.alpha_cutoff = 0; });
-    rows.push_back({"holes",
-                    drawn_scene(solid, lesson_11::Options(small_scene())),
-                    drawn_scene(masked, lesson_11::Options(small_scene())),
-                    {alpha_tested_fragments, alpha_tested_texels},
-                    {}});
-    return rows;
-}
-
-}  // namespace
-
-TEST(Effects, ThatAreNotCalledForTakeNoWorkAndWouldChangeNothing) {
-    for (const auto& [effect, as_called_for, forced, work, changes] : rows()) {
-        SCOPED_TRACE(effect);
-        EXPECT_GT(as_called_for.count(Counter::fragments_shaded), 5000u);
-        for (const Counter counter : work) {
-            SCOPED_TRACE(counter_names[static_cast<std::size_t>(counter)]);
-            EXPECT_EQ(as_called_for.count(counter), 0u);
-            EXPECT_GT(forced.count(counter), 0u);  // else this row could not fail
-        }
-        for (const Counter counter : changes) {
-            SCOPED_TRACE(counter_names[static_cast<std::size_t>(counter)]);
-            EXPECT_EQ(as_called_for.count(counter), 0u);
-            EXPECT_EQ(forced.count(counter), 0u);
-        }
-        EXPECT_TRUE(are_the_same_bits(as_called_for.picture, forced.picture));
-    }
+    const lesson_11::Options options(small_scene());
+    expect_no_work("holes", drawn_scene(solid, options), drawn_scene(masked, options),
+                   {alpha_tested_fragments, alpha_tested_texels});
 }
 
 TEST(Effects, AShadowTestIsMadeOnlyWhereALightCounts) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Picture files: what is written is read back, other decoders agree, and bad files are errors.
+/// Picture files: what is written is read back, files of other programs are read, and bad files are
+/// errors.
 #include "common/image/image_io.hpp"
 
 #include <gtest/gtest.h>
@@ -10,9 +11,8 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
-#include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <random>
@@ -23,17 +23,8 @@
 #include "common/image/bmp.hpp"
 #include "common/image/input_error.hpp"
 #include "common/image/tga.hpp"
+#include "support/lesson_process.hpp"
 #include "support/sanitizer.hpp"
-
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_ONLY_BMP
-#define STBI_ONLY_TGA
-#include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
 
 namespace rasterbook {
 namespace {
@@ -42,38 +33,30 @@ namespace fs = std::filesystem;
 
 constexpr unsigned seed = 1;
 
-u8vec4 opaque(u8vec3 color) { return {color, 255}; }
-
 Image<u8vec3> random_image(ivec2 size, std::mt19937& random) {
     Image<u8vec3> image(size);
     for (u8vec3& color : image.pixels()) color = {random() & 255, random() & 255, random() & 255};
     return image;
 }
 
-/// A limit on what this process may do, back to what it was at the end of the block.
-class Limit {
+/// Lets this process take at most so many bytes more than it has, to the end of the block.
+class MemoryLimit {
   public:
-    Limit(int resource, rlim_t limit) : resource_(resource) {
-        getrlimit(resource_, &before_);
-        const rlimit now{limit, before_.rlim_max};
-        setrlimit(resource_, &now);
+    explicit MemoryLimit(rlim_t more) {
+        getrlimit(RLIMIT_AS, &before_);
+        rlim_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const auto page = static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+        const rlimit now{pages * page + more, before_.rlim_max};
+        if (!test::is_sanitized) setrlimit(RLIMIT_AS, &now);  // it would fail at once
     }
-    Limit(const Limit&) = delete;
-    Limit& operator=(const Limit&) = delete;
-    ~Limit() { setrlimit(resource_, &before_); }
+    MemoryLimit(const MemoryLimit&) = delete;
+    MemoryLimit& operator=(const MemoryLimit&) = delete;
+    ~MemoryLimit() { setrlimit(RLIMIT_AS, &before_); }
 
   private:
-    int resource_;
     rlimit before_{};
 };
-
-/// As RLIMIT_AS: lets the process take at most so many bytes more than it has.
-rlim_t address_space_with(rlim_t more) {
-    if (test::is_sanitized) return RLIM_INFINITY;  // it would fail at once
-    rlim_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + more;
-}
 
 Bytes tga_header(int type, ivec2 size, int bits, int descriptor, int colors = 0) {
     Bytes bytes{0, static_cast<std::uint8_t>(colors > 0), static_cast<std::uint8_t>(type), 0, 0};
@@ -131,6 +114,8 @@ Bytes bmp_with_palette(int colors) {
     return bmp_header({3, 1}, 8, 0, colors, {1, 2, 3, 0, 4, 5, 6, 0}) + Bytes{1, 0, 1, 0};
 }
 
+u8vec4 opaque(u8vec3 color) { return {color, 255}; }
+
 /// Pictures that outside programs (libpng, libjpeg) made by the formulas of `made_pixel`.
 const fs::path data_folder = fs::path(RASTERBOOK_TEST_DATA) / "images";
 u8vec4 made_pixel(ivec2 p) {
@@ -149,29 +134,8 @@ std::size_t position_in(const Bytes& bytes, const Bytes& wanted) {
     return static_cast<std::size_t>(found - bytes.begin());
 }
 
-/// PNG's check sum, of a chunk's name and content.
-Bytes crc_of(const Bytes& chunk) {
-    std::uint32_t crc = 0xffffffff;
-    for (const std::uint8_t byte : chunk) {
-        crc ^= byte;
-        for (int i = 0; i < 8; ++i) crc = (crc & 1) != 0 ? crc >> 1 ^ 0xedb88320 : crc >> 1;
-    }
-    crc = ~crc;
-    return {std::uint8_t(crc >> 24), std::uint8_t(crc >> 16), std::uint8_t(crc >> 8),
-            std::uint8_t(crc)};
-}
-
 class ImageIo : public testing::Test {
   protected:
-    void SetUp() override {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(testing::TempDir()) /
-                  ("rasterbook_" + std::to_string(getpid()) + "_" + test->name());
-        fs::remove_all(folder_);  // what a crashed process of the same number left
-        fs::create_directory(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     fs::path path(const std::string& name) const { return folder_ / name; }
 
     fs::path put(const Bytes& bytes, const std::string& name = "picture") const {
@@ -226,16 +190,17 @@ class ImageIo : public testing::Test {
     }
 
   private:
-    fs::path folder_;
+    fs::path folder_ = test::fresh_folder("image_io");
 };
 
 TEST_F(ImageIo, ReadsBackWhatItWrote) {
     std::mt19937 random(seed);
-    std::vector<ivec2> sizes{{1, 200}, {200, 1}, {300, 2}, {2, 65535}};
+    std::vector<ivec2> sizes{{1, 200}, {200, 1}, {300, 2}, {2, 65535}, {70000, 1}, {1, 70000}};
     for (int x = 1; x <= 9; ++x)
         for (int y = 1; y <= 4; ++y) sizes.push_back({x, y});
     for (const ivec2 size : sizes)
-        for (const char* name : {"a.png", "a.BMP", "a.Tga"}) {
+        for (const std::string name : {"a.png", "a.BMP", "a.Tga"}) {
+            if (name == "a.Tga" && std::max(size.x, size.y) > 65535) continue;
             const Image<u8vec3> image = random_image(size, random);
             write_image(path(name), image);
             const Image<u8vec4> read = read_image(path(name));
@@ -245,60 +210,8 @@ TEST_F(ImageIo, ReadsBackWhatItWrote) {
         }
 }
 
-TEST_F(ImageIo, PngAndBmpSidesGoBeyond16Bits) {
-    for (const char* name : {"a.png", "a.bmp"})
-        for (const ivec2 size : {ivec2{70000, 1}, {1, 70000}}) {
-            write_image(path(name), Image<u8vec3>(size));
-            EXPECT_EQ(read_image(path(name)).size(), size) << name;
-        }
-}
-
-TEST_F(ImageIo, OtherDecodersReadTheSamePixels) {
-    std::mt19937 random(seed);
-    for (const ivec2 size : {ivec2{1, 1}, {2, 3}, {3, 2}, {4, 4}, {5, 1}, {127, 2}, {130, 3}})
-        for (const char* name : {"a.png", "a.bmp", "a.tga"}) {
-            const Image<u8vec3> image = random_image(size, random);
-            write_image(path(name), image);
-            ivec2 read_size;
-            int channels = 0;
-            stbi_uc* pixels =
-                stbi_load(path(name).c_str(), &read_size.x, &read_size.y, &channels, 3);
-            ASSERT_NE(pixels, nullptr) << name << ": " << stbi_failure_reason();
-            EXPECT_EQ(read_size, size) << name;
-            EXPECT_EQ(channels, 3) << name;
-            EXPECT_EQ(std::memcmp(pixels, image.pixels().data(), image.pixels().size_bytes()), 0)
-                << name << " of " << size.x << " x " << size.y << ", seed " << seed;
-            stbi_image_free(pixels);
-        }
-}
-
-TEST_F(ImageIo, ReadsWhatAnotherEncoderWrote) {
-    std::mt19937 random(seed);
-    for (const ivec2 size : {ivec2{1, 1}, {2, 3}, {5, 1}, {127, 2}, {130, 3}})
-        for (const int channels : {1, 2, 3, 4}) {
-            Bytes stored(static_cast<std::size_t>(size.x * size.y * channels));
-            for (std::uint8_t& byte : stored) byte = static_cast<std::uint8_t>(random());
-            ASSERT_NE(
-                stbi_write_png(path("a.png").c_str(), size.x, size.y, channels, stored.data(), 0),
-                0);
-            const Image<u8vec4> image = read_image(path("a.png"));
-            ASSERT_EQ(image.size(), size);
-            const std::uint8_t* s = stored.data();
-            for (const u8vec4 pixel : image.pixels()) {
-                const u8vec3 color = channels < 3 ? u8vec3(s[0]) : u8vec3(s[0], s[1], s[2]);
-                const std::uint8_t opacity = channels % 2 == 0 ? s[channels - 1] : 255;
-                ASSERT_EQ(pixel, u8vec4(color, opacity))
-                    << channels << " channels, " << size.x << " x " << size.y << ", seed " << seed;
-                s += channels;
-            }
-        }
-}
-
 TEST(Bmp, Eq1_9_RowsTakeAMultipleOfFourBytes) {
-    EXPECT_EQ(bmp_row_padding(1), 1);
-    EXPECT_EQ(bmp_row_padding(2), 2);
     EXPECT_EQ(bmp_row_padding(3), 3);
-    EXPECT_EQ(bmp_row_padding(4), 0);
     for (int width = 1; width < 1000; ++width) {
         EXPECT_EQ((3 * width + bmp_row_padding(width)) % 4, 0) << width;
         EXPECT_TRUE(bmp_row_padding(width) >= 0 && bmp_row_padding(width) < 4) << width;
@@ -348,49 +261,51 @@ TEST_F(ImageIo, TgaBytesAreThoseOfTheFormat) {
     EXPECT_EQ(bytes_of(path("a.tga")), expected);
 }
 
-/// The pixels of a picture of one row.
-std::vector<u8vec4> row_of(const Image<u8vec4>& image) {
-    EXPECT_EQ(image.size().y, 1);
+/// The pixels of a picture, the top row first.
+using Pixels = std::vector<u8vec4>;
+Pixels pixels_of(const Image<u8vec4>& image) {
     return {image.pixels().begin(), image.pixels().end()};
 }
 
 TEST_F(ImageIo, ReadsEveryKindOfBmp) {
-    using Row = std::vector<u8vec4>;
-    EXPECT_EQ(row_of(read(bmp_with_opacity())), (Row{{3, 2, 1, 4}, {7, 6, 5, 8}}));
-    const Bytes pixel{1, 2, 3, 4};
-    EXPECT_EQ(row_of(read(bmp_header({1, 1}, 32, 0, 0) + pixel)), (Row{{3, 2, 1, 255}}));
-    const Bytes masks(bgra_masks.begin(), bgra_masks.begin() + 12);
-    EXPECT_EQ(row_of(read(bmp_header({1, 1}, 32, 3, 0, masks) + pixel)), (Row{{3, 2, 1, 255}}));
-    EXPECT_EQ(row_of(read(bmp_with_palette(2))),
-              (Row{{6, 5, 4, 255}, {3, 2, 1, 255}, {6, 5, 4, 255}}));
+    EXPECT_EQ(pixels_of(read(bmp_with_opacity())), (Pixels{{3, 2, 1, 4}, {7, 6, 5, 8}}));
+    const Bytes pixel{1, 2, 3, 4}, masks(bgra_masks.begin(), bgra_masks.begin() + 12);
+    const Pixels without_opacity{{3, 2, 1, 255}};
+    EXPECT_EQ(pixels_of(read(bmp_header({1, 1}, 32, 0, 0) + pixel)), without_opacity);
+    EXPECT_EQ(pixels_of(read(bmp_header({1, 1}, 32, 3, 0, masks) + pixel)), without_opacity);
+    EXPECT_EQ(pixels_of(read(bmp_with_palette(2))),
+              (Pixels{{6, 5, 4, 255}, {3, 2, 1, 255}, {6, 5, 4, 255}}));
 
     const Bytes rows{1, 2, 3, 0, 4, 5, 6, 0};
-    EXPECT_EQ((read(bmp_header({1, 2}, 24, 0, 0) + rows)[{0, 0}]), u8vec4(6, 5, 4, 255));
-    EXPECT_EQ((read(bmp_header({1, -2}, 24, 0, 0) + rows)[{0, 0}]), u8vec4(3, 2, 1, 255));
+    EXPECT_EQ(pixels_of(read(bmp_header({1, 2}, 24, 0, 0) + rows)),
+              (Pixels{{6, 5, 4, 255}, {3, 2, 1, 255}}));
+    EXPECT_EQ(pixels_of(read(bmp_header({1, -2}, 24, 0, 0) + rows)),
+              (Pixels{{3, 2, 1, 255}, {6, 5, 4, 255}}));
 }
 
 TEST_F(ImageIo, ReadsEveryKindOfTga) {
-    using Row = std::vector<u8vec4>;
-    const Row row{{6, 5, 4, 255}, {3, 2, 1, 255}, {6, 5, 4, 255}};
-    EXPECT_EQ(row_of(read(tga_with_palette(1, {1, 0, 1}))), row);
-    EXPECT_EQ(row_of(read(tga_with_palette(9, {0x02, 1, 0, 1}))), row);
-    EXPECT_EQ(row_of(read(tga_header(3, {2, 1}, 8, 0x20) + Bytes{7, 9})),
-              (Row{{7, 7, 7, 255}, {9, 9, 9, 255}}));
-    EXPECT_EQ(row_of(read(tga_header(11, {2, 1}, 8, 0x20) + Bytes{0x81, 7})),
-              (Row{{7, 7, 7, 255}, {7, 7, 7, 255}}));
-    const Bytes pixels{1, 2, 3, 4, 5, 6, 7, 8};
-    EXPECT_EQ(row_of(read(tga_header(2, {2, 1}, 32, 0x28) + pixels)),
-              (Row{{3, 2, 1, 4}, {7, 6, 5, 8}}));
-    EXPECT_EQ(row_of(read(tga_header(2, {2, 1}, 32, 0x20) + pixels)),  // no bits of opacity
-              (Row{{3, 2, 1, 255}, {7, 6, 5, 255}}));
-    EXPECT_EQ(row_of(read(tga_header(2, {2, 1}, 32, 0x38) + pixels)),  // right column first
-              (Row{{7, 6, 5, 8}, {3, 2, 1, 4}}));
-    EXPECT_EQ((read(tga_header(2, {1, 2}, 32, 0x08) + pixels)[{0, 0}]), u8vec4(7, 6, 5, 8));
-
-    const Image<u8vec4> runs = read(tga_in_runs());
-    const Row expected{{3, 2, 1, 255}, {3, 2, 1, 255}, {3, 2, 1, 255},
-                       {3, 2, 1, 255}, {6, 5, 4, 255}, {9, 8, 7, 255}};
-    EXPECT_TRUE(std::ranges::equal(runs.pixels(), expected));
+    const Pixels from_palette{{6, 5, 4, 255}, {3, 2, 1, 255}, {6, 5, 4, 255}};
+    EXPECT_EQ(pixels_of(read(tga_with_palette(1, {1, 0, 1}))), from_palette);
+    EXPECT_EQ(pixels_of(read(tga_with_palette(9, {0x02, 1, 0, 1}))), from_palette);
+    EXPECT_EQ(pixels_of(read(tga_header(3, {2, 1}, 8, 0x20) + Bytes{7, 9})),
+              (Pixels{{7, 7, 7, 255}, {9, 9, 9, 255}}));
+    EXPECT_EQ(pixels_of(read(tga_header(11, {2, 1}, 8, 0x20) + Bytes{0x81, 7})),
+              (Pixels{{7, 7, 7, 255}, {7, 7, 7, 255}}));
+    const auto read_two = [&](ivec2 size, int descriptor) {
+        return pixels_of(read(tga_header(2, size, 32, descriptor) + Bytes{1, 2, 3, 4, 5, 6, 7, 8}));
+    };
+    const Pixels as_stored{{3, 2, 1, 4}, {7, 6, 5, 8}}, turned{{7, 6, 5, 8}, {3, 2, 1, 4}};
+    EXPECT_EQ(read_two({2, 1}, 0x28), as_stored);
+    EXPECT_EQ(read_two({2, 1}, 0x20), (Pixels{{3, 2, 1, 255}, {7, 6, 5, 255}}))
+        << "no bits of opacity";
+    EXPECT_EQ(read_two({2, 1}, 0x38), turned) << "right column first";
+    EXPECT_EQ(read_two({1, 2}, 0x08), turned) << "bottom row first";
+    EXPECT_EQ(pixels_of(read(tga_in_runs())), (Pixels{{3, 2, 1, 255},
+                                                      {3, 2, 1, 255},
+                                                      {3, 2, 1, 255},
+                                                      {3, 2, 1, 255},
+                                                      {6, 5, 4, 255},
+                                                      {9, 8, 7, 255}}));
 }
 
 TEST_F(ImageIo, SkipsTextAndPaletteThatATrueColourTgaDoesNotUse) {
@@ -403,142 +318,81 @@ TEST_F(ImageIo, TgaPaletteMayBeginAtAnotherIndex) {
     Bytes bytes = tga_with_palette(1, {6, 5, 6});
     bytes[3] = 5;
     EXPECT_EQ((read(bytes)[{0, 0}]), u8vec4(6, 5, 4, 255));
-    bytes.back() = 4;
-    EXPECT_EQ(read_error(bytes), "a pixel has colour 4, which the palette does not have");
-    bytes.back() = 7;
-    EXPECT_EQ(read_error(bytes), "a pixel has colour 7, which the palette does not have");
+    for (const int outside : {4, 7}) {
+        bytes.back() = static_cast<std::uint8_t>(outside);
+        EXPECT_EQ(read_error(bytes), "a pixel has colour " + std::to_string(outside) +
+                                         ", which the palette does not have");
+    }
 }
 
-TEST_F(ImageIo, ReadsEveryKindOfPng) {
-    using Pixel = u8vec4 (*)(ivec2);
-    const std::map<std::string, Pixel> expected{
-        {"rgb8.png", [](ivec2 p) { return opaque(made_pixel(p)); }},
-        {"rgb16.png", [](ivec2 p) { return opaque(made_pixel(p)); }},
-        {"rgba8_interlaced.png", made_pixel},
-        {"grey8.png", [](ivec2 p) { return opaque(u8vec3(made_pixel(p).r)); }},
-        {"grey_opacity8.png",
-         [](ivec2 p) { return u8vec4(u8vec3(made_pixel(p).r), made_pixel(p).a); }},
-        {"palette4_interlaced.png", [](ivec2 p) {
-             const int k = (p.x + p.y) % 10;
-             return u8vec4(25 * k, 255 - 25 * k, 10 * k, k < 3 ? 100 * k : 255);
-         }}};
-    for (const auto& [name, pixel] : expected) {
+TEST_F(ImageIo, ReadsEveryKindOfPngAndJpeg) {
+    const auto color = [](ivec2 p) { return opaque(made_pixel(p)); };
+    const auto grey = [](ivec2 p) { return opaque(u8vec3(made_pixel(p).r)); };
+    const auto grey_with_opacity = [](ivec2 p) {
+        return u8vec4(u8vec3(made_pixel(p).r), made_pixel(p).a);
+    };
+    const auto from_palette = [](ivec2 p) {
+        const int k = (p.x + p.y) % 10;
+        return u8vec4(25 * k, 255 - 25 * k, 10 * k, k < 3 ? 100 * k : 255);
+    };
+    struct Kind {
+        const char* name;
+        u8vec4 (*pixel)(ivec2);
+        int tolerance = 0;
+    };
+    constexpr int of_jpeg = 6;  // of 255, at quality 95; the largest seen is 4
+    for (const auto& [name, pixel, tolerance] :
+         std::vector<Kind>{{"rgb8.png", color},
+                           {"rgb16.png", color},
+                           {"rgba8_interlaced.png", made_pixel},
+                           {"grey8.png", grey},
+                           {"grey_opacity8.png", grey_with_opacity},
+                           {"palette4_interlaced.png", from_palette},
+                           {"color.jpg", color, of_jpeg},
+                           {"color_progressive.jpg", color, of_jpeg},
+                           {"grey.jpg", grey, of_jpeg}}) {
         const Image<u8vec4> image = read_image(data_folder / name);
         ASSERT_EQ(image.size(), ivec2(9, 7)) << name;
         for (int y = 0; y < 7; ++y)
             for (int x = 0; x < 9; ++x)
-                EXPECT_EQ((image[{x, y}]), pixel({x, y})) << name << " at " << x << ", " << y;
+                for (int i = 0; i < 4; ++i)
+                    EXPECT_NEAR((image[{x, y}][i]), pixel({x, y})[i], tolerance)
+                        << name << ", channel " << i << " at " << x << ", " << y;
     }
 }
 
 TEST_F(ImageIo, HardCase_ColourBeyondAPngPaletteIsBlack) {
-    Bytes bytes = bytes_of(data_folder / "palette4_interlaced.png");
-    const auto palette = bytes.begin() + std::ptrdiff_t(position_in(bytes, {'P', 'L', 'T', 'E'}));
-    palette[-1] = 9;  // three colours instead of ten
-    bytes.erase(palette + 4 + 9, palette + 4 + 30);
-    EXPECT_EQ(read_error(bytes), "damaged: PLTE: CRC error");
-    std::ranges::copy(crc_of(Bytes(palette, palette + 4 + 9)), palette + 4 + 9);
-    const Image<u8vec4> image = read(bytes);
+    const Image<u8vec4> image = read_image(data_folder / "palette4_too_short.png");
     EXPECT_EQ((image[{2, 0}]), u8vec4(50, 205, 20, 200));
-    EXPECT_EQ((image[{3, 0}]), u8vec4(0, 0, 0, 255));
-    EXPECT_EQ((image[{8, 1}]), u8vec4(0, 0, 0, 255));
+    for (const ivec2 beyond : {ivec2(3, 0), ivec2(8, 1)})
+        EXPECT_EQ(image[beyond], u8vec4(0, 0, 0, 255));
 }
 
-TEST_F(ImageIo, OneColorOfAPngMayBeTransparent) {
-    Bytes bytes = bytes_of(data_folder / "rgb8.png");
-    const u8vec4 color = made_pixel({1, 0});
-    const Bytes key{'t', 'R', 'N', 'S', 0, color.r, 0, color.g, 0, color.b};
-    const Bytes chunk = Bytes{0, 0, 0, 6} + key + crc_of(key);
-    bytes.insert(bytes.begin() + 33, chunk.begin(), chunk.end());
-    const Image<u8vec4> image = read(bytes);
-    EXPECT_EQ((image[{1, 0}]), u8vec4(u8vec3(color), 0));
-    EXPECT_EQ((image[{2, 0}]), opaque(made_pixel({2, 0})));
-}
-
-TEST_F(ImageIo, HardCase_APngWhoseCheckSumsAreWrongIsDamaged) {
-    Bytes bytes = bytes_of(data_folder / "rgb8.png");
-    const std::size_t end = position_in(bytes, {0, 0, 0, 0, 'I', 'E', 'N', 'D'});
-    bytes[end - 1] ^= 1;  // the last byte before: of the pixels' check sum
-    EXPECT_EQ(read_error(bytes), "damaged: IDAT: CRC error");
-}
-
-TEST_F(ImageIo, ReadsJpegNearlyAsItWasMade) {
-    constexpr int tolerance = 6;  // of 255, at quality 95; the largest seen is 4
-    for (const char* name : {"color.jpg", "color_progressive.jpg", "grey.jpg"}) {
-        const Image<u8vec4> image = read_image(data_folder / name);
-        ASSERT_EQ(image.size(), ivec2(9, 7)) << name;
-        const bool is_grey = std::string_view(name) == "grey.jpg";
-        for (int y = 0; y < 7; ++y)
-            for (int x = 0; x < 9; ++x) {
-                const u8vec4 color = made_pixel({x, y});
-                const u8vec4 wanted = opaque(is_grey ? u8vec3(color.r) : u8vec3(color));
-                for (int i = 0; i < 4; ++i)
-                    EXPECT_NEAR((image[{x, y}][i]), wanted[i], tolerance) << name << x << y << i;
-            }
+TEST_F(ImageIo, SixteenBitsOfAPngAreRounded) {
+    const Image<u8vec4> image = read_image(data_folder / "grey16.png");  // all numbers in order
+    for (unsigned value = 0; value < 65536; ++value) {
+        const unsigned nearest = (value * 510 + 65535) / 131070;  // value times 255/65535
+        ASSERT_EQ(image.pixels()[value], u8vec4(nearest, nearest, nearest, 255)) << value;
     }
 }
 
 TEST_F(ImageIo, HardCase_EveryTruncatedPictureIsAnErrorUnlessAllPixelsAreThere) {
     for (const auto& [name, bytes] : samples()) {
-        EXPECT_EQ(read_error(bytes), "") << name;
+        std::string remark;
+        const Image<u8vec4> whole = decode_image(bytes, "whole", any_number, &remark);
+        EXPECT_EQ(remark, "") << name;
         const bool is_jpeg = bytes[0] == 0xff;
         for (std::size_t length = 0; length < bytes.size(); ++length) {
+            SCOPED_TRACE(name + ": the first " + std::to_string(length) + " of " +
+                         std::to_string(bytes.size()) + " bytes");
             const Bytes cut(bytes.begin(), bytes.begin() + std::ptrdiff_t(length));
-            const auto where = [&] {
-                return name + ": " + std::to_string(length) + " of " +
-                       std::to_string(bytes.size()) + " bytes";
-            };
             // A JPEG ends with a mark of two bytes; those before it may be of use to no pixel.
-            if (length + 2 < bytes.size() || !is_jpeg) {
-                EXPECT_TRUE(read_error(cut) != "" || (is_jpeg && read(cut) == read(bytes)))
-                    << where();
+            if (!is_jpeg || length + 2 < bytes.size()) {
+                EXPECT_TRUE(read_error(cut) != "" || (is_jpeg && read(cut) == whole));
                 continue;
             }
-            std::string remark;
-            EXPECT_EQ(decode_image(cut, "cut.jpg", any_number, &remark), read(bytes)) << where();
-            EXPECT_EQ(remark, "the mark of its end is missing") << where();
-        }
-        std::string remark;
-        decode_image(bytes, "whole", any_number, &remark);
-        EXPECT_EQ(remark, "") << name;
-    }
-}
-
-TEST_F(ImageIo, SixteenBitsOfAPngAreRounded) {
-    // Grey values of a row, as PNG stores them: a filter byte, and the highest byte first; deflate
-    // may leave bytes as they are, behind their number.
-    constexpr std::uint32_t width = 4096;
-    for (std::uint32_t first = 0; first < 65536; first += width) {
-        const auto big = [](std::uint32_t x) {
-            return Bytes{std::uint8_t(x >> 24), std::uint8_t(x >> 16), std::uint8_t(x >> 8),
-                         std::uint8_t(x)};
-        };
-        Bytes row{0};
-        for (std::uint32_t value = first; value < first + width; ++value)
-            row.insert(row.end(), {std::uint8_t(value >> 8), std::uint8_t(value)});
-        std::uint32_t a = 1, b = 0;  // Adler's check sum
-        for (const std::uint8_t byte : row) a = (a + byte) % 65521, b = (b + a) % 65521;
-        const auto length = std::uint32_t(row.size());
-        const Bytes deflated = Bytes{0x78,
-                                     1,
-                                     1,
-                                     std::uint8_t(length),
-                                     std::uint8_t(length >> 8),
-                                     std::uint8_t(~length),
-                                     std::uint8_t(~length >> 8)} +
-                               row + big(b << 16 | a);
-        const auto chunk = [&](const char* name, const Bytes& content) {
-            const Bytes named = Bytes(name, name + 4) + content;
-            return big(std::uint32_t(content.size())) + named + crc_of(named);
-        };
-        const Image<u8vec4> image =
-            read(Bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'} +
-                 chunk("IHDR", big(width) + big(1) + Bytes{16, 0, 0, 0, 0}) +
-                 chunk("IDAT", deflated) + chunk("IEND", {}));
-        for (std::uint32_t i = 0; i < width; ++i) {
-            const auto nearest =
-                std::uint8_t(((first + i) * 510u + 65535) / 131070);  // x 255/65535
-            ASSERT_EQ((image[{int(i), 0}]), u8vec4(nearest, nearest, nearest, 255)) << first + i;
+            EXPECT_EQ(decode_image(cut, "cut.jpg", any_number, &remark), whole);
+            EXPECT_EQ(remark, "the mark of its end is missing");
         }
     }
 }
@@ -568,43 +422,27 @@ TEST_F(ImageIo, HardCase_JpegOfManyScansIsRefused) {
     EXPECT_EQ(read_error(std::move(bytes) + Bytes{0xff, 0xd9}), "more than 100 scans");
 }
 
-TEST_F(ImageIo, HardCase_UndefinedPartOfAJpegIsTheSameEachTime) {
-    Bytes bytes = bytes_of(data_folder / "grey.jpg");
+TEST_F(ImageIo, HardCase_WhatADamagedJpegLeavesUndefinedIsTheSameEachTime) {
+    Bytes without_table = bytes_of(data_folder / "grey.jpg");
     const Bytes mark{0xff, 0xc4};
-    const auto last = std::find_end(bytes.begin(), bytes.end(), mark.begin(), mark.end());
-    last[1] = 0xfe;  // The last table of codes becomes a comment.
-    const Image<u8vec4> before = read(bytes);
-    read_image(data_folder / "color_progressive.jpg");  // leaves other bytes behind in freed memory
-    EXPECT_EQ(read(bytes), before);
-}
-
-TEST_F(ImageIo, HardCase_JpegThatTheDecoderGivesNoReasonForDoesNotCrash) {
-    // Found by random inputs: it crashed, but only in a thread that had read no other damaged file.
-    // A newer decoder reads it.
-    const Bytes bytes = bytes_of(data_folder / "../finds/no_reason.jpg");
-    std::string outcome;
-    std::thread([&] {
-        try {
-            outcome = testing::PrintToString(read(bytes).size());
-        } catch (const InputError& error) { outcome = error.what(); }
-    }).join();
-    EXPECT_TRUE(outcome == testing::PrintToString(ivec2(9, 7)) ||
-                outcome.find("damaged or unsupported") != outcome.npos)
-        << outcome;
-}
-
-TEST_F(ImageIo, HardCase_JpegWhoseScansEndEarlyIsAnErrorOrTheSameEachTime) {
-    // Found by random inputs: what is missing of its second scan was read as a shift by 32 bits.
-    const Bytes bytes = bytes_of(data_folder / "../finds/scan_ends_early.jpg");
-    const auto outcome = [&]() -> std::string {
-        try {
-            const Image<u8vec4> image = read(bytes);
-            return testing::PrintToString(image.size()) + testing::PrintToString(image.pixels());
-        } catch (const InputError& error) { return error.what(); }
-    };
-    const std::string before = outcome();
-    read_image(data_folder / "color_progressive.jpg");  // leaves other bytes behind in freed memory
-    EXPECT_EQ(outcome(), before);
+    std::ranges::find_end(without_table, mark).begin()[1] = 0xfe;  // it becomes a comment
+    // Found by random inputs: the first crashed, but only in a thread that had read no other
+    // damaged file; what is missing of the second's second scan was read as a shift by 32 bits.
+    for (const Bytes& bytes :
+         {bytes_of(data_folder / "../finds/no_reason.jpg"),
+          bytes_of(data_folder / "../finds/scan_ends_early.jpg"), without_table}) {
+        std::string first, second;
+        const auto describe = [&](std::string& outcome) {
+            try {
+                outcome = testing::PrintToString(pixels_of(read(bytes)));
+            } catch (const InputError& error) { outcome = error.what(); }
+        };
+        std::thread(describe, std::ref(first)).join();
+        read_image(data_folder / "color_progressive.jpg");  // leaves other bytes in freed memory
+        std::thread(describe, std::ref(second)).join();
+        EXPECT_EQ(second, first);
+        EXPECT_NE(first, "");
+    }
 }
 
 struct BadFile {
@@ -641,7 +479,7 @@ TEST_F(ImageIo, HardCase_MemoryIsNotSetAsideForAClaim) {
     if (test::is_sanitized) GTEST_SKIP() << "the sanitizer needs more address space than any limit";
     for (const auto& [what, bytes, message] : files_that_claim_too_much()) {
         const fs::path file = put(bytes);
-        const Limit limit(RLIMIT_AS, address_space_with(8 << 20));
+        const MemoryLimit limit(8 << 20);
         EXPECT_EQ(read_error(file), message) << what;
     }
 }
@@ -656,7 +494,6 @@ std::vector<BadFile> files_of_no_known_kind() {
     return {
         {"empty", {}, "the file is empty"},
         {"text", Bytes(100, 'a'), no_picture},
-        {"zeros", Bytes(100, 0), no_picture},
         {"gif", {'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, no_picture},
         {"png with line ends spoiled",
          {0x89, 'P', 'N', 'G', '\n', 0x1a, '\n', 0, 0, 0},
@@ -729,17 +566,16 @@ std::vector<BadFile> bad_jpeg_files() {
 }
 
 std::vector<BadFile> bad_png_files() {
-    const Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    const Bytes png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'},
+        rgb8 = bytes_of(data_folder / "rgb8.png");
     return {
-        {"png of no kind", changed(bytes_of(data_folder / "rgb8.png"), 25, {5}),
-         "damaged: there is no such kind of PNG"},
+        {"png of no kind", changed(rgb8, 25, {5}), "damaged: there is no such kind of PNG"},
+        {"png of a wrong check sum", changed(rgb8, rgb8.size() - 13, {0}),
+         "damaged: IDAT: CRC error"},
         {"png of signature", png, "truncated: the end of the picture is missing"},
         {"png without header", png + Bytes{0, 0, 0, 0, 'I', 'E', 'N', 'D', 0, 0, 0, 0},
          "damaged: the PNG header is missing"},
-        {"png of 0 x 0",
-         png + Bytes{0, 0, 0, 13, 'I', 'H', 'D', 'R', 0, 0, 0,   0,   0,   0,   0, 0, 8, 2, 0,
-                     0, 0, 0, 0,  0,   0,   0,   0,   0, 0, 'I', 'E', 'N', 'D', 0, 0, 0, 0},
-         bad_size("0 x 0")},
+        {"png of 0 x 0", changed(rgb8, 16, Bytes(8)), bad_size("0 x 0")},
     };
 }
 
@@ -762,29 +598,23 @@ TEST_F(ImageIo, HardCase_WhatIsNoRegularFileIsAnErrorAndNotAWait) {
 }
 
 TEST_F(ImageIo, HardCase_ChangedBytesGiveAnErrorOrAPicture) {
-    constexpr int changes_in_all = 20000;
+    constexpr std::array<unsigned, 5> edges{0, 1, 0x7f, 0x80, 0xff};
     std::mt19937 random(seed);
     const std::map<std::string, Bytes> files = samples();
-    const Limit limit(RLIMIT_AS, address_space_with(512 << 20));
-    for (int i = 0; i < changes_in_all; ++i) {
-        const auto& [name, valid] = *std::next(files.begin(), i % std::ssize(files));
-        Bytes bytes = valid;
+    const MemoryLimit limit(512 << 20);
+    for (int i = 0; i < 20000; ++i) {
+        auto [name, bytes] = *std::next(files.begin(), i % std::ssize(files));
         for (auto count = 1 + random() % 4; count > 0; --count) {
-            constexpr std::array<unsigned, 5> edges{0, 1, 0x7f, 0x80, 0xff};
             // The header is where most of the decisions are.
             const auto end = random() % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 64);
             const auto value = random() % 2 ? edges[random() % edges.size()] : random() & 255;
             bytes[random() % end] = static_cast<std::uint8_t>(value);
         }
-        const fs::path file = put(bytes);
+        SCOPED_TRACE(name + ", change " + std::to_string(i) + ", seed " + std::to_string(seed));
         try {
-            const Image<u8vec4> image = read_image(file);
-            EXPECT_TRUE(image.size().x >= 1 && image.size().y >= 1)
-                << name << ", change " << i << ", seed " << seed;
-        } catch (const InputError&) {  // as good as a picture
-        } catch (const std::exception& error) {
-            FAIL() << name << ", change " << i << ", seed " << seed << ": " << error.what();
-        }
+            const Image<u8vec4> image = read(bytes);
+            EXPECT_TRUE(image.size().x >= 1 && image.size().y >= 1);
+        } catch (const InputError&) {}  // as good as a picture
     }
 }
 
@@ -826,30 +656,16 @@ TEST_F(ImageIo, HardCase_WhatIsNoRegularFileIsNotOverwritten) {
     EXPECT_EQ(files_in_folder(), 3u);
 }
 
-TEST_F(ImageIo, HardCase_FailedWriteLeavesTheOldFileAndNothingElse) {
-    std::signal(SIGXFSZ, SIG_IGN);  // A write beyond the limit is then an error, as on a full disk.
-    for (const char* name : {"a.png", "a.bmp", "a.tga"})
-        for (const ivec2 size : {ivec2{1, 1}, {100, 100}}) {  // within a stream's buffer and beyond
-            write_image(path(name), four_pixels());
-            const Bytes before = bytes_of(path(name));
-            std::string message;
-            {
-                const Limit limit(RLIMIT_FSIZE, 10);
-                message = write_error(path(name), Image<u8vec3>(size));
-            }
-            EXPECT_EQ(message, "cannot be written: File too large") << name;
-            EXPECT_EQ(bytes_of(path(name)), before) << name;
-        }
-    EXPECT_EQ(files_in_folder(), 3u);
-}
-
-TEST_F(ImageIo, OldFileStaysWholeUntilTheNewOneIs) {
+TEST_F(ImageIo, OldFileStaysWholeUntilTheNewOneIsAndHandsOnItsPermissions) {
+    constexpr auto unusual = fs::perms::owner_all | fs::perms::group_read;
     write_image(path("a.bmp"), four_pixels());
+    fs::permissions(path("a.bmp"), unusual);
     const Bytes before = bytes_of(path("a.bmp"));
     fs::create_hard_link(path("a.bmp"), path("same_file"));
     write_image(path("a.bmp"), Image<u8vec3>({1, 1}));
     EXPECT_EQ(bytes_of(path("same_file")), before);  // It was replaced, not written into.
     EXPECT_EQ(read_image(path("a.bmp")).size(), ivec2(1, 1));
+    EXPECT_EQ(fs::status(path("a.bmp")).permissions(), unusual);
     EXPECT_EQ(files_in_folder(), 2u);
 }
 
@@ -861,15 +677,6 @@ TEST_F(ImageIo, LinkStaysALinkToTheNewFile) {
     EXPECT_EQ(read_image(path("real.bmp")).size(), ivec2(2, 2));
 }
 
-}  // namespace
-TEST_F(ImageIo, OverwritingKeepsThePermissions) {
-    constexpr auto unusual = fs::perms::owner_all | fs::perms::group_read;
-    write_image(path("a.bmp"), four_pixels());
-    fs::permissions(path("a.bmp"), unusual);
-    write_image(path("a.bmp"), four_pixels());
-    EXPECT_EQ(fs::status(path("a.bmp")).permissions(), unusual);
-}
-
 TEST_F(ImageIo, HardCase_LinkThatLeadsNowhereIsNotReplaced) {
     fs::create_symlink("nothing.bmp", path("link.bmp"));
     EXPECT_EQ(write_error(path("link.bmp"), four_pixels()),
@@ -878,4 +685,5 @@ TEST_F(ImageIo, HardCase_LinkThatLeadsNowhereIsNotReplaced) {
     EXPECT_FALSE(fs::exists(path("nothing.bmp")));
 }
 
+}  // namespace
 }  // namespace rasterbook

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <random>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +26,8 @@ using namespace rasterbook::test;
 namespace {
 
 constexpr int inputs = 100'000;
+constexpr Power all_powers[] = {Power::polynomial, Power::in_double, Power::squarings,
+                                Power::schlick};
 constexpr long double half_ulp = 0x1p-24L;  ///< Of a float, relative.
 
 /// Few triangles, so that each kind of shading has its own light.
@@ -34,20 +35,6 @@ const LitSphere& sphere() {
     static const LitSphere sphere(8, 16);
     return sphere;
 }
-
-std::vector<vec3> barycentrics_in_triangles(int count) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<float> any(0, 1);
-    std::vector<vec3> barycentrics;
-    for (int i = 0; i < count; ++i) {
-        float u = any(random), v = any(random);
-        if (u + v > 1) u = 1 - u, v = 1 - v;
-        barycentrics.emplace_back(1 - u - v, u, v);
-    }
-    return barycentrics;
-}
-
-std::array<long double, 3> wide(dvec3 v) { return {v.x, v.y, v.z}; }
 
 /// How far power() may be off where the result is x: 2 + 2.2 y |log2 x| ulp.
 long double of_power(long double x) {
@@ -67,12 +54,6 @@ float grey(const ReflectedLight& light) {
     return LitSphere::diffuse * light.diffuse.x + LitSphere::specular * light.specular.x;
 }
 
-int differing_pixels(const Image<u8vec4>& a, const Image<u8vec4>& b) {
-    int differing = 0;
-    for (std::size_t i = 0; i < a.pixels().size(); ++i) differing += a.pixels()[i] != b.pixels()[i];
-    return differing;
-}
-
 Image<u8vec4> picture(std::vector<std::string> arguments) {
     const std::string out = (fresh_folder("shading_options") / "picture.bmp").string();
     arguments.insert(arguments.end(), {"--size", "640x360", "--out", out});
@@ -83,33 +64,6 @@ Image<u8vec4> picture(std::vector<std::string> arguments) {
 }
 
 }  // namespace
-
-TEST(LabPhong, OfALightArrivesWhatIsVisible) {
-    const std::array lights{Light{LightKind::point, vec3(1, 2, 3), vec3(0), vec3(0, 2, 0)},
-                            Light{LightKind::directional, vec3(4), vec3(0, 1, 0)}};
-    for (int x = 0; x < 3; ++x) {
-        const vec3 position = ivec3(x, 0, 0);
-        const SurfacePoint<float> point{position, vec3(0, 1, 0),
-                                        unit_or(vec3(1) - position, vec3(0))};
-        const PhongHighlight square{true, 2};
-        const auto light = [&](vec2 visibility) {
-            return reflected_light(std::span<const Light>(lights), point, square,
-                                   [&](std::size_t l) { return visibility[static_cast<int>(l)]; });
-        };
-        const ReflectedLight first = light({1, 0}), second = light({0, 1}),
-                             both = light({0.5f, 0.25f}), whole = light({1, 1});
-        EXPECT_GT(first.diffuse.x, 0);
-        EXPECT_GT(second.specular.x, 0);
-        EXPECT_EQ(both.diffuse, 0.5f * first.diffuse + 0.25f * second.diffuse);
-        EXPECT_EQ(both.specular, 0.5f * first.specular + 0.25f * second.specular);
-        EXPECT_EQ(light({0, 0}).diffuse, vec3(0));
-        EXPECT_EQ(light({0, 0}).specular, vec3(0));
-        const ReflectedLight unshadowed =
-            reflected_light(std::span<const Light>(lights), point, square);
-        EXPECT_EQ(whole.diffuse, unshadowed.diffuse);
-        EXPECT_EQ(whole.specular, unshadowed.specular);
-    }
-}
 
 TEST(LabPhong, TheDefaultIsPhongsHighlight) {
     constexpr ShadingMethod variant;
@@ -128,43 +82,30 @@ TEST(LabPhong, EveryShadingIsThatOfTheSurfaceWhereItIsComputed) {
     // A highlight of 90 makes 90 of each half ulp that its cosine is off, and that has a dozen.
     constexpr double tolerance = 1e-4;
     const ExactSphere exact(sphere());
-    const std::array<vec3, 3> vertices = {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)};
     for (const Triangle& triangle : sphere().mesh().triangles) {
         const LitTriangle flat = sphere().lit(triangle, {.shading = Shading::flat});
         const LitTriangle gouraud = sphere().lit(triangle, {.shading = Shading::gouraud});
         const LitTriangle phong = sphere().lit(triangle, {});
         std::array<dvec3, 3> at;
-        for (std::size_t i = 0; i < 3; ++i) {
-            at[i] = sphere().mesh().positions[triangle.vertices[i].position];
+        vec3 of_vertices(0);
+        for (int i = 0; i < 3; ++i) {
+            const auto v = static_cast<std::size_t>(i);
+            at[v] = sphere().mesh().positions[triangle.vertices[v].position];
             const auto expected =
-                static_cast<double>(exact.light_at(wide(at[i] / glm::length(at[i])), wide(at[i])));
-            ASSERT_NEAR(grey(gouraud.at(vertices[i])), expected, tolerance);
-            ASSERT_NEAR(grey(phong.at(vertices[i])), expected, tolerance);
+                static_cast<double>(exact.light_at(at[v] / glm::length(at[v]), at[v]));
+            ASSERT_NEAR(grey(gouraud.at(mat3(1)[i])), expected, tolerance);
+            ASSERT_NEAR(grey(phong.at(mat3(1)[i])), expected, tolerance);
+            of_vertices[i] = grey(gouraud.at(mat3(1)[i]));
         }
         const dvec3 across = glm::cross(at[1] - at[0], at[2] - at[0]);
-        const auto expected = static_cast<double>(exact.light_at(
-            wide(across / glm::length(across)), wide((at[0] + at[1] + at[2]) / 3.0)));
-        for (const vec3 barycentrics : vertices)
-            ASSERT_NEAR(grey(flat.at(barycentrics)), expected, tolerance);
-    }
-}
-
-TEST(LabPhong, BetweenTheVerticesFlatStaysAndGouraudIsStraight) {
-    constexpr float tolerance = 1e-6f;  // 3 products and 2 sums of numbers below 2
-    for (const Triangle& triangle : sphere().mesh().triangles) {
-        const LitTriangle flat = sphere().lit(triangle, {.shading = Shading::flat});
-        const LitTriangle gouraud = sphere().lit(triangle, {.shading = Shading::gouraud});
-        const ReflectedLight of_face = flat.at(vec3(1, 0, 0));
-        const ReflectedLight a = gouraud.at(vec3(1, 0, 0));
-        const ReflectedLight b = gouraud.at(vec3(0, 1, 0));
-        const ReflectedLight c = gouraud.at(vec3(0, 0, 1));
-        for (const vec3 w : barycentrics_in_triangles(10)) {
-            EXPECT_EQ(flat.at(w).diffuse, of_face.diffuse);
-            EXPECT_EQ(flat.at(w).specular, of_face.specular);
-            EXPECT_NEAR(gouraud.at(w).diffuse.x,
-                        w.x * a.diffuse.x + w.y * b.diffuse.x + w.z * c.diffuse.x, tolerance);
-            EXPECT_NEAR(gouraud.at(w).specular.y,
-                        w.x * a.specular.y + w.y * b.specular.y + w.z * c.specular.y, tolerance);
+        const auto of_face = static_cast<double>(
+            exact.light_at(across / glm::length(across), (at[0] + at[1] + at[2]) / 3.0));
+        for (const vec3 w :
+             {vec3(0.25f, 0.5f, 0.25f), vec3(0.125f, 0.25f, 0.625f), vec3(0, 0.75f, 0.25f)}) {
+            ASSERT_NEAR(grey(flat.at(w)), of_face, tolerance) << "the same all over a face";
+            // 3 products and 2 sums of numbers below 2, twice.
+            ASSERT_NEAR(grey(gouraud.at(w)), glm::dot(w, of_vertices), 2e-6)
+                << "straight between the vertices";
         }
     }
 }
@@ -174,29 +115,9 @@ TEST(LabPhong, BacksAreLitOnlyWhereFrontsAreDark) {
         for (const Triangle& triangle : sphere().mesh().triangles) {
             const LitTriangle front = sphere().lit(triangle, {.shading = shading}, false);
             const LitTriangle back = sphere().lit(triangle, {.shading = shading}, true);
-            const vec3 middle(1.0f / 3);
-            const vec3 vertex(1, 0, 0);
-            const vec3 at = shading == Shading::gouraud ? vertex : middle;
-            const bool front_is_lit = front.at(at).diffuse.x > 0;
-            ASSERT_NE(front_is_lit, back.at(at).diffuse.x > 0);
+            const vec3 at = shading == Shading::gouraud ? vec3(1, 0, 0) : vec3(1.0f / 3);
+            ASSERT_NE(front.at(at).diffuse.x > 0, back.at(at).diffuse.x > 0) << int(shading);
         }
-}
-
-TEST(LabPhong, ThePlaceDecidesHowNearThePictureComes) {
-    // What the page says: each place is worse than the next, and the finer mesh is better.
-    static const LitSphere coarse(16, 32), fine(64, 128);
-    double coarser = 1;
-    for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
-        const double rms = light_errors(coarse, {.shading = shading}).rms;
-        EXPECT_LT(rms, 0.8 * coarser);
-        EXPECT_LT(light_errors(fine, {.shading = shading}).rms, 0.3 * rms);
-        coarser = rms;
-    }
-    const LightErrors phong = light_errors(fine, {});
-    // The mesh lies up to 1 - cos(1.4 degrees)^2 = .0006 inside of the sphere.
-    EXPECT_LT(phong.rms, 0.0006);
-    EXPECT_GT(phong.fragments, 100'000);
-    EXPECT_GT(phong.brightest, 0.8);
 }
 
 TEST(LabPhong, PowersAreWithinTheirBounds) {
@@ -222,7 +143,6 @@ TEST(LabPhong, PowersAreWithinTheirBounds) {
 }
 
 TEST(LabPhong, SchlicksCurveLiesAboveThePower) {
-    float greatest = 0;
     for (const float exponent : {1.0f, 2.0f, 7.0f, 32.0f, 90.0f, 1000.0f, 1e4f}) {
         float before = 0;
         for (int i = 0; i <= inputs; ++i) {
@@ -232,35 +152,15 @@ TEST(LabPhong, SchlicksCurveLiesAboveThePower) {
             ASSERT_LE(curve, power + 0.204f) << x << '^' << exponent;
             ASSERT_GE(curve, before) << x << '^' << exponent;
             before = curve;
-            greatest = std::max(greatest, curve - power);
         }
         EXPECT_EQ(power_by_schlick(0, exponent), 0.0f);
         EXPECT_EQ(power_by_schlick(1, exponent), 1.0f);
     }
-    EXPECT_GT(greatest, 0.2f) << "the bound is no wider than it has to be";
-}
-
-TEST(LabPhong, NoHighlightIsLeftOutThatCanBeSeen) {
-    constexpr float least_seen = 1.0f / 255 / 13 / 2;  // half of the first code of sRGB
-    for (const Power how : {Power::polynomial, Power::in_double, Power::squarings, Power::schlick})
-        for (const float exponent : {0.0f, 1.0f, 7.0f, 32.0f, 90.0f, 1000.0f})
-            for (int i = 0; i <= inputs; ++i) {
-                const float cosine = static_cast<float>(i) / inputs;
-                const HighlightBy highlight{true, exponent, Highlight::phong, how};
-                const float result = highlight(seen_at_cosine(cosine), straight_up);
-                const float power = power_as(how, cosine, exponent);
-                if (result == power) continue;
-                ASSERT_EQ(result, 0) << static_cast<int>(how) << ": " << cosine << '^' << exponent;
-                ASSERT_LT(power, least_seen / 1000)
-                    << static_cast<int>(how) << ": " << cosine << '^' << exponent;
-                ASSERT_NE(how, Power::schlick) << cosine << '^' << exponent;
-            }
 }
 
 TEST(LabPhong, PowersTakeWhatMaterialsAndRoundingBring) {
     const float above_one = std::nextafter(1.0f, 2.0f);
-    for (const Power how :
-         {Power::polynomial, Power::in_double, Power::squarings, Power::schlick}) {
+    for (const Power how : all_powers) {
         for (const float x : {0.0f, 0.5f, 1.0f}) EXPECT_EQ(power_as(how, x, 0), 1.0f);
         for (const float x : {0.0f, 0.25f, 1.0f}) EXPECT_EQ(power_as(how, x, 1), x);
         for (const float exponent : {1.0f, 1000.0f, 1e4f}) {
@@ -290,55 +190,33 @@ TEST(LabPhong, ApproximateNormalsHaveNearlyLength1AndTheirDirection) {
         ASSERT_GT(glm::dot(unit, direction), 0);
     }
     EXPECT_GT(shortest, 1 - documented);
-    EXPECT_LT(shortest, 1 - 0.9 * documented) << "the bound is no wider than it has to be";
     EXPECT_LT(longest, 1 + 1e-6) << "Newton's step comes from below";
     EXPECT_EQ(unit_approximate(vec3(0)), vec3(0));
-}
-
-TEST(LabPhong, NormalsAreScaledAsTheVariantSays) {
-    // Light that is evenly reflected is proportional to the normal's length.
-    const Triangle& triangle = sphere().mesh().triangles[50];
-    for (const vec3 barycentrics : barycentrics_in_triangles(100)) {
-        vec3 normal(0), position(0);
-        for (int k = 0; k < 3; ++k) {
-            const Vertex vertex = triangle.vertices[static_cast<std::size_t>(k)];
-            normal += barycentrics[k] * sphere().mesh().normals[vertex.normal];
-            position += barycentrics[k] * sphere().mesh().positions[vertex.position];
-        }
-        ASSERT_GT(glm::dot(normal, sphere().lights[0].position_world - position), 0) << "dark";
-        const auto diffuse = [&](NormalScaling normals) {
-            return sphere().lit(triangle, {.normals = normals}).at(barycentrics).diffuse.x;
-        };
-        const float exact = diffuse(NormalScaling::exact);
-        EXPECT_NEAR(diffuse(NormalScaling::none) / exact, glm::length(normal), 1e-5f);
-        EXPECT_NEAR(diffuse(NormalScaling::approximate) / exact, 1, 0.0018f);
-    }
 }
 
 TEST(LabPhong, EveryOptionDraws) {
     const Image<u8vec4> usual = picture({});
     const auto changed = [&](const std::vector<std::string>& arguments) {
-        return differing_pixels(usual, picture(arguments));
+        const Image<u8vec4> other = picture(arguments);
+        int pixels = 0;
+        for (std::size_t i = 0; i < usual.pixels().size(); ++i)
+            pixels += usual.pixels()[i] != other.pixels()[i];
+        return pixels;
     };
     EXPECT_EQ(changed({"--shading", "phong", "--highlight", "phong", "--power", "polynomial",
-                       "--normals", "exact", "--light", "point"}),
+                       "--normals", "exact", "--light", "point", "--all-effects"}),
               0);
-    for (const char* shading : {"flat", "gouraud"})
-        EXPECT_GT(changed({"--shading", shading}), 1000) << shading;
-    EXPECT_GT(differing_pixels(picture({"--shading", "flat"}), picture({"--shading", "gouraud"})),
-              1000);
-    EXPECT_GT(changed({"--highlight", "blinn"}), 1000);
-    EXPECT_GT(changed({"--power", "schlick"}), 1000);
+    for (const auto& [option, word] : {std::pair{"--shading", "flat"},
+                                       {"--shading", "gouraud"},
+                                       {"--highlight", "blinn"},
+                                       {"--power", "schlick"},
+                                       {"--normals", "none"},
+                                       {"--light", "directional"},
+                                       {"--light", "spot"}})
+        EXPECT_GT(changed({option, word}), 1000) << option << " " << word;
     for (const char* normals : {"approximate", "none"})
         EXPECT_GT(changed({"--normals", normals}), 100) << normals;
-    EXPECT_GT(
-        differing_pixels(picture({"--normals", "none"}), picture({"--normals", "approximate"})),
-        100);
-    for (const char* light : {"directional", "spot"})
-        EXPECT_GT(changed({"--light", light}), 1000) << light;
     // These compute the same but for rounding, which an 8-bit code may show here and there.
-    constexpr int rounded_pixels = 100;
     for (const char* power : {"double", "squarings"})
-        EXPECT_LE(changed({"--power", power}), rounded_pixels) << power;
-    EXPECT_EQ(changed({"--all-effects"}), 0);
+        EXPECT_LE(changed({"--power", power}), 100) << power;
 }

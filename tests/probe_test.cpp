@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -64,13 +65,8 @@ std::vector<ivec2> some_pixels(ivec2 size, int count, std::uint32_t seed) {
     return pixels;
 }
 
-struct ProbedLesson {
-    std::string program;
-    std::vector<std::string> options{};
-};
-
-const std::vector<ProbedLesson> probed_lessons = {
-    {"02_triangle_fill"},
+const std::vector<std::pair<std::string, std::vector<std::string>>> probed_lessons = {
+    {"02_triangle_fill", {}},
     {"02_triangle_fill", {"--samples", "4"}},
     {"03_z_buffer", {"--depth"}},
     {"04_mvp", {"--turn", "70"}},
@@ -93,10 +89,8 @@ TEST(Probe, TheLastLineIsThePicturesPixel) {
     const auto file = fresh_folder("probe") / "a.png";
     for (const auto& [program, given] : probed_lessons) {
         std::vector<std::string> options = given;
-        options.insert(options.end(), {"--size", "97x61"});
-        std::vector<std::string> drawing = options;
-        drawing.insert(drawing.end(), {"--out", file.string()});
-        ASSERT_EQ(run_program(program, drawing).exit_status, 0) << program;
+        options.insert(options.end(), {"--size", "97x61", "--out", file.string()});
+        ASSERT_EQ(run_program(program, options).exit_status, 0) << program;
         const Image<u8vec4> picture = read_image(file);
         for (const ivec2 pixel : some_pixels({97, 61}, 6, 1)) {
             const u8vec4 color = picture[pixel];
@@ -144,10 +138,10 @@ TEST(Probe, WhatIsNotedAddsUpToThePixelsColour) {
     for (const ivec2 pixel : some_pixels({320, 180}, 60, 4)) {
         const std::string text =
             probed("07_toon", pixel, {"--size", "320x180", "--outline", "none"});
-        if (const auto paint = numbers_of(text, "paint")) {
-            EXPECT_EQ(*paint, of_color(text)) << text;
-            ++painted;
-        }
+        const auto paint = numbers_of(text, "paint");
+        if (!paint) continue;
+        EXPECT_EQ(*paint, of_color(text)) << text;
+        ++painted;
     }
     EXPECT_TRUE(flat > 15 && textured > 2 && lit > 15 && painted > 2)
         << flat << ' ' << textured << ' ' << lit << ' ' << painted;
@@ -157,8 +151,8 @@ TEST(Probe, Lessons11To13SayTheSame) {
     int shadowed = 0, blended = 0;
     for (const char* model : {"bumpy.glb", "toon.glb", "workshop.glb", "textured.gltf"})
         for (const ivec2 pixel : some_pixels({240, 135}, 8, 5)) {
-            const std::vector<std::string> options = {"--size", "240x135",       "--model",
-                                                      model,    "--shadow-size", "256"};
+            std::vector<std::string> options = {"--size", "240x135",       "--model",
+                                                model,    "--shadow-size", "256"};
             const auto sorted = [](const std::string& text) {  // they find things in other orders
                 std::vector<std::string> lines = parts_after("\n" + text, "\n");
                 std::ranges::sort(lines);
@@ -169,12 +163,9 @@ TEST(Probe, Lessons11To13SayTheSame) {
             blended += holds(text, "blended over what lies behind");
             EXPECT_EQ(sorted(probed("12_visibility_buffer", pixel, options)), sorted(text))
                 << model << pixel.x << ' ' << pixel.y;
-            for (const char* width : {"1", "8"}) {
-                std::vector<std::string> wide = options;
-                wide.insert(wide.end(), {"--width", width});
-                EXPECT_EQ(sorted(probed("13_simd", pixel, wide)), sorted(text))
-                    << model << pixel.x << ' ' << pixel.y << " width " << width;
-            }
+            options.insert(options.end(), {"--width", "8"});
+            EXPECT_EQ(sorted(probed("13_simd", pixel, options)), sorted(text))
+                << model << pixel.x << ' ' << pixel.y;
         }
     EXPECT_TRUE(shadowed > 3 && blended > 0) << shadowed << ' ' << blended;
 }
@@ -186,14 +177,10 @@ TEST(Probe, OfTwoTrianglesItSaysWhichLostAndWhy) {
                                          "f 1 2 3\nf 1 3 4\n"
                                          "o back\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nf 5 6 7\n"
                                          "o away\nf 7 6 5\n";
-    const auto probed = [&](const std::string& program, const std::string& pixel) {
-        const ProcessResult result = run_program(
-            program, {"--size", "64x64", "--model", (folder / "two.obj").string(), "--yaw", "0",
-                      "--pitch", "0", "--distance", "4", "--probe", pixel});
-        EXPECT_EQ(result.exit_status, 0) << result.err;
-        return result.out;
-    };
-    const std::string text = probed("04_mvp_complete", "34,34");
+    const std::vector<std::string> options = {
+        "--size", "64x64",      "--model", (folder / "two.obj").string(), "--yaw", "0", "--pitch",
+        "0",      "--distance", "4"};
+    const std::string text = probed("04_mvp", {34, 34}, options);
     EXPECT_TRUE(holds(text, "front #0 "));
     EXPECT_TRUE(holds(text, "written, and seen"));
     EXPECT_TRUE(holds(text, "behind: not nearer than "));
@@ -201,7 +188,7 @@ TEST(Probe, OfTwoTrianglesItSaysWhichLostAndWhy) {
     EXPECT_TRUE(holds(text, "front #1  "));
     EXPECT_TRUE(holds(text, "outside of edge ab by ")) << "of the first square's other triangle";
     EXPECT_TRUE(holds(text, "seen: front #0"));
-    const std::string background = probed("04_mvp_complete", "0,0");
+    const std::string background = probed("04_mvp", {0, 0}, options);
     EXPECT_TRUE(holds(background, "none"));
     EXPECT_TRUE(holds(background, "seen: the background, since no triangle is written here"));
 }
@@ -218,13 +205,10 @@ TEST(Probe, OnASharedEdgeItSaysWhichTriangleOwnsThePixel) {
 }
 
 TEST(Probe, InAShadowItSaysWhichDepthsAreCompared) {
-    const auto probed = [](const std::string& pixel) {
-        return run_program("09_shadow_maps_complete", {"--probe", pixel, "--pcf", "5"}).out;
-    };
-    const std::string shadowed = probed("840,420");
+    const std::string shadowed = probed("09_shadow_maps", {840, 420}, {"--pcf", "5"});
     EXPECT_TRUE(holds(shadowed, " is behind "));
     EXPECT_TRUE(holds(shadowed, "taps that say lit    0 of 25 "));
-    EXPECT_TRUE(holds(probed("760,620"), " is not behind "));
+    EXPECT_TRUE(holds(probed("09_shadow_maps", {760, 620}, {"--pcf", "5"}), " is not behind "));
 }
 
 TEST(Probe, InAHoleItSaysThatAlphaIsTooLow) {
@@ -244,12 +228,12 @@ TEST(Probe, InAHoleItSaysThatAlphaIsTooLow) {
 TEST(Probe, TheTextQuotesWhatIsPrinted) {
     const std::string page = read_text(root / "docs/troubleshooting.md");
     EXPECT_TRUE(holds(page, "\n./lessons/run 03 --probe 640,300\n"));
-    const std::string printed = run_program("03_z_buffer_complete", {"--probe", "640,300"}).out;
+    const std::string printed = probed("03_z_buffer", {640, 300}, {});
     EXPECT_TRUE(holds(page, "```\n" + printed + "```"));
     std::vector<std::string> lines =
         parts_after(page.substr(page.find("  light 1  ")), "\n  ");  // all but the first one
     lines.resize(4);
-    const std::string shadowed = run_program("09_shadow_maps_complete", {"--probe", "840,420"}).out;
+    const std::string shadowed = probed("09_shadow_maps", {840, 420}, {});
     for (const std::string& line : lines)
         EXPECT_TRUE(holds(shadowed, line.substr(0, line.find('\n'))));
 }

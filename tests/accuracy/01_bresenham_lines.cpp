@@ -43,7 +43,7 @@ std::int64_t doubled_distance(const Line& line, ivec2 p) {
 
 /// How far the rows are from the ideal line. Where two pixels share a step, their middle counts.
 Errors distance_errors(LineMethod method, const std::vector<Line>& lines, int side) {
-    double greatest = 0, sum_of_squares = 0, steps = 0, not_nearest = 0;
+    double greatest = 0, steps = 0, not_nearest = 0;
     for (const Line& line : lines) {
         const bool steep = line.extent().x < line.extent().y;
         const auto major_extent = static_cast<double>(line.steps() - 1);
@@ -64,20 +64,18 @@ Errors distance_errors(LineMethod method, const std::vector<Line>& lines, int si
             const double ideal = start.y + slope * (major - start.x);
             const double distance = std::abs(middle[static_cast<std::size_t>(major)] - ideal);
             greatest = std::max(greatest, distance);
-            sum_of_squares += distance * distance;
             ++steps;
         }
     }
     const std::string lines_to = ", lines to " + std::to_string(side) + " px";
     return {{"wrong pixels of a million" + lines_to, 1e6 * not_nearest / steps},
-            {"greatest distance" + lines_to, greatest},
-            {"RMS distance" + lines_to, std::sqrt(sum_of_squares / steps)}};
+            {"greatest distance" + lines_to, greatest}};
 }
 
 /// How far the coverages are from the areas that a line one pixel wide covers, in all pixels that
 /// either of them touches. The line reaches half a pixel beyond the centres of its ends.
 Errors coverage_errors(LineMethod method, const std::vector<Line>& lines, int side) {
-    double greatest = 0, sum_of_squares = 0, pixels = 0;
+    ErrorSum errors;
     Image<float> drawn(ivec2(side), 0.0f);
     for (const Line& line : lines) {
         draw_line_as(method, line.a, line.b, ivec2(side), LineEnd::included,
@@ -94,17 +92,12 @@ Errors coverage_errors(LineMethod method, const std::vector<Line>& lines, int si
                 if (static_cast<double>(doubled_distance(line, {x, y})) > 2 * reach) continue;
                 float& coverage = drawn[{x, y}];
                 const double area = area_in_pixel(strip, {x, y});
-                if (area > 0 || coverage > 0) {
-                    const double error = std::abs(double{coverage} - area);
-                    greatest = std::max(greatest, error);
-                    sum_of_squares += error * error;
-                    ++pixels;
-                }
+                if (area > 0 || coverage > 0) errors.add(double{coverage} - area);
                 coverage = 0;
             }
     }
-    return {{"RMS error of coverage", std::sqrt(sum_of_squares / pixels)},
-            {"greatest error of coverage", greatest}};
+    return {{"RMS error of coverage", errors.rms()},
+            {"greatest error of coverage", errors.greatest()}};
 }
 
 }  // namespace

@@ -115,22 +115,18 @@ void add_coverage(Image<float>& coverage, const Vertices& t, int samples_per_sid
 
 /// Of the coverage of the pixels that a triangle's border crosses.
 Errors coverage_errors(int samples_per_side, const std::vector<Vertices>& triangles) {
-    double sum_of_squares = 0, greatest = 0, pixels = 0;
+    ErrorSum errors;
     for (const Vertices& t : triangles) {
         Image<float> coverage(picture_size, 0.0f);
         add_coverage(coverage, t, samples_per_side);
         for (int y = 0; y < picture_size.y; ++y)
             for (int x = 0; x < picture_size.x; ++x) {
                 const double area = area_in_pixel({t.begin(), t.end()}, {x, y});
-                if (area <= 0 || area >= 1) continue;
-                const double error = std::abs(double{coverage[{x, y}]} - area);
-                sum_of_squares += error * error;
-                greatest = std::max(greatest, error);
-                ++pixels;
+                if (area > 0 && area < 1) errors.add(double{coverage[{x, y}]} - area);
             }
     }
-    return {{"RMS error of coverage", std::sqrt(sum_of_squares / pixels)},
-            {"greatest error of coverage", greatest}};
+    return {{"RMS error of coverage", errors.rms()},
+            {"greatest error of coverage", errors.greatest()}};
 }
 
 }  // namespace

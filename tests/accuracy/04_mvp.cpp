@@ -47,18 +47,15 @@ Errors place_errors(const View& view, Precision precision) {
         const std::vector<vec4> positions_clip =
             transform({precision, offset}, view.camera, view.size, view.positions);
         const ReferenceCamera reference(view.camera, view.bounds.center(), view.size, offset);
-        long double greatest = 0, sum_of_squares = 0;
+        ErrorSum distances;
         for (std::size_t i = 0; i < positions_clip.size(); ++i) {
             const Place place = reference.on_screen(view.positions[i]);
             const vec3 computed = screen_from_clip(positions_clip[i], view.size);
-            const long double distance = std::hypot(computed.x - place.x, computed.y - place.y);
-            greatest = std::max(greatest, distance);
-            sum_of_squares += distance * distance;
+            distances.add(std::hypot(computed.x - place.x, computed.y - place.y));
         }
         const std::string at = " at 1e" + std::to_string(power);
-        errors["greatest error, px" + at] = static_cast<double>(greatest);
-        errors["RMS error, px" + at] = static_cast<double>(
-            std::sqrt(sum_of_squares / static_cast<long double>(positions_clip.size())));
+        errors["greatest error, px" + at] = distances.greatest();
+        errors["RMS error, px" + at] = distances.rms();
     }
     return errors;
 }
@@ -88,14 +85,14 @@ template <typename Emit>
 void draw(const MvpMethod& variant, const std::array<vec4, 3>& vertices, Emit&& emit) {
     if (variant.clipping == Clipping::pixels)
         return fill_homogeneous(whole_triangle(vertices), picture_size, [&](ivec2 pixel, float z) {
-            if (z < DepthBuffer::cleared) emit(pixel);
+            if (z > DepthBuffer::cleared) emit(pixel);
         });
     for (const ClippedTriangle& clipped : clip(variant, vertices, picture_size)) {
         const ProjectedTriangle triangle = projected(clipped, picture_size);
         if (triangle.is_back_facing) continue;
         fill_triangle(triangle.on_screen, picture_size,
                       [&](ivec2 pixel, Barycentrics barycentrics) {
-                          if (triangle.depth.at(barycentrics) < DepthBuffer::cleared) emit(pixel);
+                          if (triangle.depth.at(barycentrics) > DepthBuffer::cleared) emit(pixel);
                       });
     }
 }

@@ -69,18 +69,15 @@ void add_mappings() {
                                                     {"perspective", 1}};
     for (const auto& [name, mapping] : mappings) {
         const TextureMethod method{mapping};
-        long double greatest = 0, sum_of_squares = 0;
+        ErrorSum sum;
         draw(method, wall, size, [&](ivec2 pixel, const FragmentUv& uv) {
             const long double x = (pixel.x + 0.5L) / size.x;
             const long double u = (x / 100) / ((1 - x) + x / 100);  // u/w over 1/w
-            const long double error = texels * std::abs(u - static_cast<long double>(uv.here.x));
-            greatest = std::max(greatest, error);
-            sum_of_squares += error * error;
+            sum.add(texels * (u - static_cast<long double>(uv.here.x)));
         });
         const double pixels = size.x * size.y;
-        const double rms = std::sqrt(static_cast<double>(sum_of_squares) / pixels);
-        const Errors errors = {{"greatest error, texels", static_cast<double>(greatest)},
-                               {"RMS error, texels", rms}};
+        const Errors errors = {{"greatest error, texels", sum.greatest()},
+                               {"RMS error, texels", sum.rms()}};
         add_variant("mapping", name, pixels, errors, [=] {
             draw(method, wall, size,
                  [](ivec2 pixel, const FragmentUv& uv) { sink[pixel] = uv.here; });
@@ -115,22 +112,10 @@ Image<dvec3> light_of(const Image<u8vec4>& texels) {
     return light;
 }
 
-/// Differences of colours, over all pixels and channels.
-struct Difference {
-    double greatest = 0, sum_of_squares = 0;
-    int count = 0;
-
-    void add(vec4 computed, dvec3 expected) {
-        for (int channel = 0; channel < 3; ++channel) {
-            const double error =
-                std::abs(static_cast<double>(computed[channel]) - expected[channel]);
-            greatest = std::max(greatest, error);
-            sum_of_squares += error * error;
-            ++count;
-        }
-    }
-    double rms() const { return std::sqrt(sum_of_squares / count); }
-};
+void add_difference(ErrorSum& sum, vec4 computed, dvec3 expected) {
+    for (int channel = 0; channel < 3; ++channel)
+        sum.add(static_cast<double>(computed[channel]) - expected[channel]);
+}
 
 /// A floor that reaches to the horizon, which is the picture's upper border. It is seen at the
 /// distance 1 in the lowest row; from there up to the middle a texel is 4 pixels to 1 high.
@@ -199,11 +184,11 @@ void add_filters() {
         for (const auto& [name, filter] : filters) {
             Errors errors;
             for (const Material& material : materials) {
-                Difference difference;
+                ErrorSum sum;
                 draw({}, strip, Floor::size, [&](ivec2 pixel, const FragmentUv& uv) {
-                    difference.add(sample(material.texture, filter, uv), material.seen[pixel]);
+                    add_difference(sum, sample(material.texture, filter, uv), material.seen[pixel]);
                 });
-                errors["RMS error, " + material.name] = difference.rms();
+                errors["RMS error, " + material.name] = sum.rms();
             }
             add_variant(comparison, name, Floor::size.x * (lower - upper), errors, [=] {
                 const Texture& texture = materials.back().texture;
@@ -256,11 +241,11 @@ void add_decodings() {
     const auto add = [](const char* name, auto sample) {
         Errors errors;
         for (const Picture& picture : pictures) {
-            Difference difference;
+            ErrorSum sum;
             for (const vec2 place : places)
-                difference.add(sample(picture, place), mean_around(picture.light, place));
-            errors["RMS error, millionths, " + picture.name] = 1e6 * difference.rms();
-            errors["greatest error, millionths, " + picture.name] = 1e6 * difference.greatest;
+                add_difference(sum, sample(picture, place), mean_around(picture.light, place));
+            errors["RMS error, millionths, " + picture.name] = 1e6 * sum.rms();
+            errors["greatest error, millionths, " + picture.name] = 1e6 * sum.greatest();
         }
         add_variant("decoding", name, static_cast<double>(places.size()), errors, [=] {
             const Picture& picture = pictures.back();

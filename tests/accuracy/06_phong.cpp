@@ -77,18 +77,12 @@ void add_power(const char* name, OfExponent of_exponent) {
     for (const int exponent : {32, 90, 1000}) {
         constexpr int steps = 1'000'000;
         const auto power = of_exponent(static_cast<float>(exponent));
-        long double greatest = 0, sum_of_squares = 0;
+        ErrorSum sum;
         for (int i = 0; i <= steps; ++i) {
             const float x = static_cast<float>(i) / steps;
-            const long double error =
-                std::abs(power(x) - std::pow(static_cast<long double>(x), exponent));
-            greatest = std::max(greatest, error);
-            sum_of_squares += error * error;
+            sum.add(power(x) - std::pow(static_cast<long double>(x), exponent));
         }
-        const std::string at = " at " + std::to_string(exponent);
-        errors["greatest error, millionths" + at] = static_cast<double>(1e6L * greatest);
-        errors["RMS error" + at] =
-            static_cast<double>(1e6L * std::sqrt(sum_of_squares / (steps + 1)));
+        errors["greatest error, millionths at " + std::to_string(exponent)] = 1e6 * sum.greatest();
     }
 
     static const std::vector<float> cosines = [] {
@@ -133,15 +127,15 @@ std::vector<vec3> interpolated_normals() {
 template <typename Scale>
 void add_normals(const char* name, NormalScaling scaling, Scale scale) {
     static const std::vector<vec3> normals = interpolated_normals();
-    long double greatest = 0;
+    ErrorSum lengths;
     for (const vec3 normal : normals) {
         const vec3 v = scale(normal);
         const long double x = v.x, y = v.y, z = v.z;
-        greatest = std::max(greatest, std::abs(std::sqrt(x * x + y * y + z * z) - 1));
+        lengths.add(std::sqrt(x * x + y * y + z * z) - 1);
     }
     const ShadingMethod variant{.normals = scaling};
     add_variant("normals", name, static_cast<double>(normals.size()),
-                {{"error of the length, millionths", static_cast<double>(1e6L * greatest)},
+                {{"error of the length, millionths", 1e6 * lengths.greatest()},
                  {"RMS, coarse", light_errors(coarse(), variant).rms},
                  {"greatest, coarse", light_errors(coarse(), variant).greatest},
                  {"RMS, fine", light_errors(fine(), variant).rms},

@@ -174,12 +174,11 @@ void add_tones() {
         const bool smooth = is_smooth;
         const int samples = per_side;
         const Image<float> levels = drawn_levels(assets, smooth, samples);
-        double squares = 0, greatest = 0, compared = 0;
+        ErrorSum errors;
         for (std::size_t i = 0; i < exact.size(); ++i) {
             const ivec2 pixel(int(i) % size.x, int(i) / size.x);
             const double error = exact[i] ? double{levels[pixel]} - *exact[i] : 0;
-            if (exact[i]) squares += error * error, ++compared;
-            greatest = std::max(greatest, std::abs(error));
+            if (exact[i]) errors.add(error);
             const ivec2 shown = pixel - part_from;
             if (panel == 3 || !part.contains(shown)) continue;
             const float strength = std::min(1.0f, 5 * static_cast<float>(std::abs(error)));
@@ -192,7 +191,7 @@ void add_tones() {
         }
         ++panel;
         add_variant("tones", name, double(size.x) * size.y,
-                    {{"RMS error", std::sqrt(squares / compared)}, {"greatest error", greatest}},
+                    {{"RMS error", errors.rms()}, {"greatest error", errors.greatest()}},
                     [=] { drawn_levels(assets, smooth, samples); });
     }
     write_image(RASTERBOOK_ASSETS "/../docs/accuracy/07_toon-tones.png",

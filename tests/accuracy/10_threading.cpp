@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Ways to split a picture: what they cost on one thread, what they bring on two, and what the
-/// times of their tiles predict for up to 128. And meshes passed by value.
+/// times of their tiles predict for up to 128.
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstddef>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "04_mvp/camera.hpp"
-#include "04_mvp/projection.hpp"
-#include "06_phong/normals.hpp"
 #include "10_threading/schedule.hpp"
 #include "10_threading/thread_options.hpp"
 #include "10_threading/thread_pool.hpp"
@@ -99,24 +93,17 @@ Frame measured_frame(const lesson_10::Options& options, std::size_t workers) {
     return frame;
 }
 
-constexpr std::array<std::size_t, 7> worker_counts = {2, 4, 8, 16, 32, 64, 128};
-
 void add_split(const std::string& name, Split split, int tile) {
     const lesson_10::Options options = options_of(split, tile);
     Errors errors;
     std::optional<Frame> tiles;  // rows are made anew for each number of workers
-    double idle_of_16 = 0;
-    for (const std::size_t workers : worker_counts) {
+    for (const std::size_t workers : {2u, 4u, 8u, 16u, 32u, 64u, 128u}) {
         if (!tiles || split != Split::tiles) tiles = measured_frame(options, workers);
         const double ms = tiles->predicted_ms(workers);
         errors["on " + std::to_string(workers) + ", ms"] = ms;
         if (workers != 16) continue;
-        const std::vector<double>& drawing = tiles->jobs_ms.back();
-        errors["idle on 16, %"] = 100 * schedule_of(drawing, 16).idle_share();
-        idle_of_16 = 100 * (1 - tiles->work_ms() / (16 * ms));
-        errors["idle on 16 in the whole frame, %"] = idle_of_16;
-        errors["longest of its work, %"] =
-            100 * schedule_of(drawing, 16).longest / schedule_of(drawing, 16).work;
+        errors["idle on 16, %"] = 100 * schedule_of(tiles->jobs_ms.back(), 16).idle_share();
+        errors["idle on 16 in the whole frame, %"] = 100 * (1 - tiles->work_ms() / (16 * ms));
         errors["serial, ms"] = tiles->serial_ms;
     }
     // By the clock, one and two threads by turns.
@@ -134,54 +121,6 @@ void add_split(const std::string& name, Split split, int tile) {
     });
 }
 
-/// What is done with a mesh once it has been passed: its triangles are transformed and those that
-/// face the eye are counted.
-std::size_t front_faces(const Mesh& mesh, const mat4& clip_from_world) {
-    const std::vector<vec4> positions_clip = transform(clip_from_world, mesh.positions);
-    std::size_t count = 0;
-    for (const Triangle& triangle : mesh.triangles)
-        for (const ClippedTriangle& clipped : clip_triangle(vertices_of(triangle, positions_clip)))
-            count += !project(mesh, triangle, clipped, {1920, 1080}).is_back_facing;
-    return count;
-}
-
-[[gnu::noinline]] std::size_t front_faces_by_reference(const Mesh& mesh, const mat4& m) {
-    return front_faces(mesh, m);
-}
-
-[[gnu::noinline]] std::size_t front_faces_by_value(Mesh mesh, const mat4& m) {
-    return front_faces(mesh, m);
-}
-
-void add_meshes(const std::string& name, const std::string& model) {
-    Scene with_normals = loaded(model);
-    complete_normals(with_normals);
-    const auto scene = std::make_shared<const Scene>(std::move(with_normals));
-    const mat4 clip_from_world =
-        orbit_camera(Orbit(), scene->bounds()).clip_from_world({1920, 1080});
-    double triangles = 0, bytes = 0;
-    for (const Mesh& mesh : scene->meshes) {
-        triangles += static_cast<double>(mesh.triangles.size());
-        bytes += static_cast<double>(
-            mesh.positions.size() * sizeof(vec3) + mesh.normals.size() * sizeof(vec3) +
-            mesh.uvs.size() * sizeof(dvec2) + mesh.vertices.size() * sizeof(Vertex) +
-            mesh.faces.size() * sizeof(Face) + mesh.triangles.size() * sizeof(Triangle));
-    }
-    const auto add = [&](const std::string& how, double copied, auto function) {
-        add_variant("meshes", name + ", " + how, triangles, {{"bytes copied a triangle", copied}},
-                    [=] {
-                        std::size_t count = 0;
-                        for (const Mesh& mesh : scene->meshes)
-                            count += function(mesh, clip_from_world);
-                        [[maybe_unused]] volatile std::size_t sink = count;
-                    });
-    };
-    add("by reference", 0,
-        [](const Mesh& mesh, const mat4& m) { return front_faces_by_reference(mesh, m); });
-    add("by value", bytes / triangles,
-        [](const Mesh& mesh, const mat4& m) { return front_faces_by_value(mesh, m); });
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -190,7 +129,5 @@ int main(int argc, char** argv) {
     add_split("interleaved", Split::interleaved, 64);
     for (const int tile : {8, 16, 32, 64, 128, 256})
         add_split("tiles of " + std::to_string(tile), Split::tiles, tile);
-    add_meshes("scene", "scene_bumpy.obj");
-    add_meshes("teapot", "teapot.obj");
     return measure_variants(argc, argv);
 }

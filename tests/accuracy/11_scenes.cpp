@@ -113,15 +113,6 @@ void add_scene(const std::string& name) {
         add("without " + std::string(effect_names[static_cast<std::size_t>(effect)]), options,
             assets);
     }
-    if (whole->plan.any(Effect::light)) {  // the largest permutation, which asks at run time
-        const auto general =
-            std::make_shared<SceneAssets>(make_scene_assets(loaded(name), options));
-        for (MaterialPlan& plan : general->plan.materials)
-            if (plan[Effect::light])
-                for (const Effect effect : {Effect::normal_map, Effect::shadow})
-                    plan.effects.set(effect);
-        add("one permutation for all", options, general);
-    }
     lesson_11::Options forced = options;
     forced.shading.all_effects = true;
     add("all effects", forced,

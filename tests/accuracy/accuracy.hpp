@@ -6,6 +6,8 @@
 /// docs/accuracy/.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <string>
@@ -14,6 +16,21 @@ namespace rasterbook::test {
 
 /// By name, such as "greatest distance, px"; each becomes a user counter of the benchmark.
 using Errors = std::map<std::string, double>;
+
+/// The greatest of some errors, and the root of the mean of their squares.
+class ErrorSum {
+  public:
+    void add(long double error) {
+        greatest_ = std::max(greatest_, std::abs(error));
+        squares_ += error * error;
+        ++count_;
+    }
+    double greatest() const { return static_cast<double>(greatest_); }
+    double rms() const { return static_cast<double>(std::sqrt(squares_ / count_)); }
+
+  private:
+    long double greatest_ = 0, squares_ = 0, count_ = 0;
+};
 
 /// Adds a variant to be measured.
 ///

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What accuracy costs: the choices of all lessons on one scale, in one frame of lesson 13.
+/// What accuracy costs: the choices of several lessons on one scale, in one frame of lesson 13.
 ///
 /// Each choice is raised alone from the cheapest frame, and lowered alone from the most exact one;
-/// the choices that take most of the time are tried together, in all combinations; and the filters
-/// are tried once more on a floor that reaches to the horizon. Choices that lesson 13 does not have
-/// are compared with each other in frames of lesson 11. Writes JSON, of which
-/// report_costs.py makes tables and a plot. Takes 2 GB of memory.
+/// the choices that take most of the time are tried together, in all combinations. Writes JSON, of
+/// which report_costs.py makes tables and a plot. Takes 2 GB of memory.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -36,11 +34,6 @@ ThreadPool& all_threads() {
     return pool;
 }
 
-Settings by_lesson_11(Settings settings) {
-    settings.is_by_lesson_11 = true;
-    return settings;
-}
-
 /// Milliseconds of the processor, on one thread: what else it does in the meantime does not count.
 double ms_of(const Settings& settings) {
     static ThreadPool one_thread(1);
@@ -60,25 +53,16 @@ Image<vec3> codes_of(Image<vec3> picture) {
 /// one from that of the reference; RMS of codes.
 struct Errors {
     double still = 0, moving = 0;
-    double at_edges = 0;  ///< Which share of still's square lies at edges.
-
-    /// Both, one counting as much as the other.
-    double both() const { return std::sqrt((still * still + moving * moving) / 2); }
 };
 
 /// What a frame should look like, and the next one.
 class Reference {
   public:
-    /// An edge is where a pixel's samples differ by this standard deviation, in codes.
-    static constexpr double least_at_edge = 0.05;
-
     explicit Reference(Settings settings) {
-        settings.samples_per_side = per_side;
+        settings.samples_per_side = 8;
         settings.texture.filter = Filter::trilinear;
         settings.shadow.size = 8192, settings.shadow.pcf = 1;
-        Image<vec3> samples = samples_of(settings, all_threads());
-        codes_ = codes_of(averaged(samples, per_side));
-        find_edges(codes_of(std::move(samples)));
+        codes_ = codes_of(picture_of(settings, all_threads()));
         settings.is_moved = true;
         next_codes_ = codes_of(picture_of(settings, all_threads()));
     }
@@ -87,46 +71,19 @@ class Reference {
         const Image<vec3> here = codes_of(picture_of(settings, all_threads()));
         settings.is_moved = true;
         const Image<vec3> next = codes_of(picture_of(settings, all_threads()));
-        double still = 0, moving = 0, edges = 0;
-        for (std::size_t i = 0; i < is_edge_.size(); ++i) {
+        double still = 0, moving = 0;
+        for (std::size_t i = 0; i < codes_.pixels().size(); ++i) {
             const dvec3 off = dvec3(here.pixels()[i]) - dvec3(codes_.pixels()[i]);
             const dvec3 off_next = dvec3(next.pixels()[i]) - dvec3(next_codes_.pixels()[i]);
             still += glm::dot(off, off);
             moving += glm::dot(off_next - off, off_next - off);
-            if (is_edge_[i]) edges += glm::dot(off, off);
         }
-        const auto numbers = static_cast<double>(3 * is_edge_.size());
-        return {std::sqrt(still / numbers), std::sqrt(moving / numbers), edges / still};
-    }
-
-    /// Of all pixels.
-    double share_of_edges() const {
-        return static_cast<double>(std::ranges::count(is_edge_, true)) /
-               static_cast<double>(is_edge_.size());
+        const auto numbers = static_cast<double>(3 * codes_.pixels().size());
+        return {std::sqrt(still / numbers), std::sqrt(moving / numbers)};
     }
 
   private:
-    static constexpr int per_side = 8;
-
-    void find_edges(const Image<vec3>& samples) {
-        const ivec2 size = codes_.size();
-        for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x) {
-                dvec3 sum(0), squares(0);
-                for (int j = 0; j < per_side; ++j)
-                    for (int i = 0; i < per_side; ++i) {
-                        const dvec3 code(samples[per_side * ivec2(x, y) + ivec2(i, j)]);
-                        sum += code, squares += code * code;
-                    }
-                const dvec3 mean = sum / (1.0 * per_side * per_side);
-                const dvec3 variance = squares / (1.0 * per_side * per_side) - mean * mean;
-                is_edge_.push_back(glm::dot(variance, dvec3(1.0 / 3)) >
-                                   least_at_edge * least_at_edge);
-            }
-    }
-
     Image<vec3> codes_, next_codes_;
-    std::vector<bool> is_edge_;  ///< For each pixel.
 };
 
 constexpr std::size_t most_rounds = 15;
@@ -161,27 +118,6 @@ void measure(const std::vector<Shot*>& frames, const Reference& reference) {
     std::cerr << '\n';
 }
 
-double median(std::vector<double> numbers) {
-    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>((numbers.size() - 1) / 2);
-    std::nth_element(numbers.begin(), middle, numbers.end());
-    return *middle;
-}
-
-/// Half of the numbers lie within this of their median.
-double deviation(std::vector<double> numbers) {
-    const double middle = median(numbers);
-    for (double& number : numbers) number = std::abs(number - middle);
-    return median(numbers);
-}
-
-/// By how much a frame takes longer than another one in the same round.
-std::vector<double> ms_more(const Shot& shot, const Shot& than) {
-    std::vector<double> more;
-    for (std::size_t i = 0; i < std::min(shot.ms.size(), than.ms.size()); ++i)
-        more.push_back(shot.ms[i] - than.ms[i]);
-    return more;
-}
-
 /// The frames that are tried together: all combinations of what takes most of the time.
 std::vector<Choices> combinations(const Choices& cheapest) {
     std::vector<Choices> all;
@@ -211,46 +147,31 @@ Choices choices_of(const Quality& quality, Choices choices) {
     return choices;
 }
 
-/// As members of a JSON object.
-void print_shot(const Shot& shot) {
+void print_frame(const Choices& choices, const Shot& shot) {
+    std::printf("{\"levels\": [");
+    for (std::size_t knob = 0; knob < choices.size(); ++knob)
+        std::printf("%s%zu", knob == 0 ? "" : ", ", choices[knob]);
+    std::printf("], \"still\": %.8f, \"moving\": %.8f, \"ms\": [", shot.errors.still,
+                shot.errors.moving);
+    for (std::size_t round = 0; round < shot.ms.size(); ++round)
+        std::printf("%s%.4f", round == 0 ? "" : ", ", shot.ms[round]);
+    std::printf("]");
+}
+
+void print_knob(const Knob& knob) {
     std::printf(
-        "\"ms\": %.4f, \"still\": %.8f, \"moving\": %.8f, \"both\": %.8f, \"at edges\": %.4f",
-        median(shot.ms), shot.errors.still, shot.errors.moving, shot.errors.both(),
-        shot.errors.at_edges);
-}
-
-void print_step(const char* from, const Shot& before, const Shot& after) {
-    const std::vector<double> more = ms_more(after, before);
-    std::printf("\"%s\": {\"ms\": %.4f, \"still\": %.8f, \"moving\": %.8f}", from, median(more),
-                before.errors.still - after.errors.still,
-                before.errors.moving - after.errors.moving);
-}
-
-void print_choices(const Choices& choices) {
-    for (const std::size_t knob : {samples, textures, maps, texels})
-        std::printf("\"%s\": \"%s\", ", knobs()[knob].name,
-                    knobs()[knob].levels[choices[knob]].name);
-}
-
-/// Who does not draw the picture that lesson 13 draws, bit for bit; or null.
-const char* other_picture() {
-    const Settings plain;
-    const Image<vec3> picture = samples_of(plain, all_threads());
-    if (samples_by_11(plain, all_threads(), nullptr) != picture) return "lesson 11";
-    if (samples_by_11(plain, all_threads(), draw_lit_by<Shading::phong, Power::polynomial>) !=
-        picture)
-        return "lesson 11's shader with choices";
-    return nullptr;
+        "{\"name\": \"%s\", \"lesson\": \"%s\", \"cheapest\": %zu, \"most exact\": %zu, "
+        "\"levels\": [",
+        knob.name, knob.lesson, knob.cheapest, knob.most_exact);
+    for (std::size_t level = 0; level < knob.levels.size(); ++level)
+        std::printf("%s\"%s\"", level == 0 ? "" : ", ", knob.levels[level].name);
+    std::printf("]}");
 }
 
 }  // namespace
 
 int main() {
     keep_freed_memory();
-    if (const char* other = other_picture()) {
-        std::cerr << "error: " << other << " draws another picture than lesson 13\n";
-        return 1;
-    }
     Choices cheapest, most_exact;
     for (const Knob& knob : knobs()) {
         cheapest.push_back(knob.cheapest);
@@ -268,91 +189,34 @@ int main() {
     const std::vector<Choices> combined = combinations(cheapest);
     for (const Choices& choices : combined) shot_of(choices);
     for (const auto& [name, choices] : presets) shot_of(choices);
-    Shots shots_by_11;
     for (const Choices& from : {cheapest, most_exact})
         for (std::size_t knob = 0; knob < knobs().size(); ++knob)
             for (std::size_t level = 0; level < knobs()[knob].levels.size(); ++level)
-                if (const Choices choices = with(from, knob, level); knobs()[knob].is_of_lesson_11)
-                    shots_by_11.try_emplace(choices, Shot{by_lesson_11(settings_of(choices))});
-                else
-                    shot_of(choices);
+                shot_of(with(from, knob, level));
     std::vector<Shot*> all;
     for (auto& [choices, shot] : shots) all.push_back(&shot);
-    for (auto& [choices, shot] : shots_by_11) all.push_back(&shot);
-    const Reference reference(settings_of(most_exact));
-    measure(all, reference);
-
-    // The filters once more, where textures lie far away.
-    Shots far;
-    const auto horizon = [&](const Choices& choices) {
-        Settings settings = settings_of(choices);
-        settings.model = "horizon.obj", settings.size = {640, 360};
-        settings.orbit = {.yaw_degrees = -25, .pitch_degrees = 12, .distance = 0.035f};
-        return settings;
-    };
-    std::vector<Shot*> all_far;
-    for (const std::size_t s : {std::size_t{0}, std::size_t{2}})
-        for (std::size_t t = 0; t < 3; ++t) {
-            const Choices choices = with(with(most_exact, samples, s), textures, t);
-            all_far.push_back(&far.try_emplace(choices, Shot{horizon(choices)}).first->second);
-        }
-    measure(all_far, Reference(horizon(most_exact)));
+    measure(all, Reference(settings_of(most_exact)));
 
 #ifdef __clang__
     std::printf("{\"context\": {\"compiler\": \"clang %s\"},\n", __clang_version__);
 #else
     std::printf("{\"context\": {\"compiler\": \"g++ %s\"},\n", __VERSION__);
 #endif
-    std::printf(" \"share of edges\": %.6f,\n \"ends\": [", reference.share_of_edges());
+    std::printf(" \"knobs\": [");
     const char* between = "\n";
-    for (const auto& [name, choices] :
-         {std::pair("cheapest", cheapest), std::pair("most exact", most_exact)})
-        for (const auto& [lesson, drawn] :
-             {std::pair("11", &shots_by_11), std::pair("13", &shots)}) {
-            const Shot& shot = drawn->at(choices);
-            std::printf("%s  {\"frame\": \"%s\", \"drawn by\": \"%s\", \"deviation\": %.4f, ",
-                        between, name, lesson, deviation(shot.ms));
-            print_shot(shot);
-            std::printf("}");
-            between = ",\n";
-        }
-    std::printf("],\n \"steps\": [");
-    between = "\n";
-    for (std::size_t knob = 0; knob < knobs().size(); ++knob)
-        for (std::size_t level = 1; level < knobs()[knob].levels.size(); ++level) {
-            const Knob& k = knobs()[knob];
-            std::printf("%s  {\"knob\": \"%s\", \"lesson\": \"%s\", \"drawn by\": \"%s\", ",
-                        between, k.name, k.lesson, k.is_of_lesson_11 ? "11" : "13");
-            std::printf("\"from\": \"%s\", \"to\": \"%s\", ", k.levels[level - 1].name,
-                        k.levels[level].name);
-            const auto step = [&](const char* name, const Choices& from) {
-                const Shots& drawn = k.is_of_lesson_11 ? shots_by_11 : shots;
-                print_step(name, drawn.at(with(from, knob, level - 1)),
-                           drawn.at(with(from, knob, level)));
-            };
-            step("cheapest", cheapest);
-            std::printf(", ");
-            step("most exact", most_exact);
-            std::printf("}");
-            between = ",\n";
-        }
-    std::printf("],\n \"combinations\": [");
-    between = "\n";
-    for (const Choices& choices : combined) {
-        std::printf("%s  {", between);
-        print_choices(choices);
-        for (const auto& [name, own] : presets)
-            if (own == choices) std::printf("\"preset\": \"%s\", ", name);
-        print_shot(shots.at(choices));
-        std::printf("}");
+    for (const Knob& knob : knobs()) {
+        std::printf("%s  ", between);
+        print_knob(knob);
         between = ",\n";
     }
-    std::printf("],\n \"horizon\": [");
+    std::printf("],\n \"frames\": [");
     between = "\n";
-    for (const auto& [choices, shot] : far) {
-        std::printf("%s  {", between);
-        print_choices(choices);
-        print_shot(shot);
+    for (const auto& [choices, shot] : shots) {
+        std::printf("%s  ", between);
+        print_frame(choices, shot);
+        if (std::ranges::count(combined, choices) > 0) std::printf(", \"is combined\": true");
+        for (const auto& [name, own] : presets)
+            if (own == choices) std::printf(", \"preset\": \"%s\"", name);
         std::printf("}");
         between = ",\n";
     }

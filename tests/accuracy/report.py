@@ -32,6 +32,8 @@ import sys
 # Times closer than this are taken as equal: another run may order them the other way round.
 TIME_TOLERANCE = 0.1
 
+DIFFERING = "pixels that differ, %"  # a counter
+
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 600, 360, 104, 24, 20, 62  # of a plot, px
 STYLE = """<style>
 text { fill: #64748b }
@@ -227,15 +229,15 @@ def markdown(head, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
-def remarks(measured, variants, has_times):
+def remarks(measured, variants, has_times, shows_differing=False):
     """How the times were taken, and whether the pictures are what they have to be."""
     sentences = []
     if has_times:
         sentences.append(
             f"Medians and quartiles of {variants[0]['repetitions']} repetitions, the variants by turns in random order, "
             f"on one thread ({machine(measured)}, {measured['context']['compiler']}).")
-    differing = [v["errors"]["pixels that differ, %"] for v in variants if "pixels that differ, %" in v["errors"]]
-    if differing:
+    differing = [v["errors"][DIFFERING] for v in variants if DIFFERING in v["errors"]]
+    if differing and not shows_differing:
         sentences.append("Pixels that differ from the reference in any bit: "
                          + ("none." if max(differing) == 0 else f"up to {number(max(differing))}%."))
     return " ".join(sentences)
@@ -248,7 +250,7 @@ def plain_table(measured, comparison, counters):
     for counter, heading in columns.items():
         head += [heading, "quartiles"] if counter == "time" else [heading]
     rows = [[v["name"], *(cell for counter in columns for cell in cells_of(v, counter))] for v in variants]
-    return [markdown(head, rows), "", remarks(measured, variants, "time" in columns)]
+    return [markdown(head, rows), "", remarks(measured, variants, "time" in columns, DIFFERING in columns)]
 
 
 def grid(measured, page, has_plot, comparison, rows_name, counter, names):

@@ -9,12 +9,29 @@ are those of the functions below that begin with `block_`.
 import json
 import math
 import pathlib
+import statistics
 import sys
 
 from report import BOTTOM, HEIGHT, LEFT, RIGHT, TIME_TOLERANCE, TOP, WIDTH, Axis, axes, draw, label, machine, number
 from report import fill_blocks, place_labels
 
 DIALS = ("samples per pixel", "texture filter", "shadow map", "PCF taps")
+
+
+def completed(measured):
+    """With each frame's levels by name, its median time, and both errors with equal weight."""
+    for frame in measured["frames"]:
+        frame |= {knob["name"]: knob["levels"][level] for knob, level in zip(measured["knobs"], frame["levels"])}
+        frame["rounds"], frame["ms"] = frame["ms"], statistics.median_low(frame["ms"])
+        frame["both"] = math.sqrt((frame["still"]**2 + frame["moving"]**2) / 2)
+    measured["combinations"] = [frame for frame in measured["frames"] if "is combined" in frame]
+    return measured
+
+
+def frame_of(measured, end, knob=None, level=None):
+    """The cheapest frame or the most exact one, with one choice made otherwise."""
+    levels = [knob_["levels"].index(level) if knob_ is knob else knob_[end] for knob_ in measured["knobs"]]
+    return next(frame for frame in measured["frames"] if frame["levels"] == levels)
 
 
 def thousandths(value):
@@ -50,7 +67,7 @@ def errors(frame):
 
 
 def block_presets(measured, _):
-    frames = [f for f in measured["combinations"] if "preset" in f]
+    frames = [f for f in measured["frames"] if "preset" in f]
     frames.sort(key=lambda f: ("fast", "balanced", "exact").index(f["preset"]))
     return table(["`--quality`", *DIALS, "ms", "still", "moving", "error"],
                  ["---"] + ["---:"] * 8,
@@ -59,20 +76,26 @@ def block_presets(measured, _):
 
 def block_steps(measured, _):
     rows = []
-    for step in measured["steps"]:
-        cells = [f"{step['knob']}: {step['from']} → {step['to']}", step["lesson"], step["drawn by"]]
-        for start in ("cheapest", "most exact"):
-            change = step[start]
-            cells += [milliseconds(change["ms"]), thousandths(change["still"]), thousandths(change["moving"])]
-        rows.append(cells)
-    return table(["step", "lesson", "drawn by", "cheapest frame: ms", "still", "moving",
-                  "most exact one: ms", "still", "moving"], ["---", "---", "---"] + ["---:"] * 6, rows)
+    for knob in measured["knobs"]:
+        for level, following in zip(knob["levels"], knob["levels"][1:]):
+            cells = [f"{knob['name']}: {level} → {following}", knob["lesson"]]
+            for end in ("cheapest", "most exact"):
+                before, after = frame_of(measured, end, knob, level), frame_of(measured, end, knob, following)
+                more = statistics.median_low([b - a for a, b in zip(before["rounds"], after["rounds"])])
+                cells += [milliseconds(more), thousandths(before["still"] - after["still"]),
+                          thousandths(before["moving"] - after["moving"])]
+            rows.append(cells)
+    return table(["step", "lesson", "cheapest frame: ms", "still", "moving", "most exact one: ms", "still", "moving"],
+                 ["---", "---"] + ["---:"] * 6, rows)
 
 
 def block_ends(measured, _):
-    rows = [[f"{end['frame']} frame", end["drawn by"], number(end["ms"]), number(end["deviation"]), *errors(end)]
-            for end in measured["ends"]]
-    return table(["frame", "drawn by", "ms", "± ms", "still", "moving", "error"], ["---", "---"] + ["---:"] * 5, rows)
+    rows = []
+    for end in ("cheapest", "most exact"):
+        frame = frame_of(measured, end)
+        deviation = statistics.median_low([abs(ms - frame["ms"]) for ms in frame["rounds"]])
+        rows.append([f"{end} frame", number(frame["ms"]), number(deviation), *errors(frame)])
+    return table(["frame", "ms", "± ms", "still", "moving", "error"], ["---"] + ["---:"] * 5, rows)
 
 
 def block_front(measured, page):
@@ -80,26 +103,15 @@ def block_front(measured, page):
     front = front_of(frames)
     picture = page.with_name(f"{page.stem}-front.svg")
     plot(frames, front, picture)
-    rows = [[*dials(f), number(f["ms"]), *errors(f), f"{100 * f['at edges']:.0f}",
-             f"`{f['preset']}`" if "preset" in f else ""] for f in front]
+    rows = [[*dials(f), number(f["ms"]), *errors(f), f"`{f['preset']}`" if "preset" in f else ""] for f in front]
     return "\n".join([
         f"![Error over milliseconds per frame: {len(frames)} frames, and their Pareto front]"
         f"({picture.name})", "",
-        table([*DIALS, "ms", "still", "moving", "error", "at edges, %", ""],
-              ["---:"] * 9 + ["---"], rows), "",
+        table([*DIALS, "ms", "still", "moving", "error", ""], ["---:"] * 8 + ["---"], rows), "",
         "Medians of the processor's time in 15 rounds, in 7 with several samples; each draws all frames in a "
         "random order, on one thread of a machine that does other work, too "
         f"({machine(measured)}, {measured['context']['compiler']}). The Pareto front of {len(frames)} frames: no "
         f"other has a smaller error and is as fast (by {TIME_TOLERANCE:.0%})."])
-
-
-def block_horizon(measured, _):
-    return table(["samples per pixel", "texture filter", "ms", "still", "moving", "error"], ["---:"] * 6,
-                 [[f["samples per pixel"], f["texture filter"], number(f["ms"]), *errors(f)] for f in measured["horizon"]])
-
-
-def block_edges(measured, _):
-    return f"{100 * measured['share of edges']:.1f}% of the pixels are edges."
 
 
 def plot(frames, front, file):
@@ -131,7 +143,7 @@ def plot(frames, front, file):
 
 
 def main():
-    measured = json.loads(pathlib.Path(sys.argv[1]).read_text())
+    measured = completed(json.loads(pathlib.Path(sys.argv[1]).read_text()))
     page = pathlib.Path(sys.argv[2])
     fill_blocks(page, lambda name: globals()[f"block_{name}"](measured, page))
 

@@ -2,34 +2,18 @@
 // Lesson 13's render(), compiled once, with all arithmetic that it may be given.
 #include "accuracy/simd_frames.hpp"
 
-namespace rasterbook::test {
-
-WideDrawing drawing_of_arithmetic(int width_or_arithmetic) {
+rasterbook::WideDrawing rasterbook::test::drawing_of_arithmetic(int width_or_arithmetic) {
     switch (width_or_arithmetic) {
         case hardware_0:
             return drawing_hardware_0();
         case hardware_1:
             return drawing_hardware_1();
-        case bits_1:
-            return drawing_bits_1();
-        case bits_2:
-            return drawing_bits_2();
         case contracted:
             return drawing_contracted();
-        case powers:
-            return drawing_powers();
-        case counted_4:
-            return drawing_counted(4);
-        case counted_8:
-            return drawing_counted(8);
-        case counted_16:
-            return drawing_counted(16);
         default:
             return drawing_of_width(width_or_arithmetic);
     }
 }
-
-}  // namespace rasterbook::test
 
 namespace lesson_13 {
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
-#include <string>
 
 #include "13_simd/width.hpp"
 #include "accuracy/simd_arithmetic.hpp"
@@ -15,17 +14,7 @@
 namespace rasterbook::test {
 
 /// In place of a width: other arithmetic.
-enum Arithmetic {
-    hardware_0 = 100,
-    hardware_1,
-    bits_1,
-    bits_2,
-    contracted,
-    powers,
-    counted_4,
-    counted_8,
-    counted_16
-};
+enum Arithmetic { hardware_0 = 100, hardware_1, contracted };
 
 WideDrawing drawing_of_arithmetic(int width_or_arithmetic);
 

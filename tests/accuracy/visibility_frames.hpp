@@ -3,11 +3,8 @@
 /// Frames of lessons 11 and 12 on one thread, to be counted, compared and timed.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -54,12 +51,7 @@ inline double pixels_of(const Image<vec3>& picture) {
 inline double differing_percent(const Image<vec3>& a, const Image<vec3>& b) {
     std::size_t differing = 0;
     for (std::size_t i = 0; i < a.pixels().size(); ++i)
-        for (int c = 0; c < 3; ++c)
-            if (std::bit_cast<std::uint32_t>(a.pixels()[i][c]) !=
-                std::bit_cast<std::uint32_t>(b.pixels()[i][c])) {
-                ++differing;
-                break;
-            }
+        differing += std::memcmp(&a.pixels()[i], &b.pixels()[i], sizeof(vec3)) != 0;
     return 100 * static_cast<double>(differing) / pixels_of(a);
 }
 
@@ -80,8 +72,6 @@ inline Assets assets_of(Scene scene, const lesson_11::Options& options) {
     return std::make_shared<const SceneAssets>(make_scene_assets(std::move(scene), options));
 }
 
-constexpr std::array scene_names = {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"};
-
 /// The four scenes of the repository.
 struct NamedScene {
     std::string name;
@@ -91,7 +81,7 @@ struct NamedScene {
 inline const std::vector<NamedScene>& scenes() {
     static const std::vector<NamedScene> all = [] {
         std::vector<NamedScene> made;
-        for (const char* name : scene_names)
+        for (const char* name : {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"})
             made.push_back({name, assets_of(loaded(name), lesson_11::Options())});
         return made;
     }();

@@ -8,12 +8,10 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "accuracy/visibility_frames.hpp"
 #include "support/layered_scene.hpp"
@@ -97,118 +95,38 @@ inline void add_triangles(const std::string& name, LayerLook look, int count) {
     }
 }
 
-inline double median_of(std::vector<double> values) {
-    std::ranges::nth_element(values,
-                             values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
-    return values[values.size() / 2];
-}
-
-/// Frames that are timed by turns, each several times.
-class Turns {
-  public:
-    /// @return  The number of the frame.
-    std::size_t add(std::function<void()> frame) {
-        frames_.push_back(std::move(frame));
-        return frames_.size() - 1;
-    }
-
-    /// The median over the turns of the sum of factor times duration, in ns.
-    double combined(const std::vector<std::pair<double, std::size_t>>& terms) {
-        measure();
-        std::vector<double> sums;
-        for (const std::vector<double>& turn : ns_) {
-            double sum = 0;
-            for (const auto& [factor, which] : terms) sum += factor * turn[which];
-            sums.push_back(sum);
-        }
-        return median_of(sums);
-    }
-
-  private:
-    void measure() {
-        constexpr int turns = 25;
-        if (!ns_.empty()) return;
-        for (const auto& frame : frames_) frame();  // fills the caches
-        for (int turn = 0; turn < turns; ++turn) {
-            std::vector<double>& ns = ns_.emplace_back();
-            for (const auto& frame : frames_) {
-                using Clock = std::chrono::steady_clock;
-                const auto start = Clock::now();
-                frame();
-                ns.push_back(
-                    std::chrono::duration<double, std::nano>(Clock::now() - start).count());
-            }
-        }
-    }
-
-    std::vector<std::function<void()>> frames_;
-    std::vector<std::vector<double>> ns_;  ///< Of each turn.
-};
-
-/// How often lesson 11 has to shade a pixel for both lessons to take the same time: between two of
-/// these pictures, the gain is taken to change evenly.
-///
-/// @param gains  Of lesson 12, by times shaded, in rising order.
-inline double break_even_of(const std::vector<std::pair<double, double>>& gains) {
-    for (std::size_t i = 0; i < gains.size(); ++i) {
-        const auto [times, gain] = gains[i];
-        if (gain < 0) continue;
-        if (i == 0) return times;
-        const auto [times_before, gain_before] = gains[i - 1];
-        return times_before + (times - times_before) * gain_before / (gain_before - gain);
-    }
-    return gains.back().first;
-}
-
-/// The terms of Eq. 12.5 of one look, and whether they say which lesson is faster.
+/// The terms of Eq. 12.5, and with them how often a pixel has to be shaded for both lessons to take
+/// the same time. Frames of four layers are timed by turns.
 inline void add_break_even(LayerLook look) {
-    Turns turns;
-    const Layers front{.size = {512, 256},
-                       .count = 4,
-                       .cell = {32, 32},
-                       .order = LayerOrder::front_to_back,
-                       .look = look};
-    const double pixels = front.size.x * front.size.y;
-    const auto of_11 = options_of<lesson_11::Options>(front);
-    const auto of_12 = options_of<lesson_12::Options>(front);
-    struct Both {
-        double times;  ///< That lesson 11 shades a pixel.
-        std::size_t of_11, of_12;
+    Layers layers{.size = {512, 256},
+                  .count = 4,
+                  .cell = {32, 32},
+                  .order = LayerOrder::front_to_back,
+                  .look = look};
+    const Assets front = assets_of(layers);
+    layers.order = LayerOrder::back_to_front;
+    const Assets back = assets_of(layers);
+    const auto of_11 = options_of<lesson_11::Options>(layers);
+    const auto of_12 = options_of<lesson_12::Options>(layers);
+    const auto ns_per_pixel = [&](const auto& options, const Assets& assets) {
+        using Clock = std::chrono::steady_clock;
+        const auto start = Clock::now();
+        frame(options, *assets);
+        const std::chrono::duration<double, std::nano> time = Clock::now() - start;
+        return time.count() / (layers.size.x * layers.size.y);
     };
-    const auto add = [&](LayerOrder order, double back_share) {
-        Layers layers = front;
-        layers.order = order, layers.back_share = back_share;
-        const Assets assets = assets_of(layers);
-        return Both{shadings_per_pixel(counted(of_11, *assets)),
-                    turns.add([=] { frame(of_11, *assets); }),
-                    turns.add([=] { frame(of_12, *assets); })};
-    };
-    const Both once = add(LayerOrder::front_to_back, 0);
-    const Both always = add(LayerOrder::back_to_front, 0);
-    const Both random = add(LayerOrder::random, 0);
-    std::vector<Both> between = {once};
-    for (const int cells : {1, 2, 4, 8, 16, 32})
-        between.push_back(add(LayerOrder::some_back_to_front, cells / 128.0));
-
-    const auto gain_of = [&](const Both& both) {
-        return turns.combined({{1, both.of_11}, {-1, both.of_12}}) / pixels;
-    };
-    const double shade = turns.combined({{1, always.of_11}, {-1, once.of_11}}) / pixels /
-                         (always.times - once.times);
-    const double again = -gain_of(once);
-    std::vector<std::pair<double, double>> gains;
-    for (const Both& both : between) gains.emplace_back(both.times, gain_of(both));
-    Layers in_random_order = front;
-    in_random_order.order = LayerOrder::random;
-    add_frames("break-even", look_names[static_cast<std::size_t>(look)], pixels, of_12,
-               assets_of(in_random_order), reference_of(front),
-               {{"t_s, ns", shade},
-                {"t_v, ns", again},
-                {"break-even s", 1 + again / shade},
-                {"measured break-even s", break_even_of(gains)},
-                {"s", random.times},
-                {"predicted gain, ns", (random.times - 1) * shade - again},
-                {"measured gain, ns", gain_of(random)}});
+    constexpr int turns = 25;
+    std::array<double, turns> shade, again;
+    ns_per_pixel(of_12, back);  // fills the caches
+    for (std::size_t i = 0; i < turns; ++i) {
+        const double of_11_front = ns_per_pixel(of_11, front);
+        shade[i] = (ns_per_pixel(of_11, back) - of_11_front) / (layers.count - 1);
+        again[i] = ns_per_pixel(of_12, front) - of_11_front;
+    }
+    for (auto* const times : {&shade, &again}) std::ranges::sort(*times);
+    const double t_s = shade[turns / 2], t_v = again[turns / 2];
+    add_variant("break-even", look_names[static_cast<std::size_t>(look)], 1,
+                {{"t_s, ns", t_s}, {"t_v, ns", t_v}, {"break-even s", 1 + t_v / t_s}}, [] {});
 }
 
 }  // namespace rasterbook::test

@@ -32,9 +32,6 @@ struct BenchmarkScene {
 };
 std::vector<BenchmarkScene> benchmark_scenes();
 
-/// Hills of 2 n^2 triangles: texture, Phong, shadow.
-Scene hills_of(int n);
-
 /// In which numbers OpenGL stores textures and its picture.
 enum class GlNumbers {
     floats,  ///< Linear floats, as the course: RGBA32F. Whoever shows the picture encodes it.
@@ -46,18 +43,17 @@ struct GlOptions {
     bool depth_first = false;  ///< All depths are drawn before anything is shaded.
 };
 
-/// A scene as OpenGL has it: uploaded and compiled once, to be drawn many times.
+/// A scene as OpenGL has it: uploaded and compiled once, to be drawn many times. The context frees
+/// it at the end.
 class GlScene {
   public:
     /// A context is current; support/opengl.hpp has made it.
     ///
-    /// @throws std::runtime_error  The scene has what is not drawn here: transparent materials,
-    ///         point lights with shadows, maps of one material with different uvs.
+    /// @param assets  Of a benchmark's scene: opaque, lit by directional lights, without specular
+    ///                maps and vertex colors.
     GlScene(const SceneAssets& assets, const Camera& camera, const SceneRendererOptions& options,
             const GlOptions& gl);
     ~GlScene();
-    GlScene(const GlScene&) = delete;
-    GlScene& operator=(const GlScene&) = delete;
 
     /// Draws a frame, shadow maps included, and comes back when it is finished.
     void draw() const;

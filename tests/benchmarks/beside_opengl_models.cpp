@@ -141,8 +141,6 @@ Scene layers() {
 
 }  // namespace
 
-Scene hills_of(int n) { return hilly(phong_material("brick.png"), n); }
-
 std::vector<BenchmarkScene> benchmark_scenes() {
     return {
         {"small_triangles", "200,000 triangles, a texture, no light",

@@ -106,19 +106,16 @@ std::string defines_of(const MaterialPlan& plan, const SceneLights& lit_by,
         if (is_on) defines += "#define " + std::string(name) + "\n";
     };
     define_if(plan[Effect::texture], "TEXTURE");
-    define_if(plan[Effect::specular_map], "SPECULAR_MAP");
-    define_if(plan[Effect::vertex_colors], "VERTEX_COLORS");
     define_if(plan[Effect::normal_map], "NORMAL_MAP");
     define_if(plan[Effect::highlight], "HIGHLIGHT");
     define_if(plan[Effect::shadow], "SHADOW");
-    define_if(plan[Effect::mask], "MASK");
     define_if(plan.two_sided, "TWO_SIDED");
     define_if(numbers == GlNumbers::bytes, "UNORM_NORMALS");
     std::string kinds, maps;
     for (std::size_t l = 0; l < lit_by.lights.size(); ++l) {
-        const char* const comma = l == 0 ? "" : ", ";
-        kinds += comma + std::to_string(static_cast<int>(lit_by.lights[l].kind));
-        maps += comma + std::string(shadows.of_light[l].maps.empty() ? "false" : "true");
+        const std::string comma = l == 0 ? "" : ", ";
+        kinds += comma + "0";  // directional
+        maps += comma + (shadows.of_light[l].maps.empty() ? "false" : "true");
     }
     return defines + "#define LIGHTS " + std::to_string(lit_by.lights.size()) +
            "\n#define LIGHT_KINDS " + kinds + "\n#define LIGHT_HAS_MAP " + maps + "\n";
@@ -126,8 +123,9 @@ std::string defines_of(const MaterialPlan& plan, const SceneLights& lit_by,
 
 // ---- Textures
 
-/// A texture with the very levels of the course's, bound.
-GLuint upload(const Texture& texture, Filter filter, GLint format, bool is_normal_map) {
+/// A texture with the very levels of the course's, bound; it is repeated, which is OpenGL's
+/// default.
+GLuint upload(const Texture& texture, GLint format) {
     GLuint name = 0;
     glGenTextures(1, &name);
     glBindTexture(GL_TEXTURE_2D, name);
@@ -139,24 +137,15 @@ GLuint upload(const Texture& texture, Filter filter, GLint format, bool is_norma
                 vec4& texel = rows[{x, size.y - 1 - y}];
                 texel = texture.levels[i].texels[ivec2(x, y) + 1];
                 if (format == GL_RGBA32F) continue;
-                if (is_normal_map) texel = 0.5f * texel + 0.5f;
-                if (format == GL_SRGB8_ALPHA8)  // OpenGL takes encoded values
+                if (format == GL_RGBA8) texel = 0.5f * texel + 0.5f;  // a normal
+                if (format == GL_SRGB8_ALPHA8)                        // OpenGL takes encoded values
                     for (int c = 0; c < 3; ++c) texel[c] = srgb_from_linear(texel[c]);
             }
         glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), format, size.x, size.y, 0, GL_RGBA,
                      GL_FLOAT, rows.pixels().data());
     }
-    const GLint wrap = texture.wrap == Wrap::repeat   ? GL_REPEAT
-                       : texture.wrap == Wrap::mirror ? GL_MIRRORED_REPEAT
-                                                      : GL_CLAMP_TO_EDGE;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
-    const bool is_nearest = filter == Filter::nearest;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, is_nearest ? GL_NEAREST : GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                    is_nearest                   ? GL_NEAREST
-                    : filter == Filter::bilinear ? GL_LINEAR
-                                                 : GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     return name;
 }
 
@@ -178,7 +167,6 @@ struct GlVertex {
     vec3 position_world, normal_world{0};
     vec4 tangent_world{0};
     vec2 uv{0};
-    vec4 color{1};
 };
 
 /// The triangles of one material of a mesh, each vertex once.
@@ -201,7 +189,6 @@ GlVertex vertex_of(const Mesh& mesh, const Vertex& at) {
         if (!mesh.tangents.empty()) vertex.tangent_world = mesh.tangents[at.normal];
     }
     if (at.uv != no_index) vertex.uv = mesh.uvs[at.uv];
-    if (!mesh.colors.empty()) vertex.color = mesh.colors[at.position];
     return vertex;
 }
 
@@ -222,9 +209,7 @@ void add_attribute(GLuint index, GLint numbers, std::size_t offset) {
 }
 
 /// Uploads the triangles of one material.
-///
-/// @param buffers  Takes the two new ones.
-GlMesh upload(const Mesh& mesh, std::size_t material, std::vector<GLuint>& buffers) {
+GlMesh upload(const Mesh& mesh, std::size_t material) {
     std::vector<GlVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::map<VertexKey, std::uint32_t> index_of;
@@ -253,8 +238,6 @@ GlMesh upload(const Mesh& mesh, std::size_t material, std::vector<GLuint>& buffe
     add_attribute(1, 3, offsetof(GlVertex, normal_world));
     add_attribute(2, 4, offsetof(GlVertex, tangent_world));
     add_attribute(3, 2, offsetof(GlVertex, uv));
-    add_attribute(4, 4, offsetof(GlVertex, color));
-    buffers.insert(buffers.end(), both.begin(), both.end());
     return uploaded;
 }
 
@@ -262,11 +245,11 @@ GlMesh upload(const Mesh& mesh, std::size_t material, std::vector<GLuint>& buffe
 
 // ---- The scene
 
-/// A material's program; all of its uniforms are set. Textures: diffuse, specular, normals.
+/// A material's program; all of its uniforms are set. Textures: diffuse, normals.
 struct GlMaterial {
     GLuint program = 0;
-    std::array<GLuint, 3> textures{};
-    bool two_sided = false, is_masked = false, casts = false;
+    std::array<GLuint, 2> textures{};
+    bool two_sided = false, casts = false;
 };
 
 struct GlShadowMap {
@@ -284,21 +267,19 @@ struct GlScene::Content {
     std::size_t outlines = 0;
     std::vector<GlShadowMap> maps;
     GLuint frame = 0, color = 0, depth = 0, depth_only = 0, backdrop = 0, no_vertices = 0;
-    std::vector<GLuint> buffers;
     std::map<const Texture*, GLuint> textures;
 
-    GLuint texture(const Texture* from, Filter filter, bool is_color, bool is_normal_map) {
+    /// @param format_of_bytes  Where it does not have floats.
+    GLuint texture(const Texture* from, GLint format_of_bytes) {
         if (from == nullptr) return 0;
-        const GLint format = options.numbers == GlNumbers::floats ? GL_RGBA32F
-                             : is_color                           ? GL_SRGB8_ALPHA8
-                                                                  : GL_RGBA8;
         GLuint& name = textures[from];
-        if (name == 0) name = upload(*from, filter, format, is_normal_map);
+        if (name == 0)
+            name =
+                upload(*from, options.numbers == GlNumbers::floats ? GL_RGBA32F : format_of_bytes);
         return name;
     }
 
-    void add_materials(const SceneAssets& assets, const Camera& camera, const ShadowMaps& shadows,
-                       Filter filter);
+    void add_materials(const SceneAssets& assets, const Camera& camera, const ShadowMaps& shadows);
     void set_scene(Uniforms& uniforms, const SceneAssets& assets, const Camera& camera,
                    const ShadowMaps& shadows) const;
     void add_meshes(const Scene& scene, std::span<const Mesh> outline_meshes);
@@ -330,26 +311,10 @@ void set_material(Uniforms& uniforms, const Material& material, const MaterialPl
     uniforms.set("material.emission", color.emission);
     uniforms.set("shininess", material.shininess);
     uniforms.set("opacity", material.opacity);
-    uniforms.set("alpha_cutoff", material.alpha_cutoff);
     uniforms.set("bump_multiplier", normal_map_of(material).bump_multiplier);
-    uniforms.set("diffuse_map", 0), uniforms.set("specular_map", 1), uniforms.set("normal_map", 2);
-}
-
-/// The map whose offset and scale all maps of a material share.
-///
-/// @throws std::runtime_error  They do not.
-const TextureMap& map_of_uvs(const Material& material, const MaterialPlan& plan) {
-    const TextureMap* shared = nullptr;
-    for (const auto& [effect, map] : {std::pair{Effect::texture, &material.diffuse_map},
-                                      {Effect::specular_map, &material.specular_map},
-                                      {Effect::normal_map, &normal_map_of(material)}}) {
-        if (!plan[effect]) continue;
-        if (shared != nullptr && (map->scale != shared->scale || map->offset != shared->offset))
-            throw std::runtime_error("material \"" + material.name +
-                                     "\": its maps have different uvs, which is not drawn here");
-        shared = map;
-    }
-    return shared == nullptr ? material.diffuse_map : *shared;
+    uniforms.set("uv_scale", vec2(material.diffuse_map.scale));  // its normal map has the same uvs
+    uniforms.set("uv_offset", vec2(material.diffuse_map.offset));
+    uniforms.set("diffuse_map", 0), uniforms.set("normal_map", 1);
 }
 
 }  // namespace
@@ -364,10 +329,6 @@ void GlScene::Content::set_scene(Uniforms& uniforms, const SceneAssets& assets,
         const Light& light = assets.lit_by.lights[l];
         uniforms.set("lights" + of_light + ".color", light.color);
         uniforms.set("lights" + of_light + ".direction_world", light.direction_world);
-        uniforms.set("lights" + of_light + ".position_world", light.position_world);
-        uniforms.set("lights" + of_light + ".half_distance", light.half_distance);
-        uniforms.set("lights" + of_light + ".cos_inner", light.cos_inner);
-        uniforms.set("lights" + of_light + ".cos_outer", light.cos_outer);
         if (shadows.of_light[l].maps.empty()) continue;
         const ShadowMap& map = shadows.of_light[l].maps.front();
         uniforms.set("maps" + of_light + ".texels_from_world", map.texels_from_world);
@@ -376,32 +337,26 @@ void GlScene::Content::set_scene(Uniforms& uniforms, const SceneAssets& assets,
         uniforms.set("maps" + of_light + ".rounding_texels",
                      static_cast<float>(map.rounding_texels));
         uniforms.set("maps" + of_light + ".rounding_depth", static_cast<float>(map.rounding_depth));
-        uniforms.set("depths" + of_light, static_cast<int>(3 + next_map++));
+        uniforms.set("depths" + of_light, static_cast<int>(2 + next_map++));
     }
 }
 
 void GlScene::Content::add_materials(const SceneAssets& assets, const Camera& camera,
-                                     const ShadowMaps& shadows, Filter filter) {
+                                     const ShadowMaps& shadows) {
     const std::string vertex = shader_file("11_vertex.glsl"),
                       fragment = shader_file("11_fragment.glsl");
     for (std::size_t i = 0; i < assets.scene.materials.size(); ++i) {
         const Material& material = assets.scene.materials[i];
         const MaterialPlan& plan = assets.plan.materials[i];
-        if (plan.is_seen && plan[Effect::blend])
-            throw std::runtime_error("material \"" + material.name +
-                                     "\" is transparent, which is not drawn here");
         GlMaterial& made = materials.emplace_back();
         made.program =
             program_of(defines_of(plan, assets.lit_by, shadows, options.numbers), vertex, fragment);
         Uniforms uniforms(made.program);
         set_scene(uniforms, assets, camera, shadows);
         set_material(uniforms, material, plan);
-        const TextureMap& map = map_of_uvs(material, plan);
-        uniforms.set("uv_scale", vec2(map.scale)), uniforms.set("uv_offset", vec2(map.offset));
-        made.textures = {texture(assets.textures.diffuse[i].get(), filter, true, false),
-                         texture(assets.textures.specular[i].get(), filter, false, false),
-                         texture(assets.normal_maps.textures[i].get(), filter, false, true)};
-        made.two_sided = plan.two_sided, made.is_masked = plan[Effect::mask];
+        made.textures = {texture(assets.textures.diffuse[i].get(), GL_SRGB8_ALPHA8),
+                         texture(assets.normal_maps.textures[i].get(), GL_RGBA8)};
+        made.two_sided = plan.two_sided;
         made.casts = casts_shadows(material);
     }
 }
@@ -411,7 +366,7 @@ void GlScene::Content::add_meshes(const Scene& scene, std::span<const Mesh> outl
         std::vector<bool> is_used(scene.materials.size());
         for (const Triangle& triangle : mesh.triangles) is_used[triangle.material] = true;
         for (std::size_t i = 0; i < is_used.size(); ++i)
-            if (is_used[i]) meshes.push_back(upload(mesh, i, buffers));
+            if (is_used[i]) meshes.push_back(upload(mesh, i));
     };
     std::ranges::for_each(scene.meshes, add);
     outlines = meshes.size();
@@ -420,8 +375,6 @@ void GlScene::Content::add_meshes(const Scene& scene, std::span<const Mesh> outl
 
 void GlScene::Content::add_maps(const ShadowMaps& shadows) {
     for (const LightShadowMaps& of_light : shadows.of_light) {
-        if (of_light.maps.size() > 1)
-            throw std::runtime_error("a point light casts shadows, which is not drawn here");
         for (const ShadowMap& from : of_light.maps) {
             GlShadowMap map{0, 0, upside_down * from.clip_from_world, from.size};
             glGenFramebuffers(1, &map.frame);
@@ -474,21 +427,21 @@ void GlScene::Content::draw_picture() const {
     glClear(GL_DEPTH_BUFFER_BIT);  // the backdrop covers what is left of the last picture
     const auto draw_with = [&](auto&& use) {
         for (const GlMesh& mesh : meshes) {
-            const GlMaterial& material = materials[mesh.material];
-            if (is_outside_frustum(mesh.bounds, clip_from_world) || !use(material)) continue;
-            (material.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
+            if (is_outside_frustum(mesh.bounds, clip_from_world)) continue;
+            use(materials[mesh.material]);
+            (materials[mesh.material].two_sided ? glDisable : glEnable)(GL_CULL_FACE);
             mesh.draw();
         }
     };
     if (options.depth_first) {
         Uniforms(depth_only).set("clip_from_world", clip_from_world);
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        draw_with([](const GlMaterial& material) { return !material.is_masked; });
+        draw_with([](const GlMaterial&) {});
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
     glDepthFunc(options.depth_first ? GL_GEQUAL : GL_GREATER);
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        glActiveTexture(GL_TEXTURE3 + static_cast<GLenum>(i));
+        glActiveTexture(GL_TEXTURE2 + static_cast<GLenum>(i));
         glBindTexture(GL_TEXTURE_2D, maps[i].depths);
     }
     draw_with([](const GlMaterial& material) {
@@ -497,7 +450,6 @@ void GlScene::Content::draw_picture() const {
             glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
             glBindTexture(GL_TEXTURE_2D, material.textures[i]);
         }
-        return true;
     });
     glUseProgram(backdrop);
     glDisable(GL_CULL_FACE);
@@ -514,28 +466,14 @@ GlScene::GlScene(const SceneAssets& assets, const Camera& camera,
     content_->options = gl;
     content_->clip_from_world = upside_down * camera.clip_from_world(options.size);
     const ShadowMaps shadows = fitted_maps(assets, options.shadow);
-    content_->add_materials(assets, camera, shadows, options.texture.filter);
+    content_->add_materials(assets, camera, shadows);
     content_->add_meshes(assets.scene, outlines_of(assets, camera));
     content_->add_maps(shadows);
     content_->add_frame(assets.is_on_paper);
     if (gl.numbers == GlNumbers::bytes) glEnable(GL_FRAMEBUFFER_SRGB);
 }
 
-GlScene::~GlScene() {
-    for (const auto& [from, name] : content_->textures) glDeleteTextures(1, &name);
-    for (const GlShadowMap& map : content_->maps) {
-        glDeleteTextures(1, &map.depths);
-        glDeleteFramebuffers(1, &map.frame);
-    }
-    for (const GlMesh& mesh : content_->meshes) glDeleteVertexArrays(1, &mesh.array);
-    for (const GlMaterial& material : content_->materials) glDeleteProgram(material.program);
-    for (const GLuint program : {content_->depth_only, content_->backdrop})
-        glDeleteProgram(program);
-    for (const GLuint name : {content_->color, content_->depth}) glDeleteTextures(1, &name);
-    glDeleteVertexArrays(1, &content_->no_vertices);
-    glDeleteFramebuffers(1, &content_->frame);
-    glDeleteBuffers(static_cast<GLsizei>(content_->buffers.size()), content_->buffers.data());
-}
+GlScene::~GlScene() = default;
 
 void GlScene::draw() const {
     for (const GlShadowMap& map : content_->maps) content_->draw_map(map);

@@ -7,8 +7,7 @@ namespace rasterbook {
 
 /// Measures what one core can do at most, and writes a line of JSON for each limit:
 ///
-/// - writes and reads of memory, by how much of it is used,
-/// - texel fetches, by the texture's size, at random and in order,
+/// - reads of memory, by how much of it is used,
 /// - arithmetic, by the number of lanes.
 ///
 /// @param repetitions  Of each, of which the fastest counts.

@@ -23,7 +23,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/accuracy"))
 sys.dont_write_bytecode = True
-from report import BOTTOM, HEIGHT, LEFT, TOP, WIDTH, Axis, axes, draw, fill_blocks, label, markdown, number, plot_curves
+from report import BOTTOM, HEIGHT, LEFT, TOP, WIDTH, Axis, axes, draw, fill_blocks, label, markdown, number
 
 PAGE = ROOT / "docs/roofline.md"
 MEASURED = ROOT / "build/release/roofline.json"
@@ -150,25 +150,9 @@ def peaks(measured):
     return speeds(measured, "multiply and add")
 
 
-def curves_block(curves, x_name, y_name, heads, name):
-    """A plot, and the table of its numbers."""
-    picture = PAGE.with_name(f"{PAGE.stem}-{name}.svg")
-    plot_curves(curves, x_name, y_name, picture, may_reverse=False)
-    xs = [x for x, _ in next(iter(curves.values()))]
-    rows = [[f"{x:,g}", *(number(dict(curve)[x]) for curve in curves.values())] for x in xs]
-    return "\n".join([f"![{y_name} over {x_name}: {'; '.join(curves)}]({picture.name})", "",
-                      markdown([x_name, *(heads or curves)], rows)])
-
-
 def block_memory(measured):
-    curves = {name: [(size / 1024, speed) for size, speed in speeds(measured, name).items()]
-              for name in ("write", "read")}
-    return curves_block(curves, "KiB", "bytes per ns", None, "memory")
-
-
-def block_texels(measured):
-    curves = {name: list(speeds(measured, f"texels {name}").items()) for name in ("in order", "at random")}
-    return curves_block(curves, "texels along the side", "texels per ns", None, "texels")
+    return markdown(["KiB", "bytes per ns"],
+                    [[f"{size // 1024:,}", number(speed)] for size, speed in speeds(measured, "read").items()])
 
 
 def block_arithmetic(measured):
@@ -272,51 +256,6 @@ def block_roofline(measured):
     return (f"![Operations per ns over operations per byte from beyond L2: the steps of four scenes under the roofs of "
             f"memory, L3 and arithmetic]({picture.name})\n\n*Disc*: `unlit.glb`; *square*: `textured.gltf`; *triangle*: "
             "`bumpy.glb`; *diamond*: `toon.glb`.")
-
-
-def scaling(measured, of, unit, digits=3):
-    rows = [row for row in measured if row.get("scaling") == of]
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    name = lambda lesson, scene: f"{lesson}, {scene.partition('.')[0]}" if len(scenes) > 1 else lesson
-    return {name(lesson, scene): [(float(f"{row['at'] / unit:.{digits}g}"), row[lesson]) for row in rows
-                                  if row["scene"] == scene] for scene in scenes for lesson in ("11", "12", "13")}
-
-
-def block_sizes(measured):
-    return curves_block(scaling(measured, "size", 1e6), "million pixels", "ms per frame", None, "sizes")
-
-
-def thousands(count):
-    return f"{float(f'{count / 1e3:.3g}'):,g}"
-
-
-def block_triangles(measured):
-    picture = curves_block(scaling(measured, "triangles", 1e3), "thousand triangles", "ms per frame", None, "triangles")
-    steps = ("casters", "triangles", "picture")
-    return f"{picture}\n\nThe steps of lesson 13, ms:\n\n" + markdown(
-        ["thousand triangles", *steps],
-        [[thousands(row['at']), *(number(row[step]) for step in steps)]
-         for row in rows_of(measured, "steps")])
-
-
-def block_threads(measured):
-    is_quiet = max(rows_of(measured, "machine")[0]["load"]) < 1
-    head = ["scene", "1 thread, ms", "serial, ms", "CPU time of 2 threads against 1"]
-    if is_quiet:
-        head += ["2 threads, by the clock, ms", "times as fast"]
-    head += ["predicted for 2: Amdahl, ms", "schedule, ms", "predicted for 16: Amdahl, ms", "schedule, ms",
-             "times as fast"]
-    rows = []
-    for row in rows_of(measured, "threads"):
-        cells = [f"`{row['threads']}`", number(row["work"]), number(row["serial"]),
-                 f"{row['cpu 2'] / row['cpu 1']:.2f}"]
-        if is_quiet:
-            cells += [number(row["2"]), f"{row['1'] / row['2']:.2f}"]
-        rows.append([*cells, *(number(row[key]) for key in ("amdahl 2", "schedule 2", "amdahl 16", "schedule 16")),
-                     f"{row['work'] / row['schedule 16']:.1f}"])
-    table = markdown(head, rows)
-    return table if is_quiet else (
-        f"{table}\n\nThe machine was too busy for two threads to be timed by the clock.")
 
 
 def block_machine(measured):

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -66,23 +65,6 @@ class AlignedFloats {
     std::vector<float> floats_;
 };
 
-/// A color of 12 bytes and a depth of 4 for each pixel, of several pictures.
-void measure_writes(std::size_t bytes, int repetitions) {
-    const std::size_t pixels = bytes / 16;
-    AlignedFloats all_colors(3 * pixels), all_depths(pixels);
-    float *const colors = all_colors.data(), *const depths = all_depths.data();
-    float number = 0;
-    print("write", std::to_string(bytes),
-          units_per_ns(static_cast<double>(bytes), repetitions, [&] {
-              const Wide written(number += 1);
-              for (std::size_t i = 0; i < pixels; i += 16) {
-                  for (std::size_t c = 0; c < 3; ++c) store(&colors[3 * i + 16 * c], written);
-                  store(&depths[i], written);
-              }
-              sink = colors[pixels / 2] + depths[pixels / 3];
-          }));
-}
-
 void measure_reads(std::size_t bytes, int repetitions) {
     const std::size_t count = bytes / sizeof(float);
     AlignedFloats all_numbers(count, 1.0f);
@@ -93,38 +75,6 @@ void measure_reads(std::size_t bytes, int repetitions) {
                   for (std::size_t k = 0; k < sums.size(); ++k)
                       sums[k] += load<Wide>(&numbers[i + 16 * k]);
               for (std::size_t k = 1; k < sums.size(); ++k) sums[0] += sums[k];
-              sink = sums[0][0];
-          }));
-}
-
-/// Texels of four floats, none of whose places depends on another texel.
-void measure_texels(int side, bool at_random, int repetitions) {
-    const auto count = static_cast<std::uint32_t>(side * side);
-    const std::vector<vec4> texels(count, vec4(1));
-    constexpr std::uint32_t fetches = 1 << 18, streams = 4;
-    std::array<std::uint32_t, streams> at{};
-    for (std::uint32_t k = 0; k < streams; ++k) at[k] = k * (0xffffffffu / streams);
-    // The last digits of such numbers are not random, the first ones are.
-    const int shift = 32 - 2 * static_cast<int>(std::log2(side));
-    const auto read = [&](std::uint32_t i) {
-        Vector<float, 4> texel;
-        std::memcpy(&texel, &texels[i], sizeof texel);
-        return texel;
-    };
-    print(at_random ? "texels at random" : "texels in order", std::to_string(side),
-          units_per_ns(fetches, repetitions, [&] {
-              std::array<Vector<float, 4>, streams> sums{};
-              if (at_random)
-                  for (std::uint32_t i = 0; i < fetches; i += streams)
-                      for (std::uint32_t k = 0; k < streams; ++k) {
-                          at[k] = at[k] * 1664525u + 1013904223u;
-                          sums[k] += read(at[k] >> shift);
-                      }
-              else
-                  for (std::uint32_t i = 0; i < fetches; i += streams)
-                      for (std::uint32_t k = 0; k < streams; ++k)
-                          sums[k] += read(++at[0] & (count - 1));
-              for (std::uint32_t k = 1; k < streams; ++k) sums[0] += sums[k];
               sink = sums[0][0];
           }));
 }
@@ -159,12 +109,8 @@ void measure_arithmetic(int repetitions) {
 }  // namespace
 
 void measure_limits(int repetitions) {
-    for (std::size_t bytes = 1 << 13; bytes <= 1 << 27; bytes *= 4) {
-        measure_writes(bytes, repetitions);
+    for (std::size_t bytes = 1 << 13; bytes <= 1 << 27; bytes *= 4)
         measure_reads(bytes, repetitions);
-    }
-    for (int side = 64; side <= 4096; side *= 2)
-        for (const bool at_random : {true, false}) measure_texels(side, at_random, repetitions);
     measure_arithmetic<float>(repetitions);
     measure_arithmetic<Floats<4>>(repetitions);
     measure_arithmetic<Floats<8>>(repetitions);

@@ -259,12 +259,9 @@ void draw_11(Numbers& numbers, const Scene& scene, ivec2 size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Numbers numbers(data, size);
-    const int lesson = numbers.one_of({3, 9, 11});
+    const auto draw = numbers.one_of({draw_03, draw_09, draw_11});
     const int width = numbers.whole(1, 24);
     const ivec2 picture_size(width, numbers.whole(1, 12));
-    const Scene scene = any_scene(numbers);
-    if (lesson == 3) draw_03(numbers, scene, picture_size);
-    if (lesson == 9) draw_09(numbers, scene, picture_size);
-    if (lesson == 11) draw_11(numbers, scene, picture_size);
+    draw(numbers, any_scene(numbers), picture_size);
     return 0;
 }

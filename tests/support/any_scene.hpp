@@ -63,37 +63,28 @@ inline Material material_of(AnyMaterial kind, Dice& dice) {
         map.embedded = std::make_shared<const Bytes>(encode_bmp(image, map.file));
         return map;
     };
-    switch (kind) {
-        case AnyMaterial::unlit:
-            material.illumination = 0;
-            break;
-        case AnyMaterial::shiny:
-            material.specular = dice.color(), material.shininess = dice.between(1, 60);
-            break;
-        case AnyMaterial::textured:
-            material.diffuse_map = picture();
-            if (dice.one_in(2)) material.normal_map = picture();
-            break;
-        case AnyMaterial::masked:
-            material.alpha = AlphaMode::mask, material.alpha_cutoff = dice.between(0.3f, 0.7f);
-            if (dice.one_in(2)) material.illumination = 0;
-            if (dice.one_in(2)) material.diffuse_map = picture();
-            break;
-        case AnyMaterial::glass:
-            material.alpha = AlphaMode::blend, material.opacity = dice.between(0, 1);
-            break;
-        case AnyMaterial::toon: {
-            using Outline = ToonMaterial::Outline;
-            constexpr std::array outlines = {Outline::none, Outline::world, Outline::screen};
-            material.illumination = 1;
-            material.toon = ToonMaterial{.shade = dice.color(),
-                                         .outline = outlines[dice.below(3)],
-                                         .outline_width = dice.between(0, 0.1f),
-                                         .outline_color = dice.color()};
-            break;
-        }
-        default:
-            break;
+    if (kind == AnyMaterial::unlit) material.illumination = 0;
+    if (kind == AnyMaterial::shiny)
+        material.specular = dice.color(), material.shininess = dice.between(1, 60);
+    if (kind == AnyMaterial::textured) {
+        material.diffuse_map = picture();
+        if (dice.one_in(2)) material.normal_map = picture();
+    }
+    if (kind == AnyMaterial::masked) {
+        material.alpha = AlphaMode::mask, material.alpha_cutoff = dice.between(0.3f, 0.7f);
+        if (dice.one_in(2)) material.illumination = 0;
+        if (dice.one_in(2)) material.diffuse_map = picture();
+    }
+    if (kind == AnyMaterial::glass)
+        material.alpha = AlphaMode::blend, material.opacity = dice.between(0, 1);
+    if (kind == AnyMaterial::toon) {
+        using Outline = ToonMaterial::Outline;
+        constexpr std::array outlines = {Outline::none, Outline::world, Outline::screen};
+        material.illumination = 1;
+        material.toon = ToonMaterial{.shade = dice.color(),
+                                     .outline = outlines[dice.below(3)],
+                                     .outline_width = dice.between(0, 0.1f),
+                                     .outline_color = dice.color()};
     }
     if (dice.one_in(4)) material.emission = dice.color(), material.emission_map = picture();
     return material;

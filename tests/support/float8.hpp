@@ -23,17 +23,12 @@ struct Mask8 {
     friend Mask8 operator|(Mask8 a, Mask8 b) { return {a.lanes_that_hold | b.lanes_that_hold}; }
 };
 
-inline bool all_of(Mask8 mask) {
-    bool all = true;
-    for (std::size_t i = 0; i < 8; ++i) all = all && mask.lanes_that_hold[i] != 0;
-    return all;
-}
-
 inline bool any_of(Mask8 mask) {
-    bool any = false;
-    for (std::size_t i = 0; i < 8; ++i) any = any || mask.lanes_that_hold[i] != 0;
-    return any;
+    for (std::size_t i = 0; i < 8; ++i)
+        if (mask.lanes_that_hold[i]) return true;
+    return false;
 }
+inline bool all_of(Mask8 mask) { return !any_of(Mask8{~mask.lanes_that_hold}); }
 
 struct Float8 {
     static constexpr std::size_t lanes = 8;

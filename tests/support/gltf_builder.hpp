@@ -83,6 +83,27 @@ struct GltfBuilder {
         return int(document["bufferViews"].size()) - 1;
     }
 
+    /// Sets what JSON pointers name, and removes what becomes null: set(R"("/scene": 1)").
+    GltfBuilder& set(const std::string& changes) {
+        const json values = json::parse("{" + changes + "}");
+        for (const auto& [name, value] : values.items()) {
+            const json::json_pointer where(name);
+            if (value.is_null())
+                document[where.parent_pointer()].erase(where.back());
+            else
+                document[where] = value;
+        }
+        return *this;
+    }
+
+    /// Gives the material a base colour texture: the picture of a URI.
+    GltfBuilder& set_texture(const std::string& uri) {
+        document["images"] = json::array({{{"uri", uri}}});
+        document["textures"] = json::array({{{"source", 0}}});
+        material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+        return *this;
+    }
+
     json& primitive() { return document["meshes"][0]["primitives"][0]; }
     json& material() { return document["materials"][0]; }
 
@@ -111,24 +132,19 @@ struct GltfBuilder {
     }
 };
 
-/// One triangle in the plane z = 0 with normals, uvs and a material.
+/// One triangle in the plane z = 0 with a material. Its accessors and their views are, in order, of
+/// positions, normals, uvs and indices.
 inline GltfBuilder one_triangle() {
     GltfBuilder made;
-    const int positions = made.add({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", gl_float);
-    const int normals = made.add({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", gl_float);
-    const int uvs = made.add({0, 1, 1, 1, 0, 0.25}, "VEC2", gl_float);
-    const int indices = made.add({0, 1, 2}, "SCALAR", gl_unsigned_short);
-    made.document["meshes"] = json::array(
-        {{{"name", "triangle"},
-          {"primitives",
-           json::array({{{"attributes",
-                          {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
-                         {"indices", indices},
-                         {"material", 0}}})}}});
-    made.document["materials"] = json::array(
-        {{{"name", "paint"},
-          {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.5}}}}});
-    return made;
+    made.add({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", gl_float);
+    made.add({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", gl_float);
+    made.add({0, 1, 1, 1, 0, 0.25}, "VEC2", gl_float);
+    made.add({0, 1, 2}, "SCALAR", gl_unsigned_short);
+    return made.set(R"("/meshes": [{"name": "triangle", "primitives": [{
+                           "attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2},
+                           "indices": 3, "material": 0}]}],
+                       "/materials": [{"name": "paint", "pbrMetallicRoughness": {
+                           "metallicFactor": 0, "roughnessFactor": 0.5}}])");
 }
 
 }  // namespace rasterbook::test

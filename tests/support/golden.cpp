@@ -6,7 +6,6 @@
 #include <iostream>
 
 #include "common/image/image_io.hpp"
-#include "common/math/color.hpp"
 #include "support/image_doctor.hpp"
 #include "support/lesson_process.hpp"
 #include "support/picture_difference.hpp"
@@ -40,18 +39,25 @@ std::filesystem::path actual_file_of(const std::string& drawing) {
     return std::filesystem::path(RASTERBOOK_LESSONS) / (drawing + "_actual.png");
 }
 
-/// Compares the picture in actual_file_of(drawing) with the golden one.
-///
-/// @param drawing    What the files of the drawn picture are called.
-/// @param drawn      How, if not by default: "with --light spot, ".
-/// @param diagnosis  Called as diagnosis(actual, expected): what to say of pictures that differ.
-template <typename Diagnosis>
-testing::AssertionResult is_golden(const std::string& golden, const std::string& drawing,
-                                   std::size_t may_jump, const std::string& drawn,
-                                   const Diagnosis& diagnosis) {
-    const std::filesystem::path expected_file =
-        std::filesystem::path(RASTERBOOK_GOLDEN) / (golden + ".png");
-    const std::filesystem::path actual_file = actual_file_of(drawing);
+}  // namespace
+
+testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
+                                       const std::vector<std::string>& arguments,
+                                       std::size_t may_jump) {
+    // Several lessons draw the same picture, maybe just now.
+    const std::string drawing = golden.starts_with(lesson) ? golden : lesson + "_draws_" + golden;
+    const std::filesystem::path folder = RASTERBOOK_LESSONS,
+                                actual_file = folder / (drawing + "_actual.png"),
+                                expected_file =
+                                    std::filesystem::path(RASTERBOOK_GOLDEN) / (golden + ".png");
+    std::vector<std::string> all = {"--size", golden_size, "--out", actual_file.string()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ProcessResult run = run_program(lesson, all);
+    if (run.exit_status != 0)
+        return testing::AssertionFailure() << lesson << " failed: " << run.err;
+    if (const char* const kept = std::getenv("RASTERBOOK_KEEP_PICTURES"))
+        std::filesystem::copy(actual_file, kept);
+
     const auto replace_golden = [&] {
         std::filesystem::create_directories(RASTERBOOK_GOLDEN);
         std::filesystem::copy_file(actual_file, expected_file,
@@ -73,38 +79,16 @@ testing::AssertionResult is_golden(const std::string& golden, const std::string&
         return testing::AssertionSuccess();
     }
     if (may_replace) return replace_golden();
-    const auto comparison =
-        std::filesystem::path(RASTERBOOK_LESSONS) / (drawing + "_comparison.png");
+    const std::filesystem::path comparison = folder / (drawing + "_comparison.png");
     write_image(comparison, side_by_side(expected, actual));
-    return testing::AssertionFailure()
-           << drawn << difference.in_words(may_jump) << diagnosis(actual, expected)
-           << "\nexpected | actual | difference: " << comparison.string() << if_it_is_right;
-}
-
-}  // namespace
-
-testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
-                                       const std::vector<std::string>& arguments,
-                                       std::size_t may_jump) {
-    // Several lessons draw the same picture, maybe just now.
-    const std::string drawing = golden.starts_with(lesson) ? golden : lesson + "_draws_" + golden;
-    std::vector<std::string> all = {"--size", golden_size, "--out",
-                                    actual_file_of(drawing).string()};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    const ProcessResult run = run_program(lesson, all);
-    if (run.exit_status != 0)
-        return testing::AssertionFailure() << lesson << " failed: " << run.err;
-    if (const char* const folder = std::getenv("RASTERBOOK_KEEP_PICTURES"))
-        std::filesystem::copy(actual_file_of(drawing), folder);
     std::string drawn;
     for (const std::string& argument : arguments)
         drawn += (drawn.empty() ? "with " : " ") + argument;
-    if (!drawn.empty()) drawn += ", ";
-    return is_golden(
-        golden, drawing, may_jump, drawn, [&](const auto& actual, const auto& expected) {
-            return "\nThe picture: " +
-                   diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()));
-        });
+    return testing::AssertionFailure()
+           << drawn << (drawn.empty() ? "" : ", ") << difference.in_words(may_jump)
+           << "\nThe picture: "
+           << diagnose(actual, expected, picture_facts(lesson, arguments, actual.size()))
+           << "\nexpected | actual | difference: " << comparison.string() << if_it_is_right;
 }
 
 }  // namespace rasterbook::test

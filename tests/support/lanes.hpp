@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -19,6 +18,7 @@
 #include "13_simd/simd.hpp"
 #include "support/any_scene.hpp"
 #include "support/near.hpp"
+#include "support/special_numbers.hpp"
 
 namespace rasterbook::test {
 
@@ -28,6 +28,12 @@ void for_each_width(Take&& take) {
     take.template operator()<4>();
     take.template operator()<8>();
     take.template operator()<16>();
+}
+
+/// Calls take(F()) for one float, and for floats of each width.
+template <typename Take>
+void for_each_number_type(Take&& take) {
+    take(0.0f), take(Floats<4>(0.0f)), take(Floats<8>(0.0f)), take(Floats<16>(0.0f));
 }
 
 /// Bit for bit; but which NaN a computation gives, no standard says.
@@ -40,47 +46,16 @@ inline std::string in_words(float x) {
     return x == 0 && std::signbit(x) ? "-0" : std::isnan(x) ? "NaN" : shown(x);
 }
 inline std::string in_words(int x) { return std::to_string(x); }
-inline std::string in_words(bool x) { return x ? "yes" : "no"; }
 
 /// Ordinary numbers and special ones: where something ends, rounds or overflows.
 inline float any_float(Dice& dice) {
-    constexpr std::array special = {0.0f,
-                                    -0.0f,
-                                    1.0f,
-                                    -1.0f,
-                                    0.5f,
-                                    -0.5f,
-                                    -1.5f,
-                                    2.0f,
-                                    0x1.fffffep-1f,
-                                    126.0f,
-                                    127.0f,
-                                    128.0f,
-                                    -126.0f,
-                                    -127.0f,
-                                    0x1p22f,
-                                    -0x1p22f - 0.5f,
-                                    0x1p23f,
-                                    -0x1p23f,
-                                    0x1p23f - 0.5f,
-                                    0x1p24f,
-                                    0x1p31f,
-                                    -0x1p31f,
-                                    0x1.fffffep30f,
-                                    0x1p63f,
-                                    FLT_MAX,
-                                    -FLT_MAX,
-                                    FLT_MIN,
-                                    -FLT_MIN,
-                                    FLT_TRUE_MIN,
-                                    -FLT_TRUE_MIN,
-                                    1e-40f,
-                                    std::numeric_limits<float>::infinity(),
-                                    -std::numeric_limits<float>::infinity(),
-                                    std::numeric_limits<float>::quiet_NaN()};
+    constexpr std::array special = {
+        0.0f,    FLT_TRUE_MIN,   1e-40f,  FLT_MIN, 0.5f,    0x1.fffffep-1f, 1.0f,           1.5f,
+        2.0f,    126.0f,         127.0f,  128.0f,  0x1p22f, 0x1p22f + 0.5f, 0x1p23f - 0.5f, 0x1p23f,
+        0x1p24f, 0x1.fffffep30f, 0x1p31f, 0x1p63f, FLT_MAX, infinity,       not_a_number};
     switch (dice.below(4)) {
         case 0:
-            return special.at(dice.below(special.size()));
+            return (dice.one_in(2) ? 1.0f : -1.0f) * special.at(dice.below(special.size()));
         case 1: {  // any bits, but for NaN that signal
             const float x = std::bit_cast<float>(dice.below(0xffffffffu));
             return std::isnan(x) ? dice.between(-1e6f, 1e6f) : x;
@@ -90,13 +65,17 @@ inline float any_float(Dice& dice) {
     }
 }
 
-template <int N>
-using NumbersOfLanes = std::array<float, static_cast<std::size_t>(N)>;
+/// A plain value for each lane.
+template <typename T, int N>
+struct PerLane : std::array<T, static_cast<std::size_t>(N)> {
+    T& operator[](int lane) { return this->at(static_cast<std::size_t>(lane)); }
+    const T& operator[](int lane) const { return this->at(static_cast<std::size_t>(lane)); }
+};
 
 /// Any numbers; or ordinary ones, and any in one lane.
 template <int N>
-NumbersOfLanes<N> any_numbers(Dice& dice) {
-    NumbersOfLanes<N> numbers;
+PerLane<float, N> any_numbers(Dice& dice) {
+    PerLane<float, N> numbers;
     const bool are_ordinary = dice.one_in(2);
     for (float& x : numbers) x = are_ordinary ? dice.between(-3, 3) : any_float(dice);
     if (are_ordinary) numbers.at(dice.below(N)) = any_float(dice);
@@ -104,16 +83,14 @@ NumbersOfLanes<N> any_numbers(Dice& dice) {
 }
 
 template <int N>
-Floats<N> in_lanes(const NumbersOfLanes<N>& numbers) {
-    Floats<N> x;
-    for (int i = 0; i < N; ++i) x.lanes[i] = numbers.at(static_cast<std::size_t>(i));
-    return x;
+Floats<N> in_lanes(const PerLane<float, N>& numbers) {
+    return load<Floats<N>>(numbers.data());
 }
-template <int N>
-Vec3<Floats<N>> in_lanes(const std::array<vec3, static_cast<std::size_t>(N)>& points) {
-    Vec3<Floats<N>> v;
+template <int N, glm::length_t n>
+glm::vec<n, Floats<N>> in_lanes(const PerLane<glm::vec<n, float>, N>& vectors) {
+    glm::vec<n, Floats<N>> v;
     for (int i = 0; i < N; ++i)
-        for (int c = 0; c < 3; ++c) v[c].lanes[i] = points.at(static_cast<std::size_t>(i))[c];
+        for (int c = 0; c < n; ++c) v[c].lanes[i] = vectors[i][c];
     return v;
 }
 
@@ -126,32 +103,14 @@ Mask<N> mask_of_bits(std::uint32_t bits) {
 }
 
 /// What has_in_lanes() says of the lanes' numbers: compiled once, not for each width and function.
-inline testing::AssertionResult have_the_same(std::span<const float> actual,
-                                              std::span<const float> expected) {
+template <typename Number>
+testing::AssertionResult have_the_same(std::span<const Number> actual,
+                                       std::span<const Number> expected, const char* note) {
     for (std::size_t i = 0; i < actual.size(); ++i)
         if (!agree(actual[i], expected[i]))
             return testing::AssertionFailure()
                    << "lane " << i << " of " << actual.size() << " has " << in_words(actual[i])
-                   << ", expected " << in_words(expected[i]) << apart(actual[i], expected[i]);
-    return testing::AssertionSuccess();
-}
-inline testing::AssertionResult have_the_same(std::span<const int> actual,
-                                              std::span<const int> expected) {
-    for (std::size_t i = 0; i < actual.size(); ++i)
-        if (actual[i] != expected[i])
-            return testing::AssertionFailure() << "lane " << i << " of " << actual.size() << " has "
-                                               << actual[i] << ", expected " << expected[i];
-    return testing::AssertionSuccess();
-}
-/// A mask is all ones where it holds, else all zeros.
-inline testing::AssertionResult have_the_same(std::span<const int> actual,
-                                              std::span<const bool> expected) {
-    for (std::size_t i = 0; i < actual.size(); ++i)
-        if (actual[i] != (expected[i] ? -1 : 0))
-            return testing::AssertionFailure()
-                   << "lane " << i << " of " << actual.size() << " has the bits of " << actual[i]
-                   << ", expected those of "
-                   << (expected[i] ? "-1 (it holds)" : "0 (it does not hold)");
+                   << ", expected " << in_words(expected[i]) << note;
     return testing::AssertionSuccess();
 }
 
@@ -161,13 +120,17 @@ inline testing::AssertionResult have_the_same(std::span<const int> actual,
 /// @param expected  Called as expected(lane).
 template <template <int> typename Wide, int N, typename Expected>
 testing::AssertionResult has_in_lanes(const Wide<N>& actual, const Expected& expected) {
-    std::array<std::decay_t<decltype(actual.lanes[0])>, std::size_t(N)> lanes;
-    std::array<decltype(actual[0]), std::size_t(N)> lanes_expected;
+    constexpr bool is_mask = std::is_same_v<Wide<N>, Mask<N>>;
+    using Number = std::decay_t<decltype(actual.lanes[0])>;
+    PerLane<Number, N> lanes, lanes_expected;
     for (int i = 0; i < N; ++i) {
-        lanes[std::size_t(i)] = actual.lanes[i];
-        lanes_expected[std::size_t(i)] = expected(i);
+        lanes[i] = actual.lanes[i];
+        if constexpr (is_mask)
+            lanes_expected[i] = expected(i) ? -1 : 0;
+        else
+            lanes_expected[i] = expected(i);
     }
-    return have_the_same(lanes, lanes_expected);
+    return have_the_same<Number>(lanes, lanes_expected, is_mask ? " (-1: the mask holds)" : "");
 }
 
 /// "(2.5, -0)"

@@ -13,6 +13,9 @@
 
 namespace rasterbook::test {
 
+/// With these, no lit plane shadows itself.
+inline constexpr std::array fitted_biases = {Bias::slope, Bias::plane, Bias::normal};
+
 using Vertices = std::array<vec3, 3>;
 
 inline Vertices vertices_in(const Mesh& mesh, const Triangle& triangle) {

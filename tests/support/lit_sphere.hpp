@@ -111,33 +111,33 @@ struct LitSphere {
 /// The light that a pixel of LitSphere should have.
 class ExactSphere {
   public:
-    explicit ExactSphere(const LitSphere& sphere) {
-        const Light& light = sphere.lights[0];
-        half_distance_ = light.half_distance, color_ = light.color.x;
-        eye_ = wide(sphere.camera.position_world), light_ = wide(light.position_world);
-        const Vector forward = scaled(eye_, -1 / length(eye_));  // towards the origin
-        const long double level = std::hypot(forward[0], forward[2]);
-        right_ = {-forward[2] / level, 0, forward[0] / level};
-        up_ = {-forward[1] * forward[0] / level, level, -forward[1] * forward[2] / level};
-        forward_ = forward;
-        half_height_ = std::tan(static_cast<long double>(sphere.camera.fov_y_radians) / 2);
+    explicit ExactSphere(const LitSphere& sphere)
+        : eye_(sphere.camera.position_world),
+          light_(sphere.lights[0].position_world),
+          half_distance_(sphere.lights[0].half_distance),
+          color_(sphere.lights[0].color.x),
+          half_height_(std::tan(static_cast<real>(sphere.camera.fov_y_radians) / 2)) {
+        forward_ = -eye_ / length(eye_);  // towards the origin
+        const real level = std::hypot(forward_.x, forward_.z);
+        right_ = Vector(-forward_.z, 0, forward_.x) / level;
+        up_ = glm::cross(right_, forward_);
     }
 
-    /// @param normal,position  Of a surface in this light, seen by this camera; normal of length 1.
-    long double light_at(const std::array<long double, 3>& normal,
-                         const std::array<long double, 3>& position) const {
-        const Vector to_light = sum(light_, scaled(position, -1));
-        const long double distance = length(to_light);
-        const long double cosine = dot(normal, to_light) / distance;
+    /// @param normal_of,place_of  Of a surface in this light, seen by this camera: three numbers
+    ///                            each; the normal of length 1.
+    template <typename Numbers>
+    long double light_at(const Numbers& normal_of, const Numbers& place_of) const {
+        const Vector normal(normal_of[0], normal_of[1], normal_of[2]);
+        const Vector position(place_of[0], place_of[1], place_of[2]);
+        const Vector to_light = light_ - position, to_eye = eye_ - position;
+        const real distance = length(to_light), cosine = glm::dot(normal, to_light) / distance;
         if (cosine <= 0) return 0;
-        const long double arrives =
-            color_ / (1 + distance * distance / (half_distance_ * half_distance_));
+        const real arrives = color_ / (1 + distance * distance / (half_distance_ * half_distance_));
         // Of the way to the eye, mirrored in the normal: the same cosine as of the mirrored
         // light's.
-        const Vector to_eye = sum(eye_, scaled(position, -1));
-        const Vector mirrored = sum(scaled(normal, 2 * dot(normal, to_eye)), scaled(to_eye, -1));
-        const long double mirrored_cosine = dot(mirrored, to_light) / (distance * length(to_eye));
-        const long double highlight =
+        const Vector mirrored = 2 * glm::dot(normal, to_eye) * normal - to_eye;
+        const real mirrored_cosine = glm::dot(mirrored, to_light) / (distance * length(to_eye));
+        const real highlight =
             mirrored_cosine > 0 ? std::exp(LitSphere::shininess * std::log(mirrored_cosine)) : 0;
         return arrives * (LitSphere::diffuse * cosine + LitSphere::specular * highlight);
     }
@@ -145,36 +145,29 @@ class ExactSphere {
     /// Nothing where the ray through the pixel's centre misses the sphere.
     std::optional<long double> light_in(ivec2 pixel) const {
         const auto ndc = [](int at, int size) { return (2.0L * at + 1) / size - 1; };
-        const long double x = half_height_ * ndc(pixel.x, LitSphere::size.x);  // a square picture
-        const long double y = -half_height_ * ndc(pixel.y, LitSphere::size.y);
-        const Vector ray = sum(forward_, sum(scaled(right_, x), scaled(up_, y)));
+        const real x = half_height_ * ndc(pixel.x, LitSphere::size.x);  // a square picture
+        const real y = -half_height_ * ndc(pixel.y, LitSphere::size.y);
+        const Vector ray = forward_ + x * right_ + y * up_;
         // |eye + t ray| = 1
-        const long double a = dot(ray, ray), b = dot(ray, eye_), c = dot(eye_, eye_) - 1;
+        const real a = glm::dot(ray, ray), b = glm::dot(ray, eye_), c = glm::dot(eye_, eye_) - 1;
         if (b * b < a * c) return std::nullopt;
-        const Vector hit = sum(eye_, scaled(ray, (-b - std::sqrt(b * b - a * c)) / a));
+        const Vector hit = eye_ + (-b - std::sqrt(b * b - a * c)) / a * ray;
         return light_at(hit, hit);
     }
 
   private:
-    using Vector = std::array<long double, 3>;
+    using real = long double;
+    using Vector = glm::vec<3, real>;
 
-    static Vector wide(vec3 v) { return {v.x, v.y, v.z}; }
-    static long double dot(const Vector& a, const Vector& b) {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-    static long double length(const Vector& a) { return std::sqrt(dot(a, a)); }
-    static Vector scaled(const Vector& a, long double s) { return {s * a[0], s * a[1], s * a[2]}; }
-    static Vector sum(const Vector& a, const Vector& b) {
-        return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-    }
+    static real length(const Vector& v) { return std::sqrt(glm::dot(v, v)); }
 
     Vector eye_, light_, forward_, right_, up_;
-    long double half_distance_, color_, half_height_;
+    real half_distance_, color_, half_height_;
 };
 
 /// How far a variant's picture is from the exact one, where both show the sphere; 1 is white.
 struct LightErrors {
-    double rms = 0, greatest = 0, fragments = 0, brightest = 0;
+    double rms = 0, greatest = 0, fragments = 0;
 };
 
 inline LightErrors light_errors(const LitSphere& sphere, const ShadingMethod& variant) {
@@ -187,7 +180,6 @@ inline LightErrors light_errors(const LitSphere& sphere, const ShadingMethod& va
         if (!expected) return;
         const double error = std::abs(static_cast<double>(light - *expected));
         errors.greatest = std::max(errors.greatest, error);
-        errors.brightest = std::max(errors.brightest, static_cast<double>(*expected));
         sum_of_squares += error * error, ++compared;
     });
     errors.rms = std::sqrt(sum_of_squares / compared);

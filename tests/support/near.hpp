@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,14 +14,11 @@
 #include <gtest/gtest.h>
 
 #include "common/math/types.hpp"
+#include "support/printers.hpp"
 
 namespace rasterbook::test {
 
-/// With as few digits as tell it from the floats beside it.
-inline std::string shown(float x) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, x).ptr};
-}
+inline std::string shown(float x) { return text_of(x); }
 
 template <glm::length_t n>
 std::string shown(const glm::vec<n, float>& v) {

@@ -93,20 +93,14 @@ GLuint attach(GLenum place, GLenum format, GLenum pixel, ivec2 size, int layers)
 }
 
 template <typename T>
-std::vector<T> read_back(GLuint texture, GLenum pixel, ivec2 size, int layers) {
-    std::vector<T> pixels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                          static_cast<std::size_t>(layers));
+std::vector<Image<T>> read_back(GLuint texture, GLenum pixel, ivec2 size, int layers) {
+    Image<T> all({size.x, size.y * layers}, T(0));
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
-    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, pixel, GL_FLOAT, pixels.data());
-    return pixels;
-}
-
-template <typename T>
-Image<T> layer_of(const std::vector<T>& pixels, ivec2 size, int layer) {
-    Image<T> image(size, T(0));
-    const auto count = static_cast<std::ptrdiff_t>(image.pixels().size());
-    std::copy_n(pixels.begin() + layer * count, count, image.pixels().begin());
-    return image;
+    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, pixel, GL_FLOAT, all.pixels().data());
+    std::vector<Image<T>> images;
+    for (auto from = all.pixels().begin(); from != all.pixels().end(); from += size.x * size.y)
+        std::copy_n(from, size.x * size.y, images.emplace_back(size, T(0)).pixels().begin());
+    return images;
 }
 
 /// Pictures of floats that OpenGL draws into, cleared.
@@ -136,8 +130,7 @@ class Frame {
         std::vector<OpenGlPicture> pictures;
         const auto colors = read_back<vec4>(color_, GL_RGBA, size_, layers_);
         const auto depths = read_back<float>(depth_, GL_DEPTH_COMPONENT, size_, layers_);
-        for (int i = 0; i < layers_; ++i)
-            pictures.push_back({layer_of(colors, size_, i), layer_of(depths, size_, i)});
+        for (std::size_t i = 0; i < colors.size(); ++i) pictures.push_back({colors[i], depths[i]});
         if (const GLenum error = glGetError(); error != GL_NO_ERROR)
             throw std::runtime_error("OpenGL's error " + std::to_string(error));
         return pictures;

@@ -29,18 +29,21 @@ std::string option_value(const std::vector<std::string>& arguments, const std::s
     return value;
 }
 
+/// @param on_screen  Gives a position's place.
+std::vector<ScreenPatch> patches_of(const Scene& scene, auto&& on_screen) {
+    std::vector<ScreenPatch> patches;
+    for (const Mesh& mesh : scene.meshes)
+        for (const auto& [vertices, material] : mesh.triangles)
+            patches.push_back({on_screen(mesh.positions[vertices[0].position]),
+                               on_screen(mesh.positions[vertices[1].position]),
+                               on_screen(mesh.positions[vertices[2].position])});
+    return patches;
+}
+
 }  // namespace
 
 std::vector<ScreenPatch> parallel_patches(const Scene& scene, const OrthographicView& view) {
-    std::vector<ScreenPatch> patches;
-    for (const Mesh& mesh : scene.meshes) {
-        const std::vector<vec3> positions_screen = view.screen_from_model(mesh.positions);
-        for (const auto& [vertices, material] : mesh.triangles)
-            patches.push_back({positions_screen[vertices[0].position],
-                               positions_screen[vertices[1].position],
-                               positions_screen[vertices[2].position]});
-    }
-    return patches;
+    return patches_of(scene, [&](vec3 p) { return view.screen_from_model({p})[0]; });
 }
 
 std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Bounds& bounds,
@@ -57,19 +60,12 @@ std::vector<ScreenPatch> perspective_patches(const Scene& scene, const Bounds& b
                                                         double{1.0 * size.x} / size.y,
                                                         2 * (distance + radius), 0.001 * distance) *
                                   glm::lookAtRH(center + distance * back, center, dvec3(0, 1, 0));
-    const auto on_screen = [&](vec3 position) {
+    return patches_of(scene, [&](vec3 position) {
         const dvec4 clip = clip_from_world * dvec4(position, 1);
         if (!(clip.w > 0)) return vec3(std::numeric_limits<float>::quiet_NaN());
         const dvec3 ndc = dvec3(clip) / clip.w;
         return vec3(0.5 * (ndc.x + 1) * size.x, 0.5 * (1 - ndc.y) * size.y, ndc.z);
-    };
-    std::vector<ScreenPatch> patches;
-    for (const Mesh& mesh : scene.meshes)
-        for (const auto& [vertices, material] : mesh.triangles)
-            patches.push_back({on_screen(mesh.positions[vertices[0].position]),
-                               on_screen(mesh.positions[vertices[1].position]),
-                               on_screen(mesh.positions[vertices[2].position])});
-    return patches;
+    });
 }
 
 PictureFacts picture_facts(const std::string& lesson, const std::vector<std::string>& arguments,

@@ -4,28 +4,19 @@
 /// are compared.
 #pragma once
 
-#include <concepts>
-#include <limits>
+#include <charconv>
 #include <ostream>
-#include <sstream>
 #include <string>
 
 #include "common/math/types.hpp"
 
 namespace rasterbook::test {
 
-/// A number with as many digits as it takes to tell it from its neighbours: 0.5, 0.700000048.
+/// A number with as few digits as tell it from its neighbours.
 template <typename Number>
 std::string text_of(Number x) {
-    std::ostringstream text;
-    text << +x;
-    if constexpr (std::floating_point<Number>)
-        if (x == x && static_cast<Number>(std::stold(text.str())) != x) {
-            text.str("");
-            text.precision(std::numeric_limits<Number>::max_digits10);
-            text << x;
-        }
-    return text.str();
+    char text[64];
+    return {text, std::to_chars(text, text + sizeof text, +x).ptr};
 }
 
 }  // namespace rasterbook::test

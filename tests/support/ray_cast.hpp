@@ -66,15 +66,22 @@ class RayCaster {
     /// How far it is to the first triangle.
     std::optional<double> nearest(Ray ray) const {
         std::optional<double> found;
-        visit(ray, [&](double distance) {
-            found = distance, ray.to = distance;
-            return false;
-        });
+        std::array<std::size_t, 64> stack;
+        std::size_t count = 0;
+        if (!nodes_.empty()) stack[count++] = 0;
+        while (count > 0) {
+            const std::size_t index = stack[--count];
+            const Node& node = nodes_[index];
+            if (!meets(ray, node)) continue;
+            if (node.right != 0) {
+                stack[count++] = node.right, stack[count++] = index + 1;
+                continue;
+            }
+            for (std::size_t i = node.begin; i < node.end; ++i)
+                if (const auto distance = distance_to(ray, triangles_[i]))
+                    found = distance, ray.to = *distance;
+        }
         return found;
-    }
-
-    bool is_blocked(Ray ray) const {
-        return visit(ray, [](double) { return true; });
     }
 
     std::span<const RayTriangle> triangles() const { return triangles_; }
@@ -125,27 +132,6 @@ class RayCaster {
             from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
         }
         return from <= to;
-    }
-
-    /// Calls on_hit(distance) for triangles that the ray meets, until it returns true.
-    template <typename OnHit>
-    bool visit(const Ray& ray, OnHit&& on_hit) const {
-        std::array<std::size_t, 64> stack;
-        std::size_t count = 0;
-        if (!nodes_.empty()) stack[count++] = 0;
-        while (count > 0) {
-            const std::size_t index = stack[--count];
-            const Node& node = nodes_[index];
-            if (!meets(ray, node)) continue;
-            if (node.right != 0) {
-                stack[count++] = node.right, stack[count++] = index + 1;
-                continue;
-            }
-            for (std::size_t i = node.begin; i < node.end; ++i)
-                if (const auto distance = distance_to(ray, triangles_[i]))
-                    if (on_hit(*distance)) return true;
-        }
-        return false;
     }
 
     std::vector<RayTriangle> triangles_;

@@ -11,13 +11,18 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "04_mvp/camera.hpp"
 #include "common/math/types.hpp"
 
 namespace rasterbook::test {
 
+using real = long double;
+using lvec3 = glm::vec<3, real>;
+
 struct Place {
-    long double x, y;
+    real x, y;
 };
 
 /// A camera that looks at a point, both moved along each axis; y is up.
@@ -25,37 +30,26 @@ class ReferenceCamera {
   public:
     /// @param camera  Its place, angle and nothing else.
     ReferenceCamera(const Camera& camera, vec3 center, ivec2 size, double offset)
-        : width_(size.x), height_(size.y), offset_(offset) {
-        long double toward[3], length = 0;
-        for (int i = 0; i < 3; ++i) {
-            eye_[i] = static_cast<long double>(camera.position_world[i]) + offset;
-            toward[i] = static_cast<long double>(center[i]) + offset - eye_[i];
-            length += toward[i] * toward[i];
-        }
-        for (int i = 0; i < 3; ++i) forward_[i] = toward[i] / std::sqrt(length);
-        const long double level = std::hypot(forward_[0], forward_[2]);
-        right_[0] = -forward_[2] / level, right_[1] = 0, right_[2] = forward_[0] / level;
-        up_[0] = -forward_[1] * forward_[0] / level;
-        up_[1] = level;
-        up_[2] = -forward_[1] * forward_[2] / level;
-        half_height_ = std::tan(static_cast<long double>(camera.fov_y_radians) / 2);
+        : size_(size), offset_(offset), eye_(lvec3(camera.position_world) + offset_) {
+        forward_ = glm::normalize(lvec3(center) + offset_ - eye_);
+        right_ = glm::normalize(lvec3(-forward_.z, 0, forward_.x));
+        up_ = glm::cross(right_, forward_);
+        half_height_ = std::tan(static_cast<real>(camera.fov_y_radians) / 2);
     }
 
     /// Where a point in front of the camera is seen, in pixels.
     Place on_screen(vec3 point) const {
-        long double x = 0, y = 0, z = 0;
-        for (int i = 0; i < 3; ++i) {
-            const long double way = static_cast<long double>(point[i]) + offset_ - eye_[i];
-            x += right_[i] * way, y += up_[i] * way, z += forward_[i] * way;
-        }
-        const long double half_width = half_height_ * width_ / height_;
-        return {width_ / 2 * (1 + x / (z * half_width)),
-                height_ / 2 * (1 - y / (z * half_height_))};
+        const lvec3 way = lvec3(point) + offset_ - eye_;
+        const real x = glm::dot(right_, way), y = glm::dot(up_, way);
+        const real half_height = half_height_ * glm::dot(forward_, way);
+        const real half_width = half_height * size_.x / size_.y;
+        return {size_.x / 2 * (1 + x / half_width), size_.y / 2 * (1 - y / half_height)};
     }
 
   private:
-    long double width_, height_, offset_, half_height_;
-    long double eye_[3], forward_[3], right_[3], up_[3];
+    glm::vec<2, real> size_;
+    real offset_, half_height_;
+    lvec3 eye_, forward_, right_, up_;
 };
 
 using ClipVertices = std::array<vec4, 3>;
@@ -72,10 +66,10 @@ class RaySeen {
     }
 
     /// Whether what is seen changes within about so many pixels of a pixel's centre.
-    bool is_near_border(ivec2 pixel, ivec2 size, long double band_px) const {
+    bool is_near_border(ivec2 pixel, ivec2 size, real band_px) const {
         const bool here = is_seen(pixel, size);
         for (int i = 0; i < 8; ++i) {
-            const long double angle_radians = i * 0.785398163397448310L;
+            const real angle_radians = i * 0.785398163397448310L;
             if (is_seen_at(pixel.x + 0.5L + band_px * std::cos(angle_radians),
                            pixel.y + 0.5L + band_px * std::sin(angle_radians), size) != here)
                 return true;
@@ -84,39 +78,22 @@ class RaySeen {
     }
 
   private:
-    bool is_seen_at(long double x, long double y, ivec2 size) const {
-        Crossing crossing;
-        return cross(2 * x / size.x - 1, 1 - 2 * y / size.y, crossing) && 0 <= crossing.z &&
-               crossing.z <= crossing.w;
-    }
-
-    struct Crossing {
-        long double w, z;
-    };
-
     /// Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
-    bool cross(long double x, long double y, Crossing& crossing) const {
-        const auto side = [&](std::size_t to, int axis) {
-            const int component = axis < 2 ? axis : 3;
-            return static_cast<long double>(vertices_[to][component]) - vertices_[0][component];
+    bool is_seen_at(real x_px, real y_px, ivec2 size) const {
+        const lvec3 ray(2 * x_px / size.x - 1, 1 - 2 * y_px / size.y, 1);
+        const auto vertex = [&](std::size_t i) {
+            return lvec3(vertices_[i].x, vertices_[i].y, vertices_[i].w);
         };
-        const long double u[3] = {side(1, 0), side(1, 1), side(1, 2)};
-        const long double v[3] = {side(2, 0), side(2, 1), side(2, 2)};
-        const long double p[3] = {y * v[2] - v[1], v[0] - x * v[2], x * v[1] - y * v[0]};
-        const long double volume = u[0] * p[0] + u[1] * p[1] + u[2] * p[2];
+        const lvec3 u = vertex(1) - vertex(0), v = vertex(2) - vertex(0), p = glm::cross(ray, v);
+        const real volume = glm::dot(u, p);
         if (!(volume < 0)) return false;  // the ray leaves through it, or passes beside
-        const long double s[3] = {-static_cast<long double>(vertices_[0].x),
-                                  -static_cast<long double>(vertices_[0].y),
-                                  -static_cast<long double>(vertices_[0].w)};
-        const long double b = (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) / volume;
-        const long double q[3] = {s[1] * u[2] - s[2] * u[1], s[2] * u[0] - s[0] * u[2],
-                                  s[0] * u[1] - s[1] * u[0]};
-        const long double c = (x * q[0] + y * q[1] + q[2]) / volume;
+        const lvec3 s = -vertex(0), q = glm::cross(s, u);
+        const real b = glm::dot(s, p) / volume, c = glm::dot(ray, q) / volume;
         if (!(b >= 0 && c >= 0 && b + c <= 1)) return false;
-        crossing.w = (v[0] * q[0] + v[1] * q[1] + v[2] * q[2]) / volume;
-        const auto z = [&](std::size_t i) { return static_cast<long double>(vertices_[i].z); };
-        crossing.z = z(0) + b * (z(1) - z(0)) + c * (z(2) - z(0));
-        return crossing.w > 0;
+        const real w = glm::dot(v, q) / volume;
+        const lvec3 depths(vertices_[0].z, vertices_[1].z, vertices_[2].z);
+        const real z = depths[0] + b * (depths[1] - depths[0]) + c * (depths[2] - depths[0]);
+        return w > 0 && 0 <= z && z <= w;
     }
 
     ClipVertices vertices_;

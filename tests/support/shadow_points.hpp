@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -27,7 +26,6 @@ struct SeenPoint {
     ivec2 pixel;
     vec3 position, normal;  ///< World space; the normal is interpolated, and of length 1.
     Vertices vertices;      ///< Of its triangle.
-    std::size_t material;
 };
 
 /// What is seen in each pixel of which something is.
@@ -50,8 +48,7 @@ inline std::vector<SeenPoint> seen_points(const Scene& scene, const Camera& came
                 if (!depth.test_and_write(pixel, projected.depth.at(on_screen))) return;
                 const Barycentrics at = perspective_correct(setup, on_screen).here;
                 seen[pixel] = {pixel, interpolate(vertices, at),
-                               unit_or(interpolate(normals, at), normals[0]), vertices,
-                               triangle.material};
+                               unit_or(interpolate(normals, at), normals[0]), vertices};
             });
         });
     std::vector<SeenPoint> points;

@@ -45,6 +45,14 @@ inline std::vector<std::string> lessons() {
     return names;
 }
 
+inline std::string readme_of(const std::string& lesson) {
+    return read_text(root / "lessons" / lesson / "README.md");
+}
+
+inline std::string derivation_of(const std::string& lesson) {
+    return read_text(root / "docs/derivations" / (lesson + ".md"));
+}
+
 /// A lesson's tests: of 04_mvp, those in 04_mvp_test.cpp and in 04_mvp_clip_test.cpp.
 inline std::string tests_of(const std::string& lesson) {
     std::string tests;
@@ -166,8 +174,7 @@ inline std::string all_code() {
 inline std::set<std::string> numbered_equations() {
     std::set<std::string> numbers;
     for (const std::string& name : lessons())
-        for (const std::string& number :
-             all_between(read_text(root / "docs/derivations" / (name + ".md")), "\\tag{", "}"))
+        for (const std::string& number : all_between(derivation_of(name), "\\tag{", "}"))
             numbers.insert(number);
     return numbers;
 }

@@ -13,7 +13,6 @@ constexpr std::string_view not_in_a_page[] = {
     "ExhaustiveAllTrianglesOfAQuarterPixelLatticeAreExact",
     "RandomTrianglesOfAllSizesAreExact",
     "RandomTriangulationsCoverEachPixelOnce",
-    "FansWithFarVerticesAreHardForFloat",
     "Eq4_13_WhatIsLeftOfTrianglesOfAllSizes",
     "Eq8_9_HeightMapsAndNormalMapsAgree"};
 
