@@ -35,10 +35,6 @@ Image<u8vec3> side_by_side(const Image<u8vec4>& expected, const Image<u8vec4>& a
     return all;
 }
 
-std::filesystem::path actual_file_of(const std::string& drawing) {
-    return std::filesystem::path(RASTERBOOK_LESSONS) / (drawing + "_actual.png");
-}
-
 }  // namespace
 
 testing::AssertionResult equals_golden(const std::string& lesson, const std::string& golden,
