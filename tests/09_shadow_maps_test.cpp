@@ -592,6 +592,19 @@ TEST(ShadowMaps, Eq9_8_SlopesOfAKnownPlane) {
     EXPECT_NEAR(slope.y, 1.0 / 512, 1e-9) << where << ": down";
 }
 
+TEST(ShadowMaps, Eq9_8_APlaneHasTheSideThatIsSeenInWhateverOrderItsVerticesCome) {
+    const auto [a, b, c] = plane_in_cube(1, -2);
+    for (const Bias bias : {Bias::constant, Bias::slope, Bias::normal, Bias::plane}) {
+        const ShadowBias one = shadow_bias(map_of_cube(512), bias, 1, {a, b, c}, to_the_light),
+                         other = shadow_bias(map_of_cube(512), bias, 1, {a, c, b}, to_the_light);
+        SCOPED_TRACE(name_of(bias));
+        EXPECT_EQ(one.bias, other.bias);
+        EXPECT_EQ(one.slope, other.slope);
+        EXPECT_EQ(one.offset, other.offset);
+        EXPECT_EQ(one.offset_times_w, other.offset_times_w);
+    }
+}
+
 TEST(ShadowMaps, Eq9_9_TheBiasIsHalfATexelTimesTheSlopes) {
     // The worked example: 512 texels over 2, and the depth rises by 1/4 of x.
     const ShadowMap map = map_of_cube(512);
