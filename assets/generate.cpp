@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/generate/arbor.hpp"
 #include "assets/generate/brick.hpp"
 #include "assets/generate/figure.hpp"
 #include "assets/generate/graph_paper.hpp"
@@ -30,6 +31,7 @@
 #include "common/image/image_io.hpp"
 #include "common/image/input_error.hpp"
 #include "common/image/interruption.hpp"
+#include "common/image/png.hpp"
 
 namespace rasterbook::assets {
 namespace {
@@ -87,6 +89,7 @@ void write_scenes(const path& folder, const std::vector<Part>& teapot) {
     write_whole_file(folder / "textured.bin", textured.bytes());
     write_whole_file(folder / "bumpy.glb", bumpy_scene(teapot).glb());
     write_whole_file(folder / "toon.glb", toon_scene().glb());
+    write_whole_file(folder / "arbor.glb", arbor_scene().glb());
     write_whole_file(folder / "workshop.glb", workshop_scene(teapot).glb());
 }
 
@@ -113,6 +116,7 @@ void write_textures(const path& folder) {
     write_image(folder / "wood.png", wood_image());
     write_image(folder / "checker.png", paint(checker_texel));
     write_image(folder / "graph_paper.png", graph_paper_image());
+    write_whole_file(folder / "leaves.png", encode_png(leaves_image(), folder / "leaves.png"));
 }
 
 void generate(const path& folder) {

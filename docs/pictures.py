@@ -161,10 +161,10 @@ def write_webp(frames: list[Path], file: Path, ms: int, quality: int) -> None:
 
 def draw_turn(build: Path) -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    command = re.search(r"\./lessons/run 13 (--frames[^`\n]*)", readme)
+    command = re.search(r"\./lessons/run 14 (--frames[^`\n]*)", readme)
     with tempfile.TemporaryDirectory() as folder:
         options = [*shlex.split(command[1]), "--size", "640x360"]
-        subprocess.run([build / "13_simd", *options], check=True, cwd=folder)
+        subprocess.run([build / "14_simd", *options], check=True, cwd=folder)
         write_webp(sorted(Path(folder).iterdir()), ROOT / "docs/turn.webp", TURN_MS, 75)
 
 

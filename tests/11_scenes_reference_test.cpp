@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Tests for lesson 11: files that others have made, beside pictures that others have drawn.
+/// Tests for lesson 12: files that others have made, beside pictures that others have drawn.
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -51,7 +51,7 @@ int difference(u8vec4 a, u8vec4 b) {
 }  // namespace
 
 TEST(OthersPictures, HardCase_ABlenderFileLooksAsBlenderDrawsIt) {
-    look_up("Eq. 11.12");  // its sun has 2146 lux
+    look_up("Eq. 11.5");  // its sun has 2146 lux
     const Image<u8vec4> ours =
         drawn("still_life.glb", "320x180", {"--shadow-size", "4096", "--pcf", "1"});
     const Image<u8vec4> blenders = read_image(data / "still_life.png");
@@ -77,7 +77,7 @@ TEST(OthersPictures, HardCase_ABlenderFileLooksAsBlenderDrawsIt) {
 }
 
 TEST(OthersPictures, HardCase_AVrmFileLooksAsARayTracerDrawsIt) {
-    look_up("Eq. 11.6");
+    look_up("Eq. 7.17");
     const Image<u8vec4> ours = drawn("drawing.vrm", "160x90", {"--shadow-size", "4096"});
     const Image<u8vec4> traced = read_image(data / "drawing.png");
     ASSERT_EQ(ours.size(), traced.size());

@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "12_visibility_buffer/visibility_buffer.hpp"
+#include "13_visibility_buffer/visibility_buffer.hpp"
 #include "support/lesson_04.hpp"
 #include "support/lesson_05.hpp"
 #include "support/lesson_06.hpp"
@@ -22,8 +22,8 @@
 #include "support/lesson_08.hpp"
 #include "support/lesson_09.hpp"
 #include "support/lesson_10.hpp"
-#include "support/lesson_12.hpp"
 #include "support/lesson_13.hpp"
+#include "support/lesson_14.hpp"
 #include "support/lesson_process.hpp"
 #include "support/pictures.hpp"
 #include "support/projected.hpp"
@@ -257,7 +257,7 @@ TEST(Allocations, OfLesson10DependOnBatchesAndNotOnTriangles) {
         }
 }
 
-TEST(Allocations, OfLesson12sIdsAreMadeForTheLargestTileAlone) {
+TEST(Allocations, OfLesson13sIdsAreMadeForTheLargestTileAlone) {
     const std::vector<ProjectedTriangle> triangles(50, test::projected({}, ivec2(8)));
     // One row of sixteen, and a square tile of as many pixels.
     for (const Tile& tile : {Tile{{{0, 3}, {1023, 1023}}, 16}, Tile{{{256, 0}, {511, 255}}}}) {
@@ -297,13 +297,13 @@ TEST(Allocations, ThatFailInAnyThreadEndTheProgramInOneLine) {
     const auto expect_of_scenes = []<typename Options>(const char* name, const Options&,
                                                        auto render) {
         expect_one_line_for_each_failure(name, [&](int argc, char** argv) {
-            return rasterbook::run_scene_lesson<Options>(argc, argv, name, "", [&](auto&... of) {
+            return rasterbook::run_effects_lesson<Options>(argc, argv, name, "", [&](auto&... of) {
                 return watched([&] { return render(of...); });
             });
         });
     };
-    expect_of_scenes("12_visibility_buffer", lesson_12::Options(),
-                     [](auto&... of) { return lesson_12::render(of...); });
-    expect_of_scenes("13_simd", lesson_13::Options(),
+    expect_of_scenes("13_visibility_buffer", lesson_13::Options(),
                      [](auto&... of) { return lesson_13::render(of...); });
+    expect_of_scenes("14_simd", lesson_14::Options(),
+                     [](auto&... of) { return lesson_14::render(of...); });
 }

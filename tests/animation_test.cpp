@@ -163,7 +163,7 @@ TEST(ImageSequence, ItsPartsAreTheWhole) {
 }
 
 TEST(ImageSequence, AnyNumberAtOnceGivesTheSameFilesAndCounters) {
-    for (const char* lesson : {"04_mvp", "07_toon", "09_shadow_maps", "11_scenes", "13_simd"}) {
+    for (const char* lesson : {"04_mvp", "07_toon", "09_shadow_maps", "11_scenes", "14_simd"}) {
         const bool has_threads = lesson[0] == '1';
         const auto run = [&](const char* jobs, const char* threads) {
             const auto folder = fresh_folder("sequence");
@@ -259,8 +259,8 @@ TEST(ImageSequence, WhatIsSeenInOneFrameIsNoReasonToWarn) {
 TEST(ImageSequence, EachExplanationIsWhole) {
     const auto folder = fresh_folder("sequence");
     const ProcessResult result = run_program(
-        "11_scenes", {"--size", "8x8", "--frames", "64", "--jobs", "16", "--model", "unlit.glb",
-                      "--explain", "--stats", "--out", (folder / "turn_%d.bmp").string()});
+        "12_effects", {"--size", "8x8", "--frames", "64", "--jobs", "16", "--model", "unlit.glb",
+                       "--explain", "--stats", "--out", (folder / "turn_%d.bmp").string()});
     ASSERT_EQ(result.exit_status, 0) << result.err;
     const std::string text = result.out.substr(0, result.out.find("{\"lesson\""));
     const auto without_numbers = [](std::string part) {

@@ -86,7 +86,7 @@ class Turn(unittest.TestCase):
             frames += webp[at : at + 4] == b"ANMF"
             at += 8 + length + length % 2
         readme = (ROOT / "README.md").read_text(encoding="utf-8")
-        self.assertIn(f"./lessons/run 13 --frames {frames} ", readme)
+        self.assertIn(f"./lessons/run 14 --frames {frames} ", readme)
 
 
 if __name__ == "__main__":

@@ -46,8 +46,13 @@ TEST(Drift, EachEquationAndPictureBelongsToOneStepOfItsLesson) {
                     test_name.substr(2, test_name.find('_', test_name.find('_') + 1) - 2));
         }
         EXPECT_GT(tested.size(), 0u) << name;
-        for (const std::string& equation : tested)
-            EXPECT_EQ(equations.count(equation), 1u) << name << ", Eq. " << equation;
+        for (std::string equation : tested) {
+            const std::size_t of_steps = equations.count(equation);
+            std::ranges::replace(equation, '_', '.');
+            const bool is_beside =
+                pages_beside(name).find("\\tag{" + equation + "}") != std::string::npos;
+            EXPECT_EQ(of_steps, is_beside ? 0u : 1u) << name << ", Eq. " << equation;
+        }
         for (const std::string& picture : drawn)
             EXPECT_EQ(pictures.count(picture), 1u) << name << ", " << picture;
         for (const std::string& picture : pictures)

@@ -94,7 +94,8 @@ TEST(Drift, ALessonBuildsOnAnEarlierOne) {  // what ./lessons/run --diff compare
 TEST(Drift, EveryNumberedEquationIsCitedInCodeAndInATest) {
     std::set<std::string> numbered, in_tests;
     for (const std::string& name : lessons())
-        for (const std::string& number : all_between(derivation_of(name), "\\tag{", "}"))
+        for (const std::string& number :
+             all_between(derivation_of(name) + pages_beside(name), "\\tag{", "}"))
             EXPECT_TRUE(numbered.insert(number).second) << number << " is there twice";
     for (const auto& entry : fs::directory_iterator(root / "tests"))
         if (entry.path().extension() == ".cpp" && entry.path().filename() != "drift_test.cpp")

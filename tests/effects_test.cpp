@@ -17,8 +17,8 @@
 #include "support/lesson_07.hpp"
 #include "support/lesson_08.hpp"
 #include "support/lesson_09.hpp"
-#include "support/lesson_11.hpp"
-#include "support/lessons_12_and_13.hpp"
+#include "support/lesson_12.hpp"
+#include "support/lessons_13_and_14.hpp"
 #include "support/pictures.hpp"
 #include "support/squares.hpp"
 
@@ -60,38 +60,38 @@ Drawn drawn_scene(const Scene& scene, const lesson_09::Options& options) {
                  [](auto&... arguments) { return lesson_09::render(arguments...); });
 }
 
-/// Lesson 13, of which lessons 11 and 12 take what they know.
-lesson_13::Options small_scene() {
-    lesson_13::Options options = small(lesson_13::Options());
+/// Lesson 14, of which lessons 12 and 13 take what they know.
+lesson_14::Options small_scene() {
+    lesson_14::Options options = small(lesson_14::Options());
     options.size = {240, 240}, options.shadow.size = 256, options.threads.tile = 32;
     return options;
 }
 
-Drawn drawn_scene(const Scene& scene, const lesson_11::Options& options) {
+Drawn drawn_scene(const Scene& scene, const lesson_12::Options& options) {
     ThreadPool pool(2);
     StepClock clock;
-    return drawn(options, make_scene_assets(scene, options), [&](const auto& of, const auto& with) {
-        return lesson_11::render(of, with, pool, clock);
-    });
+    return drawn(
+        options, load_planned_scene(scene, options),
+        [&](const auto& of, const auto& with) { return lesson_12::render(of, with, pool, clock); });
 }
 
-/// Calls check(drawn) for a scene as lessons 11 and 12 draw it, and lesson 13 in each width.
+/// Calls check(drawn) for a scene as lessons 12 and 13 draw it, and lesson 14 in each width.
 template <typename Check>
 void for_each_lesson(const Scene& scene, const Check& check) {
-    lesson_13::Options options = small_scene();
-    const SceneAssets assets = make_scene_assets(scene, options);
+    lesson_14::Options options = small_scene();
+    const PlannedScene assets = load_planned_scene(scene, options);
     ThreadPool pool(2);
-    const Drawn by_11 = drawn_scene(scene, lesson_11::Options(options));
+    const Drawn by_11 = drawn_scene(scene, lesson_12::Options(options));
     const auto checked = [&](const std::string& lesson, const Drawn& one) {
         SCOPED_TRACE("lesson " + lesson);
         check(one);
-        EXPECT_TRUE(have_the_same_bits(one.picture, by_11.picture)) << "as lesson 11 draws it";
+        EXPECT_TRUE(have_the_same_bits(one.picture, by_11.picture)) << "as lesson 12 draws it";
     };
     checked("11", by_11);
-    checked("12", drawn_by_12(options, assets, pool));
+    checked("12", drawn_by_13(options, assets, pool));
     for (const int width : {1, 4, 8, 16}) {
         options.wide.width = width;
-        checked("13 of width " + std::to_string(width), drawn_by_13(options, assets, pool));
+        checked("13 of width " + std::to_string(width), drawn_by_14(options, assets, pool));
     }
 }
 
@@ -201,7 +201,7 @@ TEST(Effects, ThatAreNotCalledForTakeNoWorkAndWouldChangeNothing) {
     const Scene solid = loaded("textured.gltf");
     const Scene masked =
         with_materials(solid, [](Material& m) { m.alpha = AlphaMode::mask, m.alpha_cutoff = 0; });
-    const lesson_11::Options options(small_scene());
+    const lesson_12::Options options(small_scene());
     expect_no_work("holes", drawn_scene(solid, options), drawn_scene(masked, options),
                    {alpha_tested_fragments, alpha_tested_texels});
 }
@@ -257,7 +257,7 @@ TEST(Effects, ASpotlightHasMapsOnlyInFacesThatItsConeReaches) {
             room.add(mesh_of(corners, {{0, 1, 2}, {0, 2, 3}}), vec3(1)).illumination = 1;
         }
         room.scene.lights = {spotlight(vec3(0), glm::normalize(direction), angle_degrees)};
-        return drawn_scene(room.scene, lesson_11::Options(small_scene()))
+        return drawn_scene(room.scene, lesson_12::Options(small_scene()))
             .count(Counter::shadow_passes);
     };
     EXPECT_EQ(passes({1, 0, 0}, 80), 5u) << "all but the face behind";

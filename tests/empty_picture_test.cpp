@@ -23,22 +23,22 @@ TEST(EmptyPicture, TheWarningSaysWhyNothingIsToBeSeen) {
     for (const auto& [programs, obj, options, why] :
          {Empty{"02_triangle_fill 03_z_buffer", triangle + "f 3 2 1\n", "",
                 "1 triangle seen from behind (named clockwise?) or without area"},
-          {"04_mvp 06_phong 10_threading 13_simd", triangle + "f 3 2 1\nf 1 3 2\n", "",
+          {"04_mvp 06_phong 10_threading 14_simd", triangle + "f 3 2 1\nf 1 3 2\n", "",
            "2 triangles seen from behind (named clockwise?)"},
-          {"04_mvp 10_threading 13_simd", triangle + "f 1 2 1\nf 3 2 1\n", "",
+          {"04_mvp 10_threading 14_simd", triangle + "f 1 2 1\nf 3 2 1\n", "",
            "1 triangle seen from behind (named clockwise?), 1 triangle without area on the screen"},
-          {"06_phong 11_scenes 13_simd", "v -1 0 1\nv 1 0 1\nv 0 0 -1\nf 1 2 3\n",
+          {"06_phong 11_scenes 14_simd", "v -1 0 1\nv 1 0 1\nv 0 0 -1\nf 1 2 3\n",
            "--pitch 0 --two-sided", "1 triangle without area on the screen"},
-          {"04_mvp 12_visibility_buffer", "v -1 0 0\nv 1 0 0\nv 1 .001 0\nf 1 2 3\n", "--pitch 0",
+          {"04_mvp 13_visibility_buffer", "v -1 0 0\nv 1 0 0\nv 1 .001 0\nf 1 2 3\n", "--pitch 0",
            "its triangles cover no pixel's centre"},
-          {"04_mvp 11_scenes 13_simd", "v -8e36 -8e36 0\nv 8e36 -8e36 0\nv 0 8e36 0\nf 1 2 3\n",
+          {"04_mvp 11_scenes 14_simd", "v -8e36 -8e36 0\nv 8e36 -8e36 0\nv 0 8e36 0\nf 1 2 3\n",
            "--distance 90", "1 triangle too large or too far away for single precision"},
-          {"11_scenes 12_visibility_buffer 13_simd",
+          {"11_scenes 13_visibility_buffer 14_simd",
            "mtllib clear.mtl\nusemtl a\n" + triangle + "f 1 2 3\n", "",
            "wholly transparent (material \"a\": opacity 0)"},
           // Its corners lie on the triangles' side: they leave pieces without area, which are
           // culled.
-          {"11_scenes 12_visibility_buffer 13_simd",
+          {"11_scenes 13_visibility_buffer 14_simd",
            "mtllib clear.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n",
            "--yaw 0 --pitch 0 --distance 2",
            "seen: 4096 fragments wholly transparent (material \"a\": opacity 0)"}}) {
@@ -85,7 +85,7 @@ TEST(EmptyPicture, TheWarningSaysWhyNothingOfAGltfFileIsToBeSeen) {
         made.document["nodes"][1]["camera"] = 0;
         made.document["scenes"][0]["nodes"] = {0, 1};
         made.write(folder / "a.gltf");
-        for (const char* program : {"11_scenes", "12_visibility_buffer", "13_simd"}) {
+        for (const char* program : {"11_scenes", "13_visibility_buffer", "14_simd"}) {
             const ProcessResult result =
                 run_program(program, {"--size", "64x48", "--model", (folder / "a.gltf").string(),
                                       "--out", (folder / "a.png").string()});

@@ -168,7 +168,8 @@ TEST(FarScenes, NodesFarAwayAndThoseThatCancelGiveTheSamePicture) {
     const auto picture = [&](const char* lesson, const std::vector<json>& nodes) {
         return drawn(lesson, shape.gltf(nodes).write(folder / "a.gltf"));
     };
-    for (const char* lesson : {"06_phong", "11_scenes", "12_visibility_buffer", "13_simd"}) {
+    for (const char* lesson :
+         {"06_phong", "11_scenes", "12_effects", "13_visibility_buffer", "14_simd"}) {
         const std::string expected = picture(lesson, {moved({})});
         const std::string expected_turned = picture(lesson, {turned});
         for (const Whole3 offset : offsets) {
@@ -216,8 +217,8 @@ TEST(FarScenes, ProbeAndExplainSpeakOfTheWorld) {
             << lesson << said.out << said.err;
     }
     const ProcessResult said =
-        run_program("11_scenes", {"--size", "8x8", "--explain", "--model", file.string(), "--out",
-                                  (folder / "a.png").string()});
+        run_program("12_effects", {"--size", "8x8", "--explain", "--model", file.string(), "--out",
+                                   (folder / "a.png").string()});
     EXPECT_NE(said.out.find("relative to 500000.000 0.000 -4600000.000"), std::string::npos)
         << said.out << said.err;
 }

@@ -95,7 +95,7 @@ TEST(Faults, HardCase_LimitOfAFilesSizeIsAnErrorThatLeavesTheOldPicture) {
 
 TEST(Faults, HardCase_OutputThatCannotBeWrittenIsAnErrorAfterThePicture) {
     const fs::path folder = fresh_folder("faults");
-    const Words draw{program("11_scenes"), "--model", "unlit.glb", "--size", "64x48"};
+    const Words draw{program("12_effects"), "--model", "unlit.glb", "--size", "64x48"};
     in_shell("exec \"$@\"", draw + Words{"--out", folder / "a.bmp"});
     const std::string whole = read_text(folder / "a.bmp");
     for (const std::string& command : {std::string("exec \"$@\" >&-"), into_closed_pipe,
@@ -122,7 +122,7 @@ TEST(Faults, HardCase_OutputThatWasLostIsAnErrorEvenIfTheRestIsWritten) {
     while (write(pipe_ends[1], page.data(), page.size()) > 0) {}
     StartedProgram sequence(
         "/bin/sh", Words{"-c", "exec \"$@\" >&" + std::to_string(pipe_ends[1]), "sh",
-                         program("11_scenes"), "--model", "unlit.glb", "--size", "64x48", "--jobs",
+                         program("12_effects"), "--model", "unlit.glb", "--size", "64x48", "--jobs",
                          "1", "--explain", "--frames", "48", "--out", folder / "turn_%04d.bmp"});
     while (sequence.is_running() && !fs::exists(folder / "turn_0040.bmp")) {}
     std::string read_again(1 << 20, ' ');
@@ -158,10 +158,10 @@ TEST(Faults, HardCase_NoFileTakesThePlaceOfAClosedStream) {
 
 TEST(Faults, HardCase_OutputThatCannotBeWrittenEndsNoSequenceBeforeItsLastFrame) {
     const Words options{"--model", "unlit.glb", "--size", "200x100", "--jobs", "8", "--explain"};
-    const Files whole = whole_frames("0-15/48", options, "11_scenes");
+    const Files whole = whole_frames("0-15/48", options, "12_effects");
     for (const std::string& command : {std::string("exec \"$@\" >&-"), into_closed_pipe}) {
         const fs::path folder = fresh_folder("faults");
-        const Words draw{program("11_scenes"), "--frames", "0-15/48", "--out",
+        const Words draw{program("12_effects"), "--frames", "0-15/48", "--out",
                          folder / "turn_%04d.bmp"};
         expect_error(in_shell(command, draw + options, folder / "fifo"), 1, output_failed);
         EXPECT_EQ(differing(files_in(folder), whole), "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Functions of a number type, beside those of the standard library in double and long double: how
 // near they are, and what they make of special numbers. That many floats side by side get the bits
-// of each alone is tested with lesson 13's.
+// of each alone is tested with lesson 14's.
 #include "common/math/functions.hpp"
 
 #include <algorithm>

@@ -74,8 +74,8 @@ BAD_ADDRESSES = {
     "lesson_05.html#pitch=steep": "'steep' is not a number from -90 to 90",
     "lesson_05.html#colour=red": "colour=red, which this page does not have",
     "lesson_05.html#model=../secret.obj": "which this page does not have",
-    "lesson_11.html#camera=nobody": "there is no camera 'nobody'",
-    "lesson_11.html#samples=64&shadow-size=8192&size=1920x1080": "not enough memory",
+    "lesson_12.html#camera=nobody": "there is no camera 'nobody'",
+    "lesson_12.html#samples=64&shadow-size=8192&size=1920x1080": "not enough memory",
 }
 
 
@@ -260,7 +260,7 @@ def check_keys(page: LivePage, address: str) -> list[str]:
 
 def check_quality(page: LivePage, address: str, build: Path) -> list[str]:
     """An option that says what the lesson does anyway still counts more than --quality."""
-    page.open(f"{address}/lesson_11.html#size=480x270&quality=fast&filter=trilinear")
+    page.open(f"{address}/lesson_12.html#size=480x270&quality=fast&filter=trilinear")
     command = page.all(".live .commands code")[0].text.split()[2:]
     if command != "--size 480x270 --quality fast --filter trilinear".split():
         return [f"shows the options {' '.join(command)}"]
@@ -322,7 +322,7 @@ def check_failures(page: LivePage, address: str) -> list[str]:
         added = page.browser.execute_cdp_cmd(
             "Page.addScriptToEvaluateOnNewDocument", {"source": script}
         )
-        page.open(f"{address}/lesson_13.html")
+        page.open(f"{address}/lesson_14.html")
         page.browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
         if sentence not in page.status:
             problems.append(f"without {what}: says '{page.status}'")

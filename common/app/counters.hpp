@@ -88,12 +88,12 @@ inline void count(Counter counter, std::uint64_t times = 1) {
     thread_counters.values[static_cast<std::size_t>(counter)] += times;
 }
 
-/// How many fragments this thread shades at once; in lesson 13, the lanes that stand for one.
+/// How many fragments this thread shades at once; in lesson 14, the lanes that stand for one.
 inline thread_local constinit std::uint64_t fragments_at_once = 1;
 
 /// Counts what is done to each fragment of an F.
 ///
-/// @tparam F  float for one fragment; for those that are shaded at once, lesson 13's Floats.
+/// @tparam F  float for one fragment; for those that are shaded at once, lesson 14's Floats.
 template <typename F>
 void count_each(Counter counter) {
     count(counter, std::is_same_v<F, float> ? 1 : fragments_at_once);

@@ -134,33 +134,45 @@ void write_bytes(png_structp png, png_bytep source, std::size_t count) {
     if (!append(writer.bytes, {source, count})) png_error(png, "out of memory");
 }
 
-/// @param pixels  Three bytes each, the top row first.
-bool write_rows(Writer& writer, ivec2 size, png_const_bytep pixels) {
+/// @param channels  Bytes of a pixel: 3, or 4 with opacity.
+/// @param pixels    The top row first.
+bool write_rows(Writer& writer, ivec2 size, std::size_t channels, png_const_bytep pixels) {
     if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
     png_set_write_fn(writer.png, &writer, write_bytes, nullptr);
     png_set_user_limits(writer.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(size.x),
-                 static_cast<png_uint_32>(size.y), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 static_cast<png_uint_32>(size.y), 8,
+                 channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(writer.png, 1);
     png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_write_info(writer.png, writer.info);
     for (int y = 0; y < size.y; ++y)
-        png_write_row(writer.png, pixels + std::size_t{3} * static_cast<std::size_t>(size.x) *
+        png_write_row(writer.png, pixels + channels * static_cast<std::size_t>(size.x) *
                                                static_cast<std::size_t>(y));
     png_write_end(writer.png, nullptr);
     return true;
+}
+
+template <typename Pixel>
+Bytes encoded(const Image<Pixel>& pixels, const std::filesystem::path& file) {
+    Writer writer;
+    if (writer.info == nullptr) throw InputError(file, "cannot be written: out of memory");
+    if (!write_rows(writer, pixels.size(), sizeof(Pixel), &pixels.pixels().data()->r))
+        throw InputError(file, std::string("cannot be written: ") + writer.failure.text.data());
+    return std::move(writer.bytes);
 }
 
 }  // namespace
 
 Bytes encode_png(const Image<u8vec3>& pixels, const std::filesystem::path& file) {
     static_assert(sizeof(u8vec3) == 3);
-    Writer writer;
-    if (writer.info == nullptr) throw InputError(file, "cannot be written: out of memory");
-    if (!write_rows(writer, pixels.size(), &pixels.pixels().data()->r))
-        throw InputError(file, std::string("cannot be written: ") + writer.failure.text.data());
-    return std::move(writer.bytes);
+    return encoded(pixels, file);
+}
+
+Bytes encode_png(const Image<u8vec4>& pixels, const std::filesystem::path& file) {
+    static_assert(sizeof(u8vec4) == 4);
+    return encoded(pixels, file);
 }
 
 Image<u8vec4> decode_png(ByteView bytes, const std::filesystem::path& file,

@@ -14,6 +14,8 @@ namespace rasterbook {
 /// @param file    Named in the error.
 /// @throws InputError  When there is no memory for it.
 Bytes encode_png(const Image<u8vec3>& pixels, const std::filesystem::path& file);
+Bytes encode_png(const Image<u8vec4>& pixels,
+                 const std::filesystem::path& file);  ///< With opacity.
 
 /// @param bytes  A whole file that begins with PNG's signature.
 /// @param file   Named in the error.

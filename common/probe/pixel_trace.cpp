@@ -110,7 +110,7 @@ void PixelTrace::compare_depth(const float& nearest, float depth) {
 void PixelTrace::end_as(std::string fate) { triangles_[current_].fate = std::move(fate); }
 
 void PixelTrace::blend(float opacity, vec3 color) {
-    end_as("blended over what lies behind, opacity " + words(opacity) + " (Eq. 11.7)");
+    end_as("blended over what lies behind, opacity " + words(opacity) + " (Eq. 11.6)");
     triangles_[current_].blended = vec4(color, opacity);
 }
 
@@ -206,7 +206,7 @@ std::string PixelTrace::blending(std::size_t end) const {
         return a->depth < b->depth || (a->depth == b->depth && a > b);
     });
     std::string text = "\nseen through, the nearest: " + blended.back()->name + '\n' +
-                       blended.back()->lines + "\nblended from back to front (Eq. 11.8 and 11.9)\n";
+                       blended.back()->lines + "\nblended from back to front (Eq. 11.7 and 11.8)\n";
     for (const TriangleInPixel* of : blended)
         text += line_of("over what is behind", words(vec3(*of->blended)) + ", opacity " +
                                                    words(of->blended->a) + ", of " + of->name);

@@ -238,7 +238,7 @@ inline void trace_hole(float opacity, float cutoff) {
     if constexpr (has_probe)
         if (is_traced())
             pixel_trace->end_as("a hole: alpha " + words(opacity) + " is below " + words(cutoff) +
-                                " (Eq. 11.7)");
+                                " (Eq. 11.6)");
 }
 
 /// Notes that a fragment's depth is compared with that in a depth buffer.

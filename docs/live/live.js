@@ -21,8 +21,9 @@ const inherited = {
   "08": "frame orthonormal handedness normal-map green normal-format channels bits",
   "09": "shadow-size bias pcf",
   10: "threads split tile show-threads",
-  11: "quality camera explain",
-  12: "show max-ids shadow-part",
+  11: "quality camera",
+  12: "explain",
+  13: "show max-ids shadow-part",
 };
 const onlyHow = "It decides how the picture is computed, not what it shows.";
 const whyNoChange = {

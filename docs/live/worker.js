@@ -55,7 +55,7 @@ const tasks = {
 function inWords(error) {
   if (error instanceof LessonError) return error.message;
   if (error instanceof WebAssembly.CompileError)
-    return "This browser does not know all instructions of this program: lesson 13 needs SIMD of 128 bits.";
+    return "This browser does not know all instructions of this program: lesson 14 needs SIMD of 128 bits.";
   const name = functionOf(error);
   if (name?.endsWith("abort") && !error.said) return "The program gave up, most likely since there was not enough memory.";
   const where = name ? ` in ${name}` : "";

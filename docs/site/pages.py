@@ -53,6 +53,7 @@ OTHERS = [
     Page("glossary", "Glossary", ROOT / "docs/glossary.md"),
     Page("conventions", "Conventions", ROOT / "docs/conventions.md"),
     Page("gltf", "glTF scenes", ROOT / "docs/gltf.md"),
+    Page("toon_materials", "Toon materials", ROOT / "lessons/07_toon/toon_materials.md"),
     Page("working_on_your_own", "Working on your own", ROOT / "docs/working_on_your_own.md"),
     Page("where_next", "Where to go from here", ROOT / "docs/where_next.md"),
     Page("animation", "Animation", ROOT / "docs/animation.md"),

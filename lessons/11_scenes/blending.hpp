@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "10_threading/split.hpp"
+#include "common/app/counters.hpp"
 #include "common/image/image.hpp"
 #include "common/math/types.hpp"
+#include "common/probe/pixel_trace.hpp"
 
 namespace rasterbook {
 
-/// The alpha test: whether a surface with holes is there (Eq. 11.7).
+/// The alpha test: whether a surface with holes is there (Eq. 11.6).
 ///
 /// @param opacity  Any number; of NaN, there is a hole.
 template <typename F>
@@ -24,7 +26,7 @@ auto passes_alpha_test(F opacity, float cutoff) {
     return opacity >= F(cutoff);
 }
 
-/// A colour over what lies behind it (Eq. 11.8): exactly itself with an opacity of 1, exactly what
+/// A colour over what lies behind it (Eq. 11.7): exactly itself with an opacity of 1, exactly what
 /// lies behind with one of 0.
 ///
 /// @param opacity      0 to 1.
@@ -47,12 +49,16 @@ struct TransparentFragment {
 /// have no order as a whole.
 class TransparentFragments {
   public:
-    void add(const TransparentFragment& fragment) { fragments_.push_back(fragment); }
+    void add(const TransparentFragment& fragment) {
+        count(Counter::blended_fragments);
+        trace_blended(fragment.opacity, fragment.color);
+        fragments_.push_back(fragment);
+    }
 
     bool empty() const { return fragments_.empty(); }
     const std::vector<TransparentFragment>& fragments() const { return fragments_; }
 
-    /// Blends all of them over the picture (Eq. 11.9). Of two fragments at the same depth, the
+    /// Blends all of them over the picture (Eq. 11.8). Of two fragments at the same depth, the
     /// one that was added first lies on top: it is the first that stays in the depth buffer, too.
     void blend_over(Image<vec3>& color) {
         order_.resize(fragments_.size());

@@ -3,8 +3,7 @@
 
 namespace rasterbook {
 
-ShadowMaps draw_shadow_maps(Workers& pool, const SceneRendererOptions& options,
-                            const SceneAssets& assets) {
+ShadowMaps draw_shadow_maps(Workers& pool, const SceneOptions& options, const SceneAssets& assets) {
     const Tiling tiling = options.threads.tiling_of(ivec2(options.shadow.size), pool.size());
     return draw_shadow_maps(options.shadow, shadow_scene(assets, options.shading.all_effects),
                             [&](ShadowMap& map, bool is_drawn) {

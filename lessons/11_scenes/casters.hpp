@@ -10,10 +10,7 @@
 #include "05_textures/interpolation.hpp"
 #include "09_shadow_maps/shadows.hpp"
 #include "10_threading/threaded_shadows.hpp"
-#include "11_scenes/blending.hpp"
-#include "11_scenes/scene_assets.hpp"
-#include "11_scenes/scene_options.hpp"
-#include "11_scenes/shaders.hpp"
+#include "11_scenes/opacity.hpp"
 
 namespace rasterbook {
 
@@ -28,11 +25,11 @@ struct Casters {
         : triangles(std::move(some)), assets(of), filter(by) {}
 
     bool has_holes(const ProjectedTriangle& caster) const {
-        return assets && assets->plan.materials[caster.triangle.material][Effect::mask];
+        return assets && assets->effects[caster.triangle.material][Effect::mask];
     }
 };
 
-/// Draws a caster's depths into a tile of a map, but for its holes (Eq. 11.7).
+/// Draws a caster's depths into a tile of a map, but for its holes (Eq. 11.6).
 inline void draw_caster_with_holes(ShadowMap& map, const Casters& casters,
                                    const ProjectedTriangle& caster, const Tile& tile) {
     const auto& [surface, setup, colors] = alpha_inputs(*casters.assets, caster);
@@ -62,14 +59,7 @@ inline void draw_tile(ShadowMap& map, const Casters& casters, const Tiling& tili
     });
 }
 
-/// A scene as shadow maps see it, with all of its lights.
-inline ShadowScene shadow_scene(const SceneAssets& assets, bool all_effects) {
-    return {assets.scene, assets.shadow_bounds, assets.lit_by.lights, all_effects,
-            assets.lit_by.casts};
-}
-
 /// The shadow maps of all lights of a scene.
-ShadowMaps draw_shadow_maps(Workers& pool, const SceneRendererOptions& options,
-                            const SceneAssets& assets);
+ShadowMaps draw_shadow_maps(Workers& pool, const SceneOptions& options, const SceneAssets& assets);
 
 }  // namespace rasterbook

@@ -22,7 +22,7 @@ constexpr float lux_of_white = std::numbers::pi_v<float>;
 /// as large as this share of the scene's radius. A spotlight is, too.
 constexpr float point_light_size = 1.0f / 128;
 
-/// A file's light in units of the lessons' (Eq. 11.1 and 11.2). Its range, a hint, is ignored.
+/// A file's light in units of the lessons' (Eq. 11.3 and 11.4). Its range, a hint, is ignored.
 ///
 /// @param scene_radius  World space, > 0; any float. Farther from a point light than 10 times its
 ///                      size, less than 1% of its light is missing.
@@ -31,20 +31,20 @@ inline Light light_of(const SceneLight& from, float scene_radius) {
     Light light{is_directional                         ? LightKind::directional
                 : from.kind == SceneLight::Kind::point ? LightKind::point
                                                        : LightKind::spot,
-                from.color / lux_of_white,  // Eq. 11.1
+                from.color / lux_of_white,  // Eq. 11.3
                 is_directional ? -from.direction_world : from.direction_world};
     light.position_world = from.position_world;
     light.cos_inner = from.cos_inner, light.cos_outer = from.cos_outer;
     if (is_directional) return light;
     constexpr float least = 1e-10f, most = 1e10f;  // whose squares are far from the ends of float
     light.half_distance = std::clamp(point_light_size * scene_radius, least, most);
-    light.color /= light.half_distance * light.half_distance;  // Eq. 11.2
+    light.color /= light.half_distance * light.half_distance;  // Eq. 11.4
     for (int i = 0; i < 3; ++i)
         light.color[i] = std::min(light.color[i], std::numeric_limits<float>::max());
     return light;
 }
 
-/// What a file's lights are multiplied by before they are drawn with (Eq. 11.12): 1, if none of
+/// What a file's lights are multiplied by before they are drawn with (Eq. 11.5): 1, if none of
 /// them is more than twice as bright as white at the scene's middle; else so much that the
 /// brightest is white there. A point light or spotlight nearer than one radius of the scene counts
 /// as one radius away.

@@ -4,13 +4,6 @@
 namespace rasterbook {
 
 void SceneOptions::declare(OptionParser& parser) {
-    parser.text("--camera", camera, "NAME|NUMBER|orbit|fit",
-                "One of the file's cameras, or our own [the first one, if no orbit is asked for]");
-    parser.flag("--explain", explain,
-                "Say what is drawn, what is left out and why, and how long it takes");
-}
-
-void SceneRendererOptions::declare(OptionParser& parser) {
     const auto choose = [this](const Quality& quality) {
         texture.filter = quality.filter;
         shadow.size = quality.shadow_size;
@@ -24,7 +17,9 @@ void SceneRendererOptions::declare(OptionParser& parser) {
                    {"balanced", [=] { choose(balanced_quality); }},
                    {"exact", [=] { choose(exact_quality); }}},
                   "Sets --filter, --shadow-size, --pcf and --samples together");
-    declare_all(parser, scene, texture, shading, normal_map, shadow, threads);
+    parser.text("--camera", camera, "NAME|NUMBER|orbit|fit",
+                "One of the file's cameras, or our own [the first one, if no orbit is asked for]");
+    ThreadedSceneOptions::declare(parser);
 }
 
 }  // namespace rasterbook

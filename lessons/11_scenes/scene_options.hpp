@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a scene can be asked for: `--quality`, `--camera` and `--explain`, and the options of the
-/// earlier lessons.
+/// What a scene can be asked for: `--quality`, `--camera`, and the options of lesson 10.
 #pragma once
 
 #include <string>
 
 #include "05_textures/texture_options.hpp"
-#include "06_phong/light_options.hpp"
-#include "08_normal_maps/normal_map_options.hpp"
-#include "09_shadow_maps/shadow_options.hpp"
 #include "10_threading/thread_options.hpp"
-#include "common/app/lesson_app.hpp"
 
 namespace rasterbook {
 
@@ -26,27 +21,10 @@ constexpr Quality fast_quality{Filter::bilinear, 1024, 3, 1};
 constexpr Quality balanced_quality{Filter::trilinear, 2048, 3, 1};
 constexpr Quality exact_quality{Filter::trilinear, 4096, 3, 4};
 
-/// Options that only scenes have.
-struct SceneOptions {
+struct SceneOptions : ThreadedSceneOptions {
     std::string camera;
-    bool explain = false;
 
-    void declare(OptionParser& parser);
-};
-
-/// All that this lesson's program can be asked for.
-struct SceneRendererOptions : LessonOptions {
-    Orbit orbit;
-    bool show_depth = false;
-    SceneOptions scene;
-    TextureOptions texture;
-    LightOptions shading{.key_light = LightKind::directional};
-    NormalMapOptions normal_map;
-    ShadowOptions shadow;
-    ThreadOptions threads;
-
-    SceneRendererOptions() { model = "bumpy.glb"; }
-
+    SceneOptions() { model = "arbor.glb"; }
     void declare(OptionParser& parser);
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What accuracy costs: the choices of several lessons on one scale, in one frame of lesson 13.
+/// What accuracy costs: the choices of several lessons on one scale, in one frame of lesson 14.
 ///
 /// Each choice is raised alone from the cheapest frame, and lowered alone from the most exact one;
 /// the choices that take most of the time are tried together, in all combinations. Writes JSON, of

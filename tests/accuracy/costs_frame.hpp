@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A frame of lesson 13 with a place on each lesson's knob, for costs.cpp.
+/// A frame of lesson 14 with a place on each lesson's knob, for costs.cpp.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "10_threading/thread_pool.hpp"
-#include "11_scenes/scene_assets.hpp"
-#include "support/lesson_13.hpp"
+#include "12_effects/planned_scene.hpp"
+#include "support/lesson_14.hpp"
 #include "support/pictures.hpp"
 
 namespace rasterbook::test {
@@ -19,7 +19,7 @@ namespace rasterbook::test {
 namespace {  // as the lesson's options are
 
 /// A place on each knob.
-struct Settings : lesson_13::Options {
+struct Settings : lesson_14::Options {
     bool has_shadows = true;
     bool is_moved = false;  ///< The camera: by half a pixel or so.
 };
@@ -28,14 +28,14 @@ struct Settings : lesson_13::Options {
 constexpr vec2 way_radians(0.00045f, 0.0003f);
 
 /// The scene as settings have it. Those that need no other scene share one.
-const SceneAssets& assets_of(const Settings& settings) {
-    static std::map<std::tuple<Decoding, bool, bool>, SceneAssets> known;
+const PlannedScene& assets_of(const Settings& settings) {
+    static std::map<std::tuple<Decoding, bool, bool>, PlannedScene> known;
     const std::tuple key{settings.texture.decoding, settings.has_shadows, settings.is_moved};
     if (const auto same = known.find(key); same != known.end()) return same->second;
-    SceneAssets assets = make_scene_assets(loaded(settings.model.string()), settings);
+    PlannedScene assets = load_planned_scene(loaded(settings.model.string()), settings);
     if (!settings.has_shadows) {
         assets.lit_by.casts.fill(false);
-        for (MaterialPlan& plan : assets.plan.materials) plan.effects.set(Effect::shadow, false);
+        for (EffectMask& effects : assets.effects) effects.set(Effect::shadow, false);
     }
     if (settings.is_moved)
         for (SceneCamera& camera : assets.scene.cameras) {
@@ -50,7 +50,7 @@ const SceneAssets& assets_of(const Settings& settings) {
 Image<vec3> picture_of(Settings settings, ThreadPool& pool) {
     settings.size *= settings.samples_per_side;
     StepClock clock;
-    return averaged(lesson_13::render(settings, assets_of(settings), pool, clock),
+    return averaged(lesson_14::render(settings, assets_of(settings), pool, clock),
                     settings.samples_per_side);
 }
 

@@ -10,8 +10,8 @@
 #endif
 
 #include "05_textures/interpolation.hpp"
-#include "13_simd/simd.hpp"
-#include "13_simd/wide_shadows.hpp"
+#include "14_simd/simd.hpp"
+#include "14_simd/wide_shadows.hpp"
 #include "common/math/functions.hpp"
 
 #define ESTIMATES 1
@@ -74,7 +74,7 @@ inline Vec3<Wide> unit_or(Vec3<Wide> v, Vec3<Wide> fallback) {
 }  // namespace rasterbook
 
 // Behind the functions that it is to find.
-#include "13_simd/wide_shading.hpp"
+#include "14_simd/wide_shading.hpp"
 
 namespace rasterbook::test {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 13's drawing, 16 pixels at a time, with other arithmetic. Each is a shared library of
+/// Lesson 14's drawing, 16 pixels at a time, with other arithmetic. Each is a shared library of
 /// simd_arithmetic.cpp, so that none of its functions takes the place of the course's.
 #pragma once
 
-#include "13_simd/width.hpp"
+#include "14_simd/width.hpp"
 
 namespace rasterbook::test {
 

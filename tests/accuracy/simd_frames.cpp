@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lesson 13's render(), compiled once, with all arithmetic that it may be given.
+// Lesson 14's render(), compiled once, with all arithmetic that it may be given.
 #include "accuracy/simd_frames.hpp"
 
 rasterbook::WideDrawing rasterbook::test::drawing_of_arithmetic(int width_or_arithmetic) {
@@ -15,11 +15,11 @@ rasterbook::WideDrawing rasterbook::test::drawing_of_arithmetic(int width_or_ari
     }
 }
 
-namespace lesson_13 {
+namespace lesson_14 {
 
-Image<vec3> render(const Options& options, const SceneAssets& assets, Workers& pool,
+Image<vec3> render(const Options& options, const PlannedScene& assets, Workers& pool,
                    StepClock& clock) {
     return render_here(options, assets, pool, clock);
 }
 
-}  // namespace lesson_13
+}  // namespace lesson_14

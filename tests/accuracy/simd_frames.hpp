@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Frames of lessons 11, 12 and 13 as their programs draw them, on one thread.
+/// Frames of lessons 12, 13 and 14 as their programs draw them, on one thread.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 
-#include "13_simd/width.hpp"
+#include "14_simd/width.hpp"
 #include "accuracy/simd_arithmetic.hpp"
 #include "accuracy/visibility_frames.hpp"
 
@@ -20,20 +20,20 @@ WideDrawing drawing_of_arithmetic(int width_or_arithmetic);
 
 }  // namespace rasterbook::test
 
-// Lesson 13's render(), which takes these for widths.
+// Lesson 14's render(), which takes these for widths.
 #define drawing_of_width rasterbook::test::drawing_of_arithmetic
-#include "support/lesson_13.hpp"
+#include "support/lesson_14.hpp"
 #undef drawing_of_width
 
 namespace rasterbook::test {
 
-inline Image<vec3> frame(const lesson_13::Options& options, const SceneAssets& assets) {
+inline Image<vec3> frame(const lesson_14::Options& options, const PlannedScene& assets) {
     StepClock clock;
-    return lesson_13::render(options, assets, one_thread(), clock);
+    return lesson_14::render(options, assets, one_thread(), clock);
 }
 
 /// @param width  Or an Arithmetic.
-inline lesson_13::Options of_width(int width, lesson_13::Options options = {}) {
+inline lesson_14::Options of_width(int width, lesson_14::Options options = {}) {
     options.wide.width = width;
     return options;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Frames of lessons 11 and 12 on one thread, to be counted, compared and timed.
+/// Frames of lessons 12 and 13 on one thread, to be counted, compared and timed.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@
 
 #include "accuracy/accuracy.hpp"
 #include "common/math/color.hpp"
-#include "support/lesson_11.hpp"
 #include "support/lesson_12.hpp"
+#include "support/lesson_13.hpp"
 #include "support/pictures.hpp"
 
 namespace rasterbook::test {
 
-using Assets = std::shared_ptr<const SceneAssets>;
+using Assets = std::shared_ptr<const PlannedScene>;
 
 constexpr double frames_in_millions = 1e6;  // so that nanoseconds become milliseconds
 
@@ -27,19 +27,19 @@ inline ThreadPool& one_thread() {
     return pool;
 }
 
-inline Image<vec3> frame(const lesson_11::Options& options, const SceneAssets& assets) {
-    StepClock clock;
-    return lesson_11::render(options, assets, one_thread(), clock);
-}
-
-inline Image<vec3> frame(const lesson_12::Options& options, const SceneAssets& assets) {
+inline Image<vec3> frame(const lesson_12::Options& options, const PlannedScene& assets) {
     StepClock clock;
     return lesson_12::render(options, assets, one_thread(), clock);
 }
 
+inline Image<vec3> frame(const lesson_13::Options& options, const PlannedScene& assets) {
+    StepClock clock;
+    return lesson_13::render(options, assets, one_thread(), clock);
+}
+
 /// A frame, and what was done for it.
 template <typename Options>
-Drawn counted(const Options& options, const SceneAssets& assets) {
+Drawn counted(const Options& options, const PlannedScene& assets) {
     return drawn(options, assets, [](const auto&... of) { return frame(of...); });
 }
 
@@ -68,8 +68,8 @@ inline double shadings_per_pixel(const Drawn& drawn) {
     return static_cast<double>(drawn.count(Counter::fragments_shaded)) / pixels_of(drawn.picture);
 }
 
-inline Assets assets_of(Scene scene, const lesson_11::Options& options) {
-    return std::make_shared<const SceneAssets>(make_scene_assets(std::move(scene), options));
+inline Assets assets_of(Scene scene, const lesson_12::Options& options) {
+    return std::make_shared<const PlannedScene>(load_planned_scene(std::move(scene), options));
 }
 
 /// The four scenes of the repository.
@@ -82,7 +82,7 @@ inline const std::vector<NamedScene>& scenes() {
     static const std::vector<NamedScene> all = [] {
         std::vector<NamedScene> made;
         for (const char* name : {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"})
-            made.push_back({name, assets_of(loaded(name), lesson_11::Options())});
+            made.push_back({name, assets_of(loaded(name), lesson_12::Options())});
         return made;
     }();
     return all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Layers of known overdraw, drawn by lessons 11 and 12: how often a pixel is shaded, how long that
+/// Layers of known overdraw, drawn by lessons 12 and 13: how often a pixel is shaded, how long that
 /// takes, and where the visibility buffer begins to pay.
 #pragma once
 
@@ -27,30 +27,30 @@ Options options_of(const Layers& layers) {
     Options options;
     options.size = layers.size;
     options.shadow.size = 512;  // so that the map is a small part of the frame
-    if constexpr (std::is_same_v<Options, lesson_12::Options>)
-        options.visibility.shadow_part = options.shadow.size;  // all of it, as lesson 11 draws it
+    if constexpr (std::is_same_v<Options, lesson_13::Options>)
+        options.visibility.shadow_part = options.shadow.size;  // all of it, as lesson 12 draws it
     return options;
 }
 
 inline Assets assets_of(const Layers& layers) {
-    SceneAssets assets =
-        make_scene_assets(layered_scene(layers), options_of<lesson_11::Options>(layers));
+    PlannedScene assets =
+        load_planned_scene(layered_scene(layers), options_of<lesson_12::Options>(layers));
     if (layers.look < LayerLook::shadow) {
         assets.lit_by.casts.fill(false);
-        for (MaterialPlan& plan : assets.plan.materials) plan.set(Effect::shadow, false, "");
+        for (EffectMask& effects : assets.effects) effects.set(Effect::shadow, false);
     }
-    return std::make_shared<const SceneAssets>(std::move(assets));
+    return std::make_shared<const PlannedScene>(std::move(assets));
 }
 
-/// What the layers' picture has to be: of a flat colour that of the nearest layer, else lesson 11's
+/// What the layers' picture has to be: of a flat colour that of the nearest layer, else lesson 12's
 /// picture of the same layers drawn from front to back.
 inline Image<vec3> reference_of(Layers layers) {
     if (layers.look == LayerLook::flat) return Image<vec3>(layers.size, color_of_layer(0));
     layers.order = LayerOrder::front_to_back;
-    return frame(options_of<lesson_11::Options>(layers), *assets_of(layers));
+    return frame(options_of<lesson_12::Options>(layers), *assets_of(layers));
 }
 
-/// 1 + 1/2 + ... + 1/k (Eq. 12.4).
+/// 1 + 1/2 + ... + 1/k (Eq. 13.4).
 inline double harmonic(int k) {
     double sum = 0;
     for (int i = 1; i <= k; ++i) sum += 1.0 / i;
@@ -69,8 +69,8 @@ inline void add_layers(const std::string& comparison, LayerLook look) {
                     comparison, std::to_string(count) + ": " + lesson + ", " + order_names[order],
                     pixels_of(reference), options, assets, reference, {{"H_k", harmonic(count)}});
             };
-            add("11", options_of<lesson_11::Options>(layers));
-            add("12", options_of<lesson_12::Options>(layers));
+            add("11", options_of<lesson_12::Options>(layers));
+            add("12", options_of<lesson_13::Options>(layers));
         }
     }
 }
@@ -90,12 +90,12 @@ inline void add_triangles(const std::string& name, LayerLook look, int count) {
             add_frames("triangles", std::to_string(area) + ": " + lesson + ", " + name,
                        pixels_of(reference), options, assets, reference);
         };
-        add("11", options_of<lesson_11::Options>(layers));
-        add("12", options_of<lesson_12::Options>(layers));
+        add("11", options_of<lesson_12::Options>(layers));
+        add("12", options_of<lesson_13::Options>(layers));
     }
 }
 
-/// The terms of Eq. 12.5, and with them how often a pixel has to be shaded for both lessons to take
+/// The terms of Eq. 13.5, and with them how often a pixel has to be shaded for both lessons to take
 /// the same time. Frames of four layers are timed by turns.
 inline void add_break_even(LayerLook look) {
     Layers layers{.size = {512, 256},
@@ -106,8 +106,8 @@ inline void add_break_even(LayerLook look) {
     const Assets front = assets_of(layers);
     layers.order = LayerOrder::back_to_front;
     const Assets back = assets_of(layers);
-    const auto of_11 = options_of<lesson_11::Options>(layers);
     const auto of_12 = options_of<lesson_12::Options>(layers);
+    const auto of_13 = options_of<lesson_13::Options>(layers);
     const auto ns_per_pixel = [&](const auto& options, const Assets& assets) {
         using Clock = std::chrono::steady_clock;
         const auto start = Clock::now();
@@ -117,11 +117,11 @@ inline void add_break_even(LayerLook look) {
     };
     constexpr int turns = 25;
     std::array<double, turns> shade, again;
-    ns_per_pixel(of_12, back);  // fills the caches
+    ns_per_pixel(of_13, back);  // fills the caches
     for (std::size_t i = 0; i < turns; ++i) {
-        const double of_11_front = ns_per_pixel(of_11, front);
-        shade[i] = (ns_per_pixel(of_11, back) - of_11_front) / (layers.count - 1);
-        again[i] = ns_per_pixel(of_12, front) - of_11_front;
+        const double of_11_front = ns_per_pixel(of_12, front);
+        shade[i] = (ns_per_pixel(of_12, back) - of_11_front) / (layers.count - 1);
+        again[i] = ns_per_pixel(of_13, front) - of_11_front;
     }
     for (auto* const times : {&shade, &again}) std::ranges::sort(*times);
     const double t_s = shade[turns / 2], t_v = again[turns / 2];

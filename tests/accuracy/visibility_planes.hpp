@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 12 with barycentric planes in float: their errors, their pictures and their time.
+/// Lesson 13 with barycentric planes in float: their errors, their pictures and their time.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ void shade_visible_by_planes(const Frame<Maps>& frame, const VisibleShaders<Maps
         if (collected != nullptr)
             collected->push_back({projected.on_screen, {spans.begin(), spans.end()}});
         const std::size_t permutation =
-            permutation_of(frame.assets.plan.materials[projected.triangle.material]);
+            permutation_of(frame.assets.effects[projected.triangle.material]);
         [&]<std::size_t... i>(std::index_sequence<i...>) {
             ((permutation == i
                   ? shade_pixels_by_planes<all_permutations[i]>(frame, projected, spans)
@@ -61,12 +61,12 @@ void shade_visible_by_planes(const Frame<Maps>& frame, const VisibleShaders<Maps
 
 }  // namespace rasterbook::test
 
-/// Lesson 12, but for its planes.
+/// Lesson 13, but for its planes.
 #define main static lesson_main [[maybe_unused]]
 #define shade_visible rasterbook::test::shade_visible_by_planes
 namespace lesson_12_by_planes {
-using rasterbook::test::run_scene_lesson;
-#include "lessons/12_visibility_buffer/main.cpp"
+using rasterbook::test::run_effects_lesson;
+#include "lessons/13_visibility_buffer/main.cpp"
 }  // namespace lesson_12_by_planes
 #undef shade_visible
 #undef main
@@ -105,7 +105,7 @@ void add_planes_of(const std::string& variant, const std::vector<VisiblePart>& p
     Errors errors = errors_of<Planes>(parts);
     for (const auto& [name, assets] : scenes())
         errors[name + ", %"] =
-            differing_percent_of_files(draw(*assets), frame(lesson_11::Options(), *assets));
+            differing_percent_of_files(draw(*assets), frame(lesson_12::Options(), *assets));
     double pixels = 0;
     for (const VisiblePart& part : parts)
         for (const PixelSpan& span : part.spans) pixels += span.length;
@@ -122,7 +122,7 @@ void add_planes_of(const std::string& variant, const std::vector<VisiblePart>& p
 
 inline void add_planes() {
     static std::vector<VisiblePart> parts;
-    const auto draw_by_planes = [](const SceneAssets& assets) {
+    const auto draw_by_planes = [](const PlannedScene& assets) {
         StepClock clock;
         return lesson_12_by_planes::render(lesson_12_by_planes::Options(), assets, one_thread(),
                                            clock);
@@ -130,8 +130,8 @@ inline void add_planes() {
     collected = &parts;
     for (const NamedScene& scene : scenes()) draw_by_planes(*scene.assets);
     collected = nullptr;
-    add_planes_of<BarycentricPlanes>("whole numbers", parts, [](const SceneAssets& assets) {
-        return frame(lesson_12::Options(), assets);
+    add_planes_of<BarycentricPlanes>("whole numbers", parts, [](const PlannedScene& assets) {
+        return frame(lesson_13::Options(), assets);
     });
     add_planes_of<RoundedPlanes<float>>("float", parts, draw_by_planes);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How fast lesson 13 draws a scene beside OpenGL on the same processor: Mesa's llvmpipe, without a
+/// How fast lesson 14 draws a scene beside OpenGL on the same processor: Mesa's llvmpipe, without a
 /// window. First the pictures are compared; then both draw by turns, on one thread.
 ///
 /// What is timed: the lesson's render(), which makes linear floats, shadow maps included; and
@@ -28,7 +28,7 @@
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
-#include "11_scenes/scene_camera.hpp"
+#include "11_scenes/camera_choice.hpp"
 #include "benchmarks/beside_opengl.hpp"
 #include "common/app/memory.hpp"
 #include "common/math/color.hpp"
@@ -46,7 +46,7 @@ struct Arguments {
 
 Arguments parsed(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app{"Draws scenes by lesson 13 and by OpenGL on llvmpipe, and compares speed."};
+    CLI::App app{"Draws scenes by lesson 14 and by OpenGL on llvmpipe, and compares speed."};
     std::string known = "Of these; all of them if none is named:";
     for (const BenchmarkScene& scene : benchmark_scenes())
         known += "\n" + scene.name + ": " + scene.what;
@@ -115,11 +115,11 @@ void print_cell(std::vector<double> numbers) {
 ///
 /// @throws std::runtime_error  The pictures differ.
 void compare(const BenchmarkScene& scene, const Arguments& arguments) {
-    SceneRendererOptions options;
+    EffectsOptions options;
     options.size = {1920, 1080}, options.threads.threads = 1;
-    const SceneAssets assets = make_scene_assets(scene.make(), options);
+    const PlannedScene assets = load_planned_scene(scene.make(), options);
     const Camera camera = camera_of_picture(options, assets.scene).camera;
-    const DrawFrame lesson = frame_of<13>(options, assets);
+    const DrawFrame lesson = frame_of<14>(options, assets);
     const GlScene gl(assets, camera, options, arguments.gl);
 
     gl.draw();  // the driver compiles
@@ -148,7 +148,7 @@ bool run(const Arguments& arguments) {
     std::printf("%s; %d frames of 1920 x 1080 each; medians (quartiles) of CPU time, ms.\n\n",
                 reinterpret_cast<const char*>(glGetString(GL_RENDERER)), arguments.frames);
     std::printf(
-        "| scene | pixels > 8 | lesson 13 | OpenGL | times as fast |\n"
+        "| scene | pixels > 8 | lesson 14 | OpenGL | times as fast |\n"
         "|---|---:|---:|---:|---:|\n");
     bool is_complete = true;
     for (const BenchmarkScene& scene : benchmark_scenes()) {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "04_mvp/camera.hpp"
-#include "11_scenes/scene_assets.hpp"
-#include "11_scenes/scene_options.hpp"
+#include "12_effects/effects_options.hpp"
+#include "12_effects/planned_scene.hpp"
 #include "common/image/image.hpp"
 #include "common/model/mesh.hpp"
 
@@ -20,10 +20,10 @@ using DrawFrame = std::function<Image<vec3>()>;
 
 /// Draws a scene with a lesson's render(), shadow maps included: linear colors.
 ///
-/// @param options  Of lesson 11; a lesson's further ones have their defaults.
+/// @param options  Of lesson 12; a lesson's further ones have their defaults.
 /// @param assets   Have to outlive the result.
 template <int lesson>
-DrawFrame frame_of(const SceneRendererOptions& options, const SceneAssets& assets);
+DrawFrame frame_of(const EffectsOptions& options, const PlannedScene& assets);
 
 /// The scenes that are made for this comparison, and toon.glb.
 struct BenchmarkScene {
@@ -51,7 +51,7 @@ class GlScene {
     ///
     /// @param assets  Of a benchmark's scene: opaque, lit by directional lights, without specular
     ///                maps and vertex colors.
-    GlScene(const SceneAssets& assets, const Camera& camera, const SceneRendererOptions& options,
+    GlScene(const PlannedScene& assets, const Camera& camera, const EffectsOptions& options,
             const GlOptions& gl);
     ~GlScene();
 

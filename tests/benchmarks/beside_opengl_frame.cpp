@@ -12,11 +12,10 @@ using namespace rasterbook;
 using namespace LESSON_NAMESPACE;
 
 template <>
-DrawFrame rasterbook::frame_of<LESSON>(const SceneRendererOptions& asked,
-                                       const SceneAssets& assets) {
+DrawFrame rasterbook::frame_of<LESSON>(const EffectsOptions& asked, const PlannedScene& assets) {
     Options options;
     const int tile = options.threads.tile;  // the lesson's own
-    static_cast<SceneRendererOptions&>(options) = asked;
+    static_cast<EffectsOptions&>(options) = asked;
     options.threads.tile = tile;
     return [options, &assets, pool = std::make_shared<ThreadPool>(options.threads.threads)] {
         StepClock clock;

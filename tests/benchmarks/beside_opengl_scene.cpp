@@ -96,8 +96,8 @@ out vec4 color;
 void main() { color = vec4(mix(first, last, (gl_FragCoord.y - 0.5) / (height - 1.0)), 1.0); }
 )";
 
-/// What a material's shaders are compiled with (lessons/11_scenes/shaders.hpp).
-std::string defines_of(const MaterialPlan& plan, const SceneLights& lit_by,
+/// What a material's shaders are compiled with (lessons/13_visibility_buffer/shaded.hpp).
+std::string defines_of(const MaterialPlan& plan, bool two_sided, const SceneLights& lit_by,
                        const ShadowMaps& shadows, GlNumbers numbers) {
     std::string defines = plan[Effect::toon]    ? "#define TOON\n"
                           : plan[Effect::light] ? "#define PHONG\n"
@@ -109,7 +109,7 @@ std::string defines_of(const MaterialPlan& plan, const SceneLights& lit_by,
     define_if(plan[Effect::normal_map], "NORMAL_MAP");
     define_if(plan[Effect::highlight], "HIGHLIGHT");
     define_if(plan[Effect::shadow], "SHADOW");
-    define_if(plan.two_sided, "TWO_SIDED");
+    define_if(two_sided, "TWO_SIDED");
     define_if(numbers == GlNumbers::bytes, "UNORM_NORMALS");
     std::string kinds, maps;
     for (std::size_t l = 0; l < lit_by.lights.size(); ++l) {
@@ -279,12 +279,12 @@ struct GlScene::Content {
         return name;
     }
 
-    void add_materials(const SceneAssets& assets, const Camera& camera, const ShadowMaps& shadows);
-    void set_scene(Uniforms& uniforms, const SceneAssets& assets, const Camera& camera,
+    void add_materials(const PlannedScene& assets, const Camera& camera, const ShadowMaps& shadows);
+    void set_scene(Uniforms& uniforms, const PlannedScene& assets, const Camera& camera,
                    const ShadowMaps& shadows) const;
     void add_meshes(const Scene& scene, std::span<const Mesh> outline_meshes);
     void add_maps(const ShadowMaps& shadows);
-    void add_frame(bool is_on_paper);
+    void add_frame(bool is_drawing);
     void draw_map(const GlShadowMap& map) const;
     void draw_picture() const;
 };
@@ -294,7 +294,7 @@ namespace {
 const mat4 upside_down = scaling(vec3(1, -1, 1));
 
 /// The lights' maps as the course fits them, not drawn.
-ShadowMaps fitted_maps(const SceneAssets& assets, const ShadowOptions& variant) {
+ShadowMaps fitted_maps(const PlannedScene& assets, const ShadowOptions& variant) {
     return draw_shadow_maps(variant, shadow_scene(assets, false), [](ShadowMap&, bool) {});
 }
 
@@ -319,7 +319,7 @@ void set_material(Uniforms& uniforms, const Material& material, const MaterialPl
 
 }  // namespace
 
-void GlScene::Content::set_scene(Uniforms& uniforms, const SceneAssets& assets,
+void GlScene::Content::set_scene(Uniforms& uniforms, const PlannedScene& assets,
                                  const Camera& camera, const ShadowMaps& shadows) const {
     uniforms.set("clip_from_world", clip_from_world);
     uniforms.set("eye_world", camera.position_world);
@@ -341,22 +341,23 @@ void GlScene::Content::set_scene(Uniforms& uniforms, const SceneAssets& assets,
     }
 }
 
-void GlScene::Content::add_materials(const SceneAssets& assets, const Camera& camera,
+void GlScene::Content::add_materials(const PlannedScene& assets, const Camera& camera,
                                      const ShadowMaps& shadows) {
-    const std::string vertex = shader_file("11_vertex.glsl"),
-                      fragment = shader_file("11_fragment.glsl");
+    const std::string vertex = shader_file("12_vertex.glsl"),
+                      fragment = shader_file("12_fragment.glsl");
     for (std::size_t i = 0; i < assets.scene.materials.size(); ++i) {
         const Material& material = assets.scene.materials[i];
         const MaterialPlan& plan = assets.plan.materials[i];
         GlMaterial& made = materials.emplace_back();
+        made.two_sided = assets.passes[i].culling == Culling::none;
         made.program =
-            program_of(defines_of(plan, assets.lit_by, shadows, options.numbers), vertex, fragment);
+            program_of(defines_of(plan, made.two_sided, assets.lit_by, shadows, options.numbers),
+                       vertex, fragment);
         Uniforms uniforms(made.program);
         set_scene(uniforms, assets, camera, shadows);
         set_material(uniforms, material, plan);
         made.textures = {texture(assets.textures.diffuse[i].get(), GL_SRGB8_ALPHA8),
                          texture(assets.normal_maps.textures[i].get(), GL_RGBA8)};
-        made.two_sided = plan.two_sided;
         made.casts = casts_shadows(material);
     }
 }
@@ -387,7 +388,7 @@ void GlScene::Content::add_maps(const ShadowMaps& shadows) {
     }
 }
 
-void GlScene::Content::add_frame(bool is_on_paper) {
+void GlScene::Content::add_frame(bool is_drawing) {
     glGenFramebuffers(1, &frame);
     glBindFramebuffer(GL_FRAMEBUFFER, frame);
     color =
@@ -406,8 +407,8 @@ void GlScene::Content::add_frame(bool is_on_paper) {
     backdrop = program_of("", backdrop_vertices, backdrop_fragments);
     glGenVertexArrays(1, &no_vertices);
     Uniforms uniforms(backdrop);
-    uniforms.set("first", is_on_paper ? paper_color : backdrop_color(0, size.y));
-    uniforms.set("last", is_on_paper ? paper_color : backdrop_color(size.y - 1, size.y));
+    uniforms.set("first", is_drawing ? paper_color : backdrop_color(0, size.y));
+    uniforms.set("last", is_drawing ? paper_color : backdrop_color(size.y - 1, size.y));
     uniforms.set("height", static_cast<float>(size.y));
 }
 
@@ -459,17 +460,19 @@ void GlScene::Content::draw_picture() const {
     glDepthFunc(GL_GREATER);
 }
 
-GlScene::GlScene(const SceneAssets& assets, const Camera& camera,
-                 const SceneRendererOptions& options, const GlOptions& gl)
+GlScene::GlScene(const PlannedScene& assets, const Camera& camera, const EffectsOptions& options,
+                 const GlOptions& gl)
     : content_(std::make_unique<Content>()) {
     content_->size = options.size;
     content_->options = gl;
     content_->clip_from_world = upside_down * camera.clip_from_world(options.size);
     const ShadowMaps shadows = fitted_maps(assets, options.shadow);
     content_->add_materials(assets, camera, shadows);
-    content_->add_meshes(assets.scene, outlines_of(assets, camera));
+    std::vector<Mesh> outlines;
+    for (const OutlineHull& hull : assets.hulls) outlines.push_back(pushed(hull, camera));
+    content_->add_meshes(assets.scene, outlines);
     content_->add_maps(shadows);
-    content_->add_frame(assets.is_on_paper);
+    content_->add_frame(assets.is_drawing);
     if (gl.numbers == GlNumbers::bytes) glEnable(GL_FRAMEBUFFER_SRGB);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Where lesson 13's time goes: what this machine can do at most, and what the steps of a frame
+/// Where lesson 14's time goes: what this machine can do at most, and what the steps of a frame
 /// take. roofline.py runs it, and writes docs/roofline.md.
 ///
 /// Each line that it writes is an object of JSON. Times of frames are the least of several: other
@@ -21,7 +21,7 @@
 
 #include "benchmarks/roofline.hpp"
 #include "common/app/memory.hpp"
-#include "support/lesson_13.hpp"
+#include "support/lesson_14.hpp"
 #include "support/pictures.hpp"
 
 using namespace rasterbook;
@@ -45,7 +45,7 @@ double ms_between(Clock::time_point start, Clock::time_point end) {
 
 /// Milliseconds of a frame's parts; those of tiles, of each tile.
 struct Parts {
-    double casters = 0, outlines = 0, triangles = 0;
+    double casters = 0, triangles = 0;
     std::vector<double> ids{}, shading{}, shading_again{}, rest{};
 
     static constexpr auto of_tiles = {&Parts::ids, &Parts::shading, &Parts::shading_again,
@@ -54,7 +54,6 @@ struct Parts {
     /// Of each part the less.
     void take_least(const Parts& other) {
         casters = std::min(casters, other.casters);
-        outlines = std::min(outlines, other.outlines);
         triangles = std::min(triangles, other.triangles);
         for (const auto member : of_tiles)
             std::ranges::transform(this->*member, other.*member, (this->*member).begin(),
@@ -65,11 +64,9 @@ struct Parts {
 /// The lesson's render() on one thread, with a clock between the two steps of a tile.
 ///
 /// The tiles are drawn once more, when all parts of shadow maps are there.
-Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets& assets,
+Image<vec3> render_in_parts(const lesson_14::Options& options, const PlannedScene& assets,
                             ThreadPool& pool, Parts& parts) {
-    const auto& [scene, textures, normal_maps, bounds, lit_by, plan, hulls, is_on_paper] = assets;
-    const Camera camera = camera_of_picture(options, scene).camera;
-    const mat4 clip_from_world = camera.clip_from_world(options.size);
+    const Camera camera = camera_of_picture(options, assets.scene).camera;
     const WideDrawing wide = drawing_of_width(options.wide.width);
     const double start = cpu_ms();
     const ShadowMapsOnDemand shadow_maps(pool, options.visibility.shadow_part, options, assets,
@@ -79,15 +76,10 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
     VisibilityBuffer visible(options.visibility.most_ids(), TileDepths::padding);
     HeatMap heat(options.visibility.show, options.size);
 
-    const double start_of_outlines = cpu_ms();
-    const std::vector<Mesh> outlines = outlines_of(assets, camera);
-    const std::vector<const Mesh*> meshes = seen_meshes(scene, outlines, clip_from_world);
     const double start_of_triangles = cpu_ms();
     const Tiling tiling = options.threads.tiling_of(options.size, pool.size());
-    const BinnedPasses passes =
-        bin_passes(pool, assets, meshes, clip_from_world, tiling, wide.project_triangles);
-    parts.casters = start_of_outlines - start;
-    parts.outlines = start_of_triangles - start_of_outlines;
+    const BinnedPasses triangles(pool, assets, camera, tiling, wide.project_triangles);
+    parts.casters = start_of_triangles - start;
     parts.triangles = cpu_ms() - start_of_triangles;
 
     const Frame frame = make_frame(options, assets, camera, shadow_maps, color, depth);
@@ -97,20 +89,18 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
         const Tile tile = tiling[i];
         TileDepths depths(tile);
         visible.begin(tile);
-        for (const BinnedTriangles& pass : passes.opaque)
-            pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                wide.draw_id(frame, projected, tile, depths, visible);
-            });
+        triangles.for_each_opaque_in(i, [&](const ProjectedTriangle& projected) {
+            wide.draw_id(frame, projected, tile, depths, visible);
+        });
         const auto start_of_shading = Clock::now();
         wide.shade_visible(frame, visible, options.visibility.show, heat);
         const auto start_of_rest = Clock::now();
-        draw_background(color, tile, depths, is_on_paper);
+        draw_background(color, tile, depths, assets.is_drawing);
         TransparentFragments transparent;
-        for_each_part(tile, count_in(passes.blended, i), [&](const Tile& part) {
-            for (const BinnedTriangles& pass : passes.blended)
-                pass.for_each_in(i, [&](const ProjectedTriangle& projected) {
-                    wide.draw_transparent(frame, projected, part, depths, transparent, heat);
-                });
+        for_each_part(tile, triangles.count_blended_in(i), [&](const Tile& part) {
+            triangles.for_each_blended_in(i, [&](const ProjectedTriangle& projected) {
+                wide.draw_transparent(frame, projected, part, depths, transparent, heat);
+            });
             transparent.blend_over(color);
         });
         const auto end = Clock::now();
@@ -131,11 +121,11 @@ Image<vec3> render_in_parts(const lesson_13::Options& options, const SceneAssets
 void measure_passes(int repetitions) {
     ThreadPool one(1);
     for (const char* const name : {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"}) {
-        const lesson_13::Options options;
-        const SceneAssets assets = make_scene_assets(loaded(name), options);
+        const lesson_14::Options options;
+        const PlannedScene assets = load_planned_scene(loaded(name), options);
         const Drawn expected = drawn(options, assets, [&](const auto&... of) {
             StepClock clock;
-            return lesson_13::render(of..., one, clock);
+            return lesson_14::render(of..., one, clock);
         });
         Parts least;
         const Drawn in_parts = drawn(
@@ -143,7 +133,7 @@ void measure_passes(int repetitions) {
         if (!are_the_same_bits(expected.picture, in_parts.picture) ||
             expected.counters != in_parts.counters)
             throw std::runtime_error(std::string(name) +
-                                     ": lesson 13's render() draws another picture, or counts "
+                                     ": lesson 14's render() draws another picture, or counts "
                                      "another work, than its copy in roofline.cpp");
         double frame = std::numeric_limits<double>::infinity();
         for (int i = 0; i < repetitions; ++i) {
@@ -152,7 +142,7 @@ void measure_passes(int repetitions) {
             least.take_least(parts);
             StepClock clock;
             const double start = cpu_ms();
-            lesson_13::render(options, assets, one, clock);
+            lesson_14::render(options, assets, one, clock);
             frame = std::min(frame, cpu_ms() - start);
         }
         const auto sum = [](const std::vector<double>& ms) {
@@ -162,14 +152,13 @@ void measure_passes(int repetitions) {
             return static_cast<double>(expected.count(counter));
         };
         std::printf(
-            R"({"scene": "%s", "frame": %.6g, "casters": %.6g, "outlines": %.6g, "triangles": %.6g, "ids": %.6g, )"
+            R"({"scene": "%s", "frame": %.6g, "casters": %.6g, "triangles": %.6g, "ids": %.6g, )"
             R"("shading": %.6g, "shading again": %.6g, "rest": %.6g, "tested": %.0f, )"
             R"("shaded": %.0f, "shadow fragments": %.0f, "samples": %.0f})"
             "\n",
-            name, frame, least.casters, least.outlines, least.triangles, sum(least.ids),
-            sum(least.shading), sum(least.shading_again), sum(least.rest),
-            count(Counter::fragments_tested), count(Counter::fragments_shaded),
-            count(Counter::shadow_fragments),
+            name, frame, least.casters, least.triangles, sum(least.ids), sum(least.shading),
+            sum(least.shading_again), sum(least.rest), count(Counter::fragments_tested),
+            count(Counter::fragments_shaded), count(Counter::shadow_fragments),
             count(Counter::texture_samples) + count(Counter::normal_map_samples));
         std::fflush(stdout);
     }

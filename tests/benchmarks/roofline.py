@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Measures where lesson 13's time goes, and writes it into docs/roofline.md: a few minutes.
+"""Measures where lesson 14's time goes, and writes it into docs/roofline.md: a few minutes.
 
 roofline.py [--quick] [--as-measured]
 
@@ -27,7 +27,7 @@ from report import BOTTOM, HEIGHT, LEFT, TOP, WIDTH, Axis, axes, draw, fill_bloc
 
 PAGE = ROOT / "docs/roofline.md"
 MEASURED = ROOT / "build/release/roofline.json"
-PROGRAM, COUNTED = ROOT / "build/release/tests/roofline", ROOT / "build/v3/13_simd"
+PROGRAM, COUNTED = ROOT / "build/release/tests/roofline", ROOT / "build/v3/14_simd"
 SCENES = ("unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb")
 LINE = 64  # bytes of a cache line
 
@@ -185,14 +185,14 @@ def block_frames(measured):
     for scene in rows_of(measured, "frame"):
         parts = shadow_parts_ms(scene)
         rows.append([f"`{scene['scene']}`", *(f"{ms:.2f}" if ms < 1 else number(ms) for ms in (
-            scene["frame"], scene["casters"], scene["outlines"], scene["triangles"], scene["ids"], parts,
+            scene["frame"], scene["casters"], scene["triangles"], scene["ids"], parts,
             scene["shading"] - parts, scene["rest"])), f"{scene['tested']:,.0f}", f"{scene['shaded']:,.0f}"])
-    return markdown(["scene", "frame, ms", "casters", "outlines", "triangles", "depths and ids", "shadow map parts",
+    return markdown(["scene", "frame, ms", "casters", "triangles", "depths and ids", "shadow map parts",
                      "shading", "rest", "fragments tested", "pixels shaded"], rows)
 
 
 def bounds_of(step, measured):
-    """Milliseconds that a step takes at least (Eq. 13.6)."""
+    """Milliseconds that a step takes at least (Eq. 14.6)."""
     roofs, peak = cache_roofs(measured), peaks(measured)[16]
     return {"16 lanes": 1e-6 * step["operations"] / peak, "own widths": 1e-6 * step["slots"] / (peak / 16),
             "L2": 1e-6 * step["beyond L1"] / roofs["L2"], "L3": 1e-6 * step["beyond L2"] / roofs["L3"],
@@ -277,7 +277,7 @@ def machine():
 
 def measure(options):
     """Builds both programs, and runs them. Each line that is measured is an object of JSON."""
-    for preset, target in (("release", "roofline"), ("v3", "13_simd")):
+    for preset, target in (("release", "roofline"), ("v3", "14_simd")):
         subprocess.run(["cmake", "--preset", preset], cwd=ROOT, check=True, capture_output=True)
         subprocess.run(["cmake", "--build", "--preset", preset, "--target", target], cwd=ROOT, check=True)
     print("how fast: some minutes", flush=True)

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "13_simd/simd.hpp"
+#include "14_simd/simd.hpp"
 #include "benchmarks/roofline.hpp"
 #include "common/math/types.hpp"
 

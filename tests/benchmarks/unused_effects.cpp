@@ -14,7 +14,7 @@
 
 #include "06_phong/light_options.hpp"
 #include "08_normal_maps/normal_map_options.hpp"
-#include "11_scenes/scene_assets.hpp"
+#include "12_effects/planned_scene.hpp"
 #include "benchmarks/unused_effects.hpp"
 #include "common/app/memory.hpp"
 #include "support/pictures.hpp"
@@ -50,7 +50,7 @@ Scene model(const char* name, const Change& change) {
     return scene;
 }
 
-/// An effect, and lesson 11's picture without it.
+/// An effect, and lesson 12's picture without it.
 struct LeftOut {
     Effect effect;
     Without without;
@@ -59,12 +59,12 @@ struct LeftOut {
 
 template <Without without>
 constexpr LeftOut left_out(Effect effect) {
-    return {effect, without, draw_of<11, without>};
+    return {effect, without, draw_of<12, without>};
 }
 
-/// The effects that lesson 11 does not call for in one of its scenes. Not outlines: there they are
+/// The effects that lesson 12 does not call for in one of its scenes. Not outlines: there they are
 /// meshes like others, and the only question is one for each frame.
-void add_rows_of_lesson_11(const char* name, std::vector<Row>& rows) {
+void add_rows_of_lesson_12(const char* name, std::vector<Row>& rows) {
     constexpr std::array all = {left_out<Without::light>(Effect::light),
                                 left_out<Without::highlight>(Effect::highlight),
                                 left_out<Without::texture>(Effect::texture),
@@ -78,19 +78,13 @@ void add_rows_of_lesson_11(const char* name, std::vector<Row>& rows) {
                                 left_out<Without::blend>(Effect::blend)};
     static_assert(all.size() + 1 == effect_count);
     const Scene scene = loaded(name);
-    const Draw own = draw_of<11, Without::own>(scene),
-               nothing = draw_of<11, Without::nothing>(scene);
-    struct {
-        TextureOptions texture;
-        LightOptions shading;
-        NormalMapOptions normal_map;
-        ShadowOptions shadow;
-    } const options;
-    const ScenePlan plan = make_scene_assets(scene, options).plan;
+    const Draw own = draw_of<12, Without::own>(scene),
+               nothing = draw_of<12, Without::nothing>(scene);
+    const ScenePlan plan = load_planned_scene(scene, EffectsOptions()).plan;
     for (const auto& [effect, without, draw] : all) {
         // A comic's fragments are counted among the lit ones.
         if (plan.any(effect) || (effect == Effect::light && plan.any(Effect::toon))) continue;
-        rows.push_back({"11 " + std::string(name) + ", " +
+        rows.push_back({"12 " + std::string(name) + ", " +
                             std::string(effect_names[static_cast<std::size_t>(effect)]),
                         without,
                         {own, nothing, draw(scene)}});
@@ -108,7 +102,7 @@ std::vector<Row> all_rows() {
         row<8, Without::normal_map>("08 normal map", model("scene.obj", [](Material&) {})),
         row<9, Without::shadow>("09 shadow", clear)};
     for (const char* name : {"unlit.glb", "textured.gltf", "bumpy.glb", "toon.glb"})
-        add_rows_of_lesson_11(name, rows);
+        add_rows_of_lesson_12(name, rows);
     return rows;
 }
 
@@ -146,7 +140,7 @@ std::vector<double> percent_more(const Row& row, Way way, Way than) {
 }  // namespace
 
 /// @param argv  How many frames of each kind, 100 if it is not said; and with what the rows' names
-///              begin, all if it is not said: 30 11 is lesson 11 alone.
+///              begin, all if it is not said: 30 12 is lesson 12 alone.
 int main(int argc, char** argv) {
     const int frames = argc > 1 ? std::atoi(argv[1]) : 100;
     if (frames < 1) {

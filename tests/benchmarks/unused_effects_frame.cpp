@@ -8,7 +8,7 @@
 
 // All types that the functions below name, whichever lesson it is.
 #include "07_toon/toon_options.hpp"
-#include "11_scenes/scene_program.hpp"
+#include "12_effects/effects_program.hpp"
 
 #include LESSON_HEADER
 
@@ -19,14 +19,14 @@ namespace {
 
 template <typename AnyOptions>
 auto assets_of(const Scene& model, const AnyOptions& options) {
-    if constexpr (LESSON == 11)
-        return make_scene_assets(model, options);
+    if constexpr (LESSON == 12)
+        return load_planned_scene(model, options);
     else
         return make_assets(model, options);
 }
 
 Image<vec3> draw(const auto& options, const auto& assets) {
-    if constexpr (LESSON == 11) {
+    if constexpr (LESSON == 12) {
         static ThreadPool pool(1);
         StepClock clock;
         return render(options, assets, pool, clock);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lesson 13's pictures of random scenes, four pixels at a time and without threads: a line of
+// Lesson 14's pictures of random scenes, four pixels at a time and without threads: a line of
 // hexadecimal digits for each, the same wherever it runs.
 #include <array>
 #include <bit>
@@ -10,7 +10,7 @@
 #include "common/model/load_budget.hpp"
 #include "common/model/texture_file.hpp"
 #include "support/any_scene.hpp"
-#include "support/lesson_13.hpp"
+#include "support/lesson_14.hpp"
 
 // In place of what reads files: the scenes' images are in memory.
 namespace rasterbook {
@@ -49,7 +49,7 @@ int main() {
                                   Show::ids,     Show::shading, Show::shadow_map};
     ThreadPool pool(1);
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
-        lesson_13::Options options;
+        lesson_14::Options options;
         options.size = seed % 4 == 3 ? ivec2(150, 12) : ivec2(50, 40);
         options.texture.filter = filters[seed % 3];
         options.shadow.size = 64;
@@ -58,11 +58,11 @@ int main() {
         options.visibility.shadow_part = 16;
         options.visibility.show = shows[seed % 6];
         options.wide.width = 4;
-        SceneAssets assets = make_scene_assets(test::any_scene(seed), options);
+        PlannedScene assets = load_planned_scene(test::any_scene(seed), options);
         test::add_holes(assets);
         StepClock clock;
         thread_counters = {};
-        const Image<vec3> picture = lesson_13::render(options, assets, pool, clock);
+        const Image<vec3> picture = lesson_14::render(options, assets, pool, clock);
         std::printf("%2u %016llx\n", seed,
                     static_cast<unsigned long long>(hash_of(picture, thread_counters)));
     }

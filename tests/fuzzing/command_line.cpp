@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random words as lesson 11's command line: what is accepted lies in the bounds of --help; all else
+// Random words as lesson 12's command line: what is accepted lies in the bounds of --help; all else
 // is bad usage. Lines are words.
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "support/lesson_11.hpp"
+#include "support/lesson_12.hpp"
 
 using namespace rasterbook;
 
@@ -26,7 +26,7 @@ bool is_within(Number number, Number least, Number most) {
     return number >= least && number <= most;  // NaN is not
 }
 
-void check(const lesson_11::Options& options) {
+void check(const lesson_12::Options& options) {
     constexpr std::array samples = {1, 2, 4, 8}, pcf = {1, 3, 5, 7};
     expect(is_within(options.size.x, 1, 16384) && is_within(options.size.y, 1, 16384));
     expect(std::ranges::count(samples, options.samples_per_side) == 1);
@@ -63,7 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
 
-    lesson_11::Options options;
+    lesson_12::Options options;
     const std::optional<int> status =
         read_command_line({"11_scenes",
                            "",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random scenes, cameras, lights, sizes and options, drawn by lessons 03, 09 and 11: each colour is
-// finite, and lesson 11 draws the same bytes with one thread and with three. Of the numbers some
+// Random scenes, cameras, lights, sizes and options, drawn by lessons 03, 09 and 12: each colour is
+// finite, and lesson 12 draws the same bytes with one thread and with three. Of the numbers some
 // are small and some are any that a file may have.
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@
 #include "common/math/numerics.hpp"
 #include "support/lesson_03.hpp"
 #include "support/lesson_09.hpp"
-#include "support/lesson_11.hpp"
+#include "support/lesson_12.hpp"
 
 using namespace rasterbook;
 
@@ -196,7 +196,7 @@ Scene any_scene(Numbers& numbers) {
     return scene;
 }
 
-/// What lessons 09 and 11 have in common.
+/// What lessons 09 and 12 have in common.
 template <typename Options>
 Options any_options(Numbers& numbers, ivec2 size, bool show_depth) {
     Options options;
@@ -242,15 +242,15 @@ void draw_09(Numbers& numbers, const Scene& scene, ivec2 size) {
 
 void draw_11(Numbers& numbers, const Scene& scene, ivec2 size) {
     static ThreadPool one(1), three(3);
-    auto options = any_options<lesson_11::Options>(numbers, size, numbers.flag());
+    auto options = any_options<lesson_12::Options>(numbers, size, numbers.flag());
     options.threads.split = numbers.one_of({Split::rows, Split::interleaved, Split::tiles});
     options.threads.tile = numbers.whole(8, 20);
-    options.scene.camera = numbers.one_of({"", "orbit", "fit"});
-    const SceneAssets assets = make_scene_assets(scene, options);
+    options.camera = numbers.one_of({"", "orbit", "fit"});
+    const PlannedScene assets = load_planned_scene(scene, options);
     StepClock clock;
-    const Image<vec3> picture = lesson_11::render(options, assets, one, clock);
+    const Image<vec3> picture = lesson_12::render(options, assets, one, clock);
     expect_finite(picture);
-    const Image<vec3> again = lesson_11::render(options, assets, three, clock);
+    const Image<vec3> again = lesson_12::render(options, assets, three, clock);
     if (std::memcmp(picture.pixels().data(), again.pixels().data(), picture.pixels().size_bytes()))
         std::abort();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 13's wide numbers beside plain ones, lane by lane.
+/// Lesson 14's wide numbers beside plain ones, lane by lane.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 #include <gtest/gtest.h>
 
-#include "13_simd/simd.hpp"
+#include "14_simd/simd.hpp"
 #include "support/any_scene.hpp"
 #include "support/near.hpp"
 #include "support/special_numbers.hpp"

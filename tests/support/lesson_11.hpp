@@ -5,13 +5,13 @@
 #pragma once
 
 // All that main.cpp includes, so that what is left of it are its own lines.
-#include "10_threading/thread_pool.hpp"
-#include "10_threading/threaded_shadows.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "07_toon/toon_material.hpp"
+#include "11_scenes/camera_choice.hpp"
 #include "11_scenes/casters.hpp"
-#include "11_scenes/scene_camera.hpp"
-#include "11_scenes/scene_options.hpp"
-#include "11_scenes/scene_program.hpp"
-#include "11_scenes/shaders.hpp"
+#include "11_scenes/opacity.hpp"
+#include "11_scenes/passes.hpp"
+#include "common/app/lesson_app.hpp"
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
@@ -19,11 +19,14 @@
 #define render render_here
 #endif
 namespace lesson_11 {
-using rasterbook::test::run_scene_lesson;
+using rasterbook::test::run_lesson;
 #include "lessons/11_scenes/main.cpp"
+using Options = SceneOptions;
 #ifdef RENDER_IS_COMPILED_APART
+[[maybe_unused]] static constexpr auto* named_here =
+    &render_here;  // main.cpp calls it in a template
 #undef render
-Image<vec3> render(const Options&, const SceneAssets&, Workers&, StepClock&);
+Image<vec3> render(const Options&, const SceneAssets&, Workers&);
 #endif
 }  // namespace lesson_11
 #undef main

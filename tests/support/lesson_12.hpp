@@ -5,13 +5,14 @@
 #pragma once
 
 // All that main.cpp includes, so that what is left of it are its own lines.
-#include "10_threading/thread_pool.hpp"
-#include "11_scenes/scene_camera.hpp"
-#include "11_scenes/scene_options.hpp"
-#include "11_scenes/scene_program.hpp"
-#include "12_visibility_buffer/shadow_parts.hpp"
-#include "12_visibility_buffer/views.hpp"
-#include "12_visibility_buffer/visible_shading.hpp"
+#include "06_phong/studio_lights.hpp"
+#include "07_toon/toon_material.hpp"
+#include "11_scenes/camera_choice.hpp"
+#include "11_scenes/casters.hpp"
+#include "11_scenes/opacity.hpp"
+#include "11_scenes/passes.hpp"
+#include "12_effects/effects_program.hpp"
+#include "12_effects/permutation.hpp"
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
@@ -19,11 +20,12 @@
 #define render render_here
 #endif
 namespace lesson_12 {
-using rasterbook::test::run_scene_lesson;
-#include "lessons/12_visibility_buffer/main.cpp"
+using rasterbook::test::run_effects_lesson;
+#include "lessons/12_effects/main.cpp"
+using Options = EffectsOptions;
 #ifdef RENDER_IS_COMPILED_APART
 #undef render
-Image<vec3> render(const Options&, const SceneAssets&, Workers&, StepClock&);
+Image<vec3> render(const Options&, const PlannedScene&, Workers&, StepClock&);
 #endif
 }  // namespace lesson_12
 #undef main

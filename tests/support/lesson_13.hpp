@@ -6,14 +6,13 @@
 
 // All that main.cpp includes, so that what is left of it are its own lines.
 #include "10_threading/thread_pool.hpp"
-#include "11_scenes/scene_camera.hpp"
-#include "11_scenes/scene_options.hpp"
-#include "11_scenes/scene_program.hpp"
-#include "12_visibility_buffer/shadow_parts.hpp"
-#include "12_visibility_buffer/views.hpp"
-#include "12_visibility_buffer/visible_shading.hpp"
-#include "13_simd/wide_triangles.hpp"
-#include "13_simd/width.hpp"
+#include "11_scenes/camera_choice.hpp"
+#include "11_scenes/passes.hpp"
+#include "12_effects/effects_program.hpp"
+#include "13_visibility_buffer/shadow_parts.hpp"
+#include "13_visibility_buffer/views.hpp"
+#include "13_visibility_buffer/visibility_options.hpp"
+#include "13_visibility_buffer/visible_shading.hpp"
 #include "support/run_no_lesson.hpp"
 
 #define main static lesson_main [[maybe_unused]]
@@ -21,11 +20,11 @@
 #define render render_here
 #endif
 namespace lesson_13 {
-using rasterbook::test::run_scene_lesson;
-#include "lessons/13_simd/main.cpp"
+using rasterbook::test::run_effects_lesson;
+#include "lessons/13_visibility_buffer/main.cpp"
 #ifdef RENDER_IS_COMPILED_APART
 #undef render
-Image<vec3> render(const Options&, const SceneAssets&, Workers&, StepClock&);
+Image<vec3> render(const Options&, const PlannedScene&, Workers&, StepClock&);
 #endif
 }  // namespace lesson_13
 #undef main

@@ -4,9 +4,8 @@
 
 namespace lesson_11 {
 
-Image<vec3> render(const Options& options, const SceneAssets& assets, Workers& pool,
-                   StepClock& clock) {
-    return render_here(options, assets, pool, clock);
+Image<vec3> render(const Options& options, const SceneAssets& assets, Workers& pool) {
+    return render_here(options, assets, pool);
 }
 
 }  // namespace lesson_11

@@ -4,7 +4,7 @@
 
 namespace lesson_12 {
 
-Image<vec3> render(const Options& options, const SceneAssets& assets, Workers& pool,
+Image<vec3> render(const Options& options, const PlannedScene& assets, Workers& pool,
                    StepClock& clock) {
     return render_here(options, assets, pool, clock);
 }

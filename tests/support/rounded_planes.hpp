@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Lesson 12's barycentric planes (Eq. 12.2) in rounded numbers, to be measured against whole ones.
+/// Lesson 13's barycentric planes (Eq. 13.2) in rounded numbers, to be measured against whole ones.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "02_triangle_fill/triangle.hpp"
 #include "10_threading/split.hpp"
-#include "12_visibility_buffer/visibility_buffer.hpp"
+#include "13_visibility_buffer/visibility_buffer.hpp"
 
 namespace rasterbook::test {
 

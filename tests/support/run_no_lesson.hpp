@@ -12,7 +12,7 @@ int run_lesson(Arguments&&...) {
 }
 
 template <typename Options, typename... Arguments>
-int run_scene_lesson(Arguments&&...) {
+int run_effects_lesson(Arguments&&...) {
     return 0;
 }
 

@@ -53,6 +53,15 @@ inline std::string derivation_of(const std::string& lesson) {
     return read_text(root / "docs/derivations" / (lesson + ".md"));
 }
 
+/// The pages in a lesson's folder that are not on the way: all but README.md.
+inline std::string pages_beside(const std::string& lesson) {
+    std::string pages;
+    for (const auto& entry : std::filesystem::directory_iterator(root / "lessons" / lesson))
+        if (entry.path().extension() == ".md" && entry.path().filename() != "README.md")
+            pages += read_text(entry.path());
+    return pages;
+}
+
 /// A lesson's tests: of 04_mvp, those in 04_mvp_test.cpp and in 04_mvp_clip_test.cpp.
 inline std::string tests_of(const std::string& lesson) {
     std::string tests;
@@ -174,7 +183,8 @@ inline std::string all_code() {
 inline std::set<std::string> numbered_equations() {
     std::set<std::string> numbers;
     for (const std::string& name : lessons())
-        for (const std::string& number : all_between(derivation_of(name), "\\tag{", "}"))
+        for (const std::string& number :
+             all_between(derivation_of(name) + pages_beside(name), "\\tag{", "}"))
             numbers.insert(number);
     return numbers;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What lessons 12 and 13 are asked to draw, each beside the lesson before it: models, options and
+/// What lessons 13 and 14 are asked to draw, each beside the lesson before it: models, options and
 /// numbers of threads.
 #pragma once
 
@@ -16,9 +16,9 @@
 #include <gtest/gtest.h>
 
 #include "10_threading/thread_pool.hpp"
-#include "11_scenes/scene_assets.hpp"
-#include "11_scenes/scene_options.hpp"
-#include "12_visibility_buffer/visibility_options.hpp"
+#include "12_effects/effects_options.hpp"
+#include "12_effects/planned_scene.hpp"
+#include "13_visibility_buffer/visibility_options.hpp"
 #include "common/app/counters.hpp"
 #include "support/any_scene.hpp"
 #include "support/name_of_split.hpp"
@@ -41,7 +41,7 @@ inline std::vector<std::unique_ptr<ThreadPool>> pools() {
     return all;
 }
 
-/// @tparam Options  Those of lesson 12 or 13.
+/// @tparam Options  Those of lesson 13 or 14.
 template <typename Options>
 Options small_picture(ivec2 size = {96, 54}) {
     Options options;
@@ -77,8 +77,7 @@ Options any_options(Dice& dice) {
 }
 
 /// The least that tells what a picture of random options is; the seed tells the rest.
-inline std::string in_words(const SceneRendererOptions& options,
-                            const VisibilityOptions& visibility) {
+inline std::string in_words(const EffectsOptions& options, const VisibilityOptions& visibility) {
     return "a picture of " + std::to_string(options.size.x) + " x " +
            std::to_string(options.size.y) + ", --max-ids " + std::to_string(visibility.max_ids) +
            " --shadow-part " + std::to_string(visibility.shadow_part) + " --shadow-size " +
@@ -144,21 +143,21 @@ constexpr auto option_cases = std::to_array<OptionCase<Options>>({
      [](auto& o) { o.shading.all_effects = true, o.visibility.max_ids = 1; }, true},
     {"--depth", [](auto& o) { o.show_depth = true; }},
     {"a camera so near that much is clipped",
-     [](auto& o) { o.scene.camera = "orbit", o.orbit.distance = 0.15f; }},
+     [](auto& o) { o.camera = "orbit", o.orbit.distance = 0.15f; }},
     {"a camera below the floor",
-     [](auto& o) { o.scene.camera = "orbit", o.orbit.pitch_degrees = -60; }},
+     [](auto& o) { o.camera = "orbit", o.orbit.pitch_degrees = -60; }},
 });
 
 /// Calls compare(options, assets, where) for a small picture of a model with each of the options.
 template <typename Options, typename Compare>
 void for_each_option(const std::string& model, Compare&& compare) {
     const Scene scene = loaded(model);
-    const SceneAssets usual_assets = make_scene_assets(scene, small_picture<Options>());
+    const PlannedScene usual_assets = load_planned_scene(scene, small_picture<Options>());
     for (const OptionCase<Options>& one : option_cases<Options>) {
         auto options = small_picture<Options>();
         one.turn(options);
-        std::optional<SceneAssets> own_assets;
-        if (one.changes_assets) own_assets.emplace(make_scene_assets(scene, options));
+        std::optional<PlannedScene> own_assets;
+        if (one.changes_assets) own_assets.emplace(load_planned_scene(scene, options));
         compare(options, own_assets ? *own_assets : usual_assets, model + " with " + one.name);
         if (testing::Test::HasFatalFailure()) return;
     }

@@ -183,8 +183,8 @@ export class Toolchain {
       return kept.answer(JSON.stringify([lesson, sources, level, used]), () => compile(free++, sources, level));
     };
     const changed = apart.filter((source) => uses[source]?.length > 0);  // the others are not needed, or compiled already
-    // From lesson 06 on there is much to draw: what draws is optimised, apart from the rest. From lesson 11 on, that is not main.cpp.
-    const draws = (source) => (source === main ? isLesson && lesson >= "06" && lesson < "11" : /(shaders|shadows)\.cpp$/.test(source));
+    // From lesson 06 on there is much to draw: what draws is optimised, apart from the rest.
+    const draws = (source) => (source === main ? isLesson && lesson >= "06" : /(shadows|casters)\.cpp$/.test(source));
     const unlikeMain = changed.filter((source) => draws(source) !== draws(main));
     const beside = unlikeMain.length > 0 ? unlikeMain : changed;  // on the other core
     const parts = [[...changed.filter((source) => !beside.includes(source)), main], beside]

@@ -11,27 +11,29 @@
 #include <vector>
 
 #include "10_threading/split.hpp"
+#include "common/app/counters.hpp"
 #include "common/image/image.hpp"
 #include "common/math/types.hpp"
+#include "common/probe/pixel_trace.hpp"
 
 namespace rasterbook {
 
-/// The alpha test: whether a surface with holes is there (Eq. 11.7).
+/// The alpha test: whether a surface with holes is there (Eq. 11.6).
 ///
 /// @param opacity  Any number; of NaN, there is a hole.
 template <typename F>
 auto passes_alpha_test(F opacity, float cutoff) {
-    // TODO: Eq. 11.7.
+    // TODO: Eq. 11.6.
     return opacity == opacity;  // true, but for NaN
 }
 
-/// A colour over what lies behind it (Eq. 11.8): exactly itself with an opacity of 1, exactly what
+/// A colour over what lies behind it (Eq. 11.7): exactly itself with an opacity of 1, exactly what
 /// lies behind with one of 0.
 ///
 /// @param opacity      0 to 1.
 /// @param color,behind Finite.
 inline vec3 over(vec3 color, float opacity, vec3 behind) {
-    // TODO: Eq. 11.8.
+    // TODO: Eq. 11.7.
     return color;
 }
 
@@ -49,16 +51,20 @@ struct TransparentFragment {
 /// have no order as a whole.
 class TransparentFragments {
   public:
-    void add(const TransparentFragment& fragment) { fragments_.push_back(fragment); }
+    void add(const TransparentFragment& fragment) {
+        count(Counter::blended_fragments);
+        trace_blended(fragment.opacity, fragment.color);
+        fragments_.push_back(fragment);
+    }
 
     bool empty() const { return fragments_.empty(); }
     const std::vector<TransparentFragment>& fragments() const { return fragments_; }
 
-    /// Blends all of them over the picture (Eq. 11.9). Of two fragments at the same depth, the
+    /// Blends all of them over the picture (Eq. 11.8). Of two fragments at the same depth, the
     /// one that was added first lies on top: it is the first that stays in the depth buffer, too.
     void blend_over(Image<vec3>& color) {
         // TODO: sort, in each pixel from the farthest to the nearest, and blend in this order
-        // (Eq. 11.9).
+        // (Eq. 11.8).
         fragments_.clear();
     }
 

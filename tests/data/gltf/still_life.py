@@ -2,7 +2,7 @@
 
     blender -b --factory-startup --python still_life.py -- FOLDER
 
-All is matte, in hard light: what Blender and lesson 11 agree on. Blender's tracer follows a ray to
+All is matte, in hard light: what Blender and lesson 12 agree on. Blender's tracer follows a ray to
 the sun for each of 256 samples a pixel; it has no shadow map, no depth buffer and no mip levels.
 """
 import math

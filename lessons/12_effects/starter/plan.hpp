@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a scene calls for, and why it does not call for the rest. Introduced in lesson 12;
+/// derivation: docs/derivations/12_effects.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "06_phong/effects.hpp"
+#include "07_toon/material_outlines.hpp"
+#include "11_scenes/scene_assets.hpp"
+
+namespace rasterbook {
+
+constexpr std::array<std::string_view, effect_count> effect_names = {
+    "light",      "highlight", "texture", "specular map", "emission map", "vertex colours",
+    "normal map", "shadow",    "toon",    "outline",      "mask",         "blend"};
+
+/// A material's effects. Where one does not run, why.
+struct MaterialPlan {
+    EffectMask effects;
+    std::array<std::string_view, effect_count> why_not;
+    bool is_seen = false;  ///< A triangle has it.
+
+    bool operator[](Effect effect) const { return effects[effect]; }
+
+    /// @param reason  Why it does not run; of no meaning if it does. A literal: it is not copied.
+    void set(Effect effect, bool is_on, const char* reason) {
+        effects.set(effect, is_on);
+        why_not[static_cast<std::size_t>(effect)] = is_on ? "" : reason;
+    }
+};
+
+/// The plan of a scene: for each material its effects.
+struct ScenePlan {
+    std::vector<MaterialPlan> materials;
+
+    /// Whether an effect runs for any material that is seen.
+    bool any(Effect effect) const {
+        for (const MaterialPlan& plan : materials)
+            if (plan.is_seen && plan[effect]) return true;
+        return false;
+    }
+};
+
+/// What a material's plan depends on beside the material.
+struct PlanInputs {
+    EffectMask has;        ///< What lesson 08 knows: the maps that it has, and a highlight.
+    bool has_colors;       ///< Vertices with it have colours.
+    bool has_shadows;      ///< There are a caster and a receiver.
+    bool has_normal_maps;  ///< They are read at all.
+    bool all_effects;      ///< Each effect runs that can be given inputs which change nothing.
+};
+
+/// Plans what is computed for a material (Eq. 12.1).
+///
+/// With all effects forced, each one runs that can be given inputs which change nothing: a white
+/// texture, a black highlight, white vertices, a flat normal map, empty shadow maps, an opacity of
+/// 1; and for unlit materials the two colours of a toon material, both the same.
+inline MaterialPlan plan_material(const Material& material, const PlanInputs& inputs) {
+    // TODO, step 1 (Eq. 12.1): which effects run, and why each of the others does not.
+    MaterialPlan plan;
+    for (std::size_t i = 0; i < effect_count; ++i)
+        plan.set(static_cast<Effect>(i), inputs.has[static_cast<Effect>(i)], "not planned yet");
+    return plan;
+}
+
+}  // namespace rasterbook

@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "13_simd/wide_shading.hpp"
-
-template rasterbook::WideDrawing rasterbook::drawing_of_width<16>();

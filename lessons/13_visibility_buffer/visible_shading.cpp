@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#include "13_visibility_buffer/visible_shading.hpp"
+
+namespace rasterbook {
+
+template class VisibleShaders<ShadowMapsOnDemand>;
+
+}  // namespace rasterbook
