@@ -228,9 +228,9 @@ void trace_position(const glm::vec<3, F>& position_world) {
 }
 
 /// Notes that a fragment is blended over what lies behind.
-inline void trace_blended(float opacity, vec3 color) {
+inline void trace_blended(ivec2 pixel, float opacity, vec3 color) {
     if constexpr (has_probe)
-        if (is_traced()) pixel_trace->blend(opacity, color);
+        if (is_traced() && pixel == pixel_trace->pixel()) pixel_trace->blend(opacity, color);
 }
 
 /// Notes that a fragment lies in a hole.

@@ -51,7 +51,7 @@ class TransparentFragments {
   public:
     void add(const TransparentFragment& fragment) {
         count(Counter::blended_fragments);
-        trace_blended(fragment.opacity, fragment.color);
+        trace_blended(fragment.pixel, fragment.opacity, fragment.color);
         fragments_.push_back(fragment);
     }
 

@@ -32,9 +32,11 @@ struct Casters {
 /// Draws a caster's depths into a tile of a map, but for its holes (Eq. 11.6).
 inline void draw_caster_with_holes(ShadowMap& map, const Casters& casters,
                                    const ProjectedTriangle& caster, const Tile& tile) {
-    // TODO, step 3: as main.cpp does it, with alpha_inputs() and texture_color(): what is nearer
-    // takes the alpha test (Eq. 7.17) before its depth is written. Count each fragment as one of
-    // Counter::shadow_fragments, and each that is tested as one of Counter::alpha_tested_texels.
+    // TODO, step 3: as main.cpp does it, with alpha_inputs(*casters.assets, caster) of opacity.hpp,
+    // and with texture_color() in place of texture_sample(): what is nearer than
+    // map.depths.depths()[texel + max_pcf_radius] takes the alpha test (Eq. 11.6) before its depth
+    // is written. Count each fragment as one of Counter::shadow_fragments, and each that is tested
+    // as one of Counter::alpha_tested_texels.
     draw_caster(map, caster, tile);
 }
 

@@ -21,8 +21,9 @@ namespace rasterbook {
 
 /// A file's camera. It only turns and moves, so its inverse is as exact as its numbers.
 inline Camera camera_of(const SceneCamera& from) {
-    // TODO, step 1: the inverse of from.world_from_view, in double, is Camera::view_from_world; its
-    // last column is the position, and the camera looks along its own -z.
+    // TODO, step 1: from.world_from_view has the camera's position in its last column, and in its
+    // third one the direction back; center_world lies 1 in front. Its inverse, computed in double,
+    // is Camera::view_from_world. The angle, the near and the far plane are the file's.
     return {vec3(0, 1, 8), glm::translate(mat4(1), -vec3(0, 1, 8)), from.fov_y_radians, from.near};
 }
 
@@ -35,8 +36,9 @@ constexpr double fitted_share = 0.9;
 /// @param size    Of the picture.
 /// @return        In radii of the box; orbit.distance for an empty box, or one of no size.
 inline float fitting_distance(const Orbit& orbit, const Bounds& bounds, ivec2 size) {
-    // TODO, step 1: Eq. 11.3, over the eight corners of the box. direction_from_angles() gives the
-    // direction back to the camera, and with 90 degrees more of pitch the direction up.
+    // TODO, step 1: Eq. 11.1, over the eight corners of the box. direction_from_angles() gives the
+    // direction back to the camera, and with 90 degrees more of pitch the direction up. What is
+    // returned is D in radii of the box; where that is no positive, finite float, orbit.distance.
     return orbit.distance;
 }
 

@@ -38,7 +38,7 @@ constexpr std::array all_permutations = {
 /// The number of the permutation that is compiled with all that a material calls for, and with as
 /// little beyond it as possible.
 inline std::size_t permutation_of(EffectMask wanted) {
-    // TODO, step 2: the number of a permutation with all that is wanted (Eq. 13.1).
+    // TODO, step 2: the number of a permutation with all that is wanted (Eq. 12.2).
     return 0;
 }
 

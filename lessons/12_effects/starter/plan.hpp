@@ -61,7 +61,11 @@ struct PlanInputs {
 /// texture, a black highlight, white vertices, a flat normal map, empty shadow maps, an opacity of
 /// 1; and for unlit materials the two colours of a toon material, both the same.
 inline MaterialPlan plan_material(const Material& material, const PlanInputs& inputs) {
-    // TODO, step 1 (Eq. 12.1): which effects run, and why each of the others does not.
+    // TODO, step 1 (Eq. 12.1): which effects run, and why each of the others does not: "unlit" or
+    // "a comic's paint" (of a toon material) for what takes light; else "illum 1" or "black" for a
+    // highlight, "names no picture" for textures, "none are read" or "names none" for a normal
+    // map, "nothing casts one" for a shadow; "vertices have none"; "not asked for" for toon and
+    // outline; "no holes" (of glass) or "opaque" for a mask, "holes only" or "opaque" for blending.
     MaterialPlan plan;
     for (std::size_t i = 0; i < effect_count; ++i)
         plan.set(static_cast<Effect>(i), inputs.has[static_cast<Effect>(i)], "not planned yet");
