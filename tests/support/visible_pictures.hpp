@@ -144,8 +144,7 @@ constexpr auto option_cases = std::to_array<OptionCase<Options>>({
     {"--depth", [](auto& o) { o.show_depth = true; }},
     {"a camera so near that much is clipped",
      [](auto& o) { o.camera = "orbit", o.orbit.distance = 0.15f; }},
-    {"a camera below the floor",
-     [](auto& o) { o.camera = "orbit", o.orbit.pitch_degrees = -60; }},
+    {"a camera below the floor", [](auto& o) { o.camera = "orbit", o.orbit.pitch_degrees = -60; }},
 });
 
 /// Calls compare(options, assets, where) for a small picture of a model with each of the options.
