@@ -45,8 +45,8 @@ inline std::size_t permutation_of(EffectMask wanted) {
 /// For each material its shader: one of those that are compiled, for all permutations, from one
 /// generic lambda.
 ///
-/// @tparam Draw  Of [&]<Permutation with>(const ProjectedTriangle&, const Tile&,
-///               TransparentFragments&).
+/// @tparam Draw  Of a lambda whose template argument is a Permutation, and which is called with a
+///               triangle, a tile and what takes its transparent fragments.
 template <typename Draw>
 class Shaders {
   public:
