@@ -243,7 +243,8 @@ async function explain() {
   const { text } = await ask("probe", { side: probedSide, pixel: probed });
   reasons.replaceChildren(...text.trimEnd().split(/(Eq\. \d+\.\d+)/).map((part) => {
     const [, lesson, number] = part.match(/^Eq\. (\d+)\.(\d+)$/) ?? [];
-    return lesson ? element("a", { textContent: part, href: `derivation_${lesson.padStart(2, "0")}.html#eq_${lesson}_${number}` }) : part;
+    const page = lesson === "7" && number > 14 ? "toon_materials" : `derivation_${lesson?.padStart(2, "0")}`;
+    return lesson ? element("a", { textContent: part, href: `${page}.html#eq_${lesson}_${number}` }) : part;
   }));
 }
 

@@ -7,14 +7,25 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 LESSONS = sorted(folder.name for folder in (ROOT / "lessons").glob("[0-9][0-9]_*"))
 FILES = Counter(file.name for file in (ROOT / "lessons").glob("[0-9][0-9]_*/*.[ch]pp"))
+# Equations of pages beside the way, by their numbers: the name of the page.
+BESIDE = {
+    tuple(number.split(".")): page.stem
+    for page in (ROOT / "lessons").glob("[0-9][0-9]_*/[a-z]*.md")
+    for number in re.findall(r"\\tag\{([\d.]+)\}", page.read_text(encoding="utf-8"))
+}
 EQUATION = re.compile(r"\bEq\. \d+\.\d+(?:(?:, | and )\d+\.\d+)*")
+
+
+def page_of(chapter: str, number: str) -> str:
+    """The name of the page that an equation stands on."""
+    return BESIDE.get((chapter, number), f"derivation_{int(chapter):02}")
 
 
 def link_equations(citation: str) -> str:
     """Makes links of "Eq. 1.3", or of each number in "Eq. 1.3 and 1.4"."""
     return re.sub(
         r"(?:Eq\. )?(\d+)\.(\d+)",
-        lambda found: f"[{found[0]}](derivation_{int(found[1]):02}.html#eq_{found[1]}_{found[2]})",
+        lambda found: f"[{found[0]}]({page_of(found[1], found[2])}.html#eq_{found[1]}_{found[2]})",
         citation,
     )
 

@@ -417,7 +417,8 @@ function withLink(text) {
   if (!found) return [text];
   const [line, place, lesson, chapter, equation] = found;
   const begin = found.index + line.length - place.length;
-  const link = element("a", { href: `derivation_${lesson}.html#eq_${chapter}_${equation}`, textContent: place });
+  const page = chapter === "7" && equation > 14 ? "toon_materials" : `derivation_${lesson}`;
+  const link = element("a", { href: `${page}.html#eq_${chapter}_${equation}`, textContent: place });
   return [text.slice(0, begin), link, text.slice(begin + place.length)];
 }
 
