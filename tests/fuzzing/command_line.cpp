@@ -59,13 +59,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             words.emplace_back();
         else
             words.back() += static_cast<char>(data[i]);
-    words.insert(words.begin(), "11_scenes");
+    words.insert(words.begin(), "12_effects");
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
 
     lesson_12::Options options;
     const std::optional<int> status =
-        read_command_line({"11_scenes",
+        read_command_line({"12_effects",
                            "",
                            options,
                            &options.orbit,

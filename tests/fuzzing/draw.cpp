@@ -240,7 +240,7 @@ void draw_09(Numbers& numbers, const Scene& scene, ivec2 size) {
     expect_finite(lesson_09::render(options, lesson_09::make_assets(scene, options)));
 }
 
-void draw_11(Numbers& numbers, const Scene& scene, ivec2 size) {
+void draw_12(Numbers& numbers, const Scene& scene, ivec2 size) {
     static ThreadPool one(1), three(3);
     auto options = any_options<lesson_12::Options>(numbers, size, numbers.flag());
     options.threads.split = numbers.one_of({Split::rows, Split::interleaved, Split::tiles});
@@ -259,7 +259,7 @@ void draw_11(Numbers& numbers, const Scene& scene, ivec2 size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Numbers numbers(data, size);
-    const auto draw = numbers.one_of({draw_03, draw_09, draw_11});
+    const auto draw = numbers.one_of({draw_03, draw_09, draw_12});
     const int width = numbers.whole(1, 24);
     const ivec2 picture_size(width, numbers.whole(1, 12));
     draw(numbers, any_scene(numbers), picture_size);
