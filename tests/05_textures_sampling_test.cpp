@@ -180,7 +180,9 @@ TEST(Textures, Eq5_5_AnyTexelIsSeenInsideOfIt) {
             for (int i = 0; i < cases_of(2000); ++i) {
                 // Coordinates are rounded by less than 1/100 of a texel.
                 const int reach = i % 2 ? 100'000 : 2000;
-                const auto any = [&] { return static_cast<int>(mix.below(2u * reach)) - reach; };
+                const auto any = [&] {
+                    return static_cast<int>(mix.below(2u * static_cast<unsigned>(reach))) - reach;
+                };
                 const ivec2 texel(any(), any());
                 const vec2 inside = 0.02f + 0.96f * vec2(mix.share(), mix.share());
                 const vec2 uv = (vec2(texel) + inside) / vec2(size);
@@ -316,7 +318,7 @@ TEST(Textures, Eq5_8_ExamplesOfLevels) {
 TEST(Textures, HardCase_FootprintsThatAreNotNumbers) {
     look_up("Eq. 5.8: what log2 is never asked for");
     constexpr ivec2 size(8, 8);
-    const auto level = [](vec4 steps) {
+    const auto level = [&](vec4 steps) {
         return level_of_detail({steps.x, steps.y}, {steps.z, steps.w}, size);
     };
     // One of four is not a number, in turn, and the others have levels of their own.

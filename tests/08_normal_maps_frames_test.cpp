@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <numbers>
 #include <random>
@@ -441,7 +442,8 @@ TEST(NormalMaps, Eq8_6_FansOfSlantedFaces) {
         }
         if (glm::length(sum) < 0.5) continue;  // they nearly cancel
         // Some roundings of each of five terms up to pi, over the length of their sum.
-        const vec4 found = Patch(positions, uvs, faces, normals).tangent(i % 5, 0);
+        const vec4 found =
+            Patch(positions, uvs, faces, normals).tangent(static_cast<std::size_t>(i % 5), 0);
         ASSERT_TRUE(are_near(found, dvec4(glm::normalize(sum), 1), 5e-5))
             << "tangent and handedness of the vertex that five slanted faces share, with the "
                "normal "
@@ -619,7 +621,7 @@ TEST(NormalMaps, HardCase_TangentsThatCancel) {
     // are added as they are, all bits of them: opposite ones leave 0. So they do among a million
     // others, of triangles that are points: those are 0 but count.
     const vec3 first(1, 0.3f, 0), second(-0.2f, 1, 0);
-    for (const std::size_t points : {0, 0x100000 / 3}) {
+    for (const std::size_t points : std::initializer_list<std::size_t>{0, 0x100000 / 3}) {
         std::vector<std::array<std::uint32_t, 3>> faces(points, {0, 0, 0});
         faces.insert(faces.end(), {{0, 1, 2}, {0, 3, 4}});
         const Patch patch({vec3(0), first, second, -first, -second},

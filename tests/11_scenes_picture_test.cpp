@@ -160,7 +160,7 @@ TEST(SceneFiles, HardCase_TooMuchOverdrawIsAnError) {
     for (int i = 0; i < 10; ++i) squares.add(0, vec3(1));
     squares.scene.file = "ten.obj";
     // Ten, and something for their borders; a small picture may have more.
-    for (const auto& [size, limit] : {std::pair(ivec2(1024), 11), {{512, 256}, 2}}) {
+    for (const auto& [size, limit] : {std::pair(ivec2(1024), std::uint64_t{11}), {{512, 256}, 2}}) {
         squares.scene.budget.set(Resource::overdraw, limit);
         EXPECT_NO_THROW(drawn(squares.scene, small_picture(size))) << limit;
     }

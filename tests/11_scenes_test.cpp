@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -239,9 +240,12 @@ TEST(Scenes, Eq11_8_FragmentsAreBlendedBackToFrontInWhateverOrderTheyCome) {
         Image<vec3> actual({5, 4}, vec3(0.25f)), expected = actual;
         gathered.blend_over(actual);
         // The farthest first, and of equals the last.
-        std::ranges::reverse(transparent);
-        std::ranges::stable_sort(transparent, {}, &TransparentFragment::depth);
-        for (const TransparentFragment& fragment : transparent) {
+        std::vector<std::pair<float, std::size_t>> order;
+        for (std::size_t i = 0; i < transparent.size(); ++i)
+            order.emplace_back(transparent[i].depth, transparent.size() - i);
+        std::ranges::sort(order);
+        for (const auto& [depth, from_end] : order) {
+            const TransparentFragment& fragment = transparent[transparent.size() - from_end];
             vec3& pixel = expected[fragment.pixel];
             pixel = fragment.opacity * fragment.color + (1 - fragment.opacity) * pixel;
         }

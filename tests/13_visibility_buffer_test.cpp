@@ -110,7 +110,9 @@ std::vector<ProjectedTriangle> coarse_triangles(Dice& dice, ivec2 size) {
             if (is_the_last_again) break;
             const auto coarse = [&] { return 0.25f * static_cast<float>(dice.below(13)) - 1.5f; };
             const float x = coarse(), y = coarse(), w = dice.one_in(4) ? 2.0f : 1.0f;
-            const float z = 0.25f * static_cast<float>(faces_the_camera ? k % 5 : dice.below(5));
+            const float z =
+                0.25f * static_cast<float>(faces_the_camera ? static_cast<std::uint32_t>(k % 5)
+                                                            : dice.below(5));
             vertex = {x, y, z * (faces_the_camera ? w : 1), w};
         }
         for (const ClippedTriangle& clipped : clip_triangle(vertices))

@@ -469,7 +469,8 @@ TEST(Simd, Eq14_2_TileDepthsAreADepthBuffers) {
             DepthBuffer expected(first + size);
             for (int i = 0; i < 60; ++i) {
                 const int row = static_cast<int>(dice.below(6)) % size.y / tile.row_step;
-                const ivec2 pixel = first + ivec2(dice.below(40) % size.x, row * tile.row_step);
+                const ivec2 pixel =
+                    first + ivec2(static_cast<int>(dice.below(40)) % size.x, row * tile.row_step);
                 PerLane<float, N> at;
                 for (float& x : at)
                     x = dice.one_in(8) ? any_float(dice) : 0.125f * float(dice.below(10));

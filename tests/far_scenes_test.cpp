@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,7 +76,7 @@ struct Shape {
         for (const Whole3 p : points)
             for (int i = 0; i < 3; ++i) numbers.push_back(static_cast<double>(p[i]) / 1000);
         for (std::size_t i = 0; i < points.size(); i += 3)
-            for (const std::size_t k : {0, 1, 2, 0, 2, 1})
+            for (const std::size_t k : std::initializer_list<std::size_t>{0, 1, 2, 0, 2, 1})
                 indices.push_back(static_cast<double>(i + k));
         made.document["meshes"] = {
             {{"primitives",

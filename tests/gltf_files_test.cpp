@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
 #include <random>
 #include <set>
 
@@ -179,7 +180,7 @@ TEST(GltfFiles, BuffersMayBeLongerThanTheySay) {
     };
     const Mesh expected = read(plain, GltfForm::embedded);
     for (const GltfForm form : {GltfForm::embedded, GltfForm::separate, GltfForm::binary})
-        for (const std::size_t more : {1, 2, 3, 4, 8, 1000}) {
+        for (const std::size_t more : std::initializer_list<std::size_t>{1, 2, 3, 4, 8, 1000}) {
             SCOPED_TRACE(more);
             GltfBuilder made = plain;
             made.document["buffers"][0]["byteLength"] = made.bytes.size();
@@ -228,8 +229,10 @@ TEST(GltfFiles, DataUrisAreReadWhateverTheirMediaType) {
     const fs::path folder = fresh_folder("gltf_data_uris");
     const std::string in_base64 = base64(made.bytes), digits = "0123456789ABCDEF";
     std::string as_bytes, encoded;
-    for (const unsigned char c : made.bytes)
+    for (const char character : made.bytes) {
+        const auto c = static_cast<unsigned char>(character);
         as_bytes += std::string("%") + digits[c / 16] + digits[c % 16];
+    }
     for (const char c : in_base64)
         encoded += c == '+' ? "%2B" : c == '/' ? "%2f" : c == '=' ? "%3D" : std::string(1, c);
     for (const std::string& uri :
@@ -255,7 +258,7 @@ TEST(GltfFiles, BytesBehindABinaryFileAreAWarning) {
                                    little_endian(text.size(), 4) + "JSON" + text;
     const std::string with_buffer = read_text(one_triangle().write(file, GltfForm::binary));
     for (const std::string& whole : {with_buffer, json_alone})
-        for (const std::size_t more : {0, 1, 3, 4, 8, 20, 5000}) {
+        for (const std::size_t more : std::initializer_list<std::size_t>{0, 1, 3, 4, 8, 20, 5000}) {
             std::ofstream(file, std::ios::binary) << whole << std::string(more, 'x');
             const Scene scene = load_model(file);
             EXPECT_EQ(scene.bounds().max, vec3(1, 1, 0));
@@ -275,7 +278,7 @@ TEST(GltfFiles, ImagesThatAreNotReadAreNamedAndReplaced) {
             "\"/textures/0\": {\"extensions\": {\"" + extension + "\": {\"source\": 0}}}",
             no_image + " but that of " + extension + ", which is not read");
     };
-    const auto data = [&](const std::string& type) {
+    const auto image_data = [&](const std::string& type) {
         return "\"/images/0/uri\": \"data:" + type + ";base64," + webp + "\"";
     };
     const std::vector<std::pair<std::string, std::string>> cases = {
@@ -285,8 +288,8 @@ TEST(GltfFiles, ImagesThatAreNotReadAreNamedAndReplaced) {
         only_in("EXT_texture_avif"),
         {R"("/textures/0": {})", no_image},
         {R"("/images/0": {"name": "empty"})", "image 0 has neither uri nor bufferView"},
-        {data("image/webp"), "image 0 (image/webp)" + other_kind},
-        {data(""), "image 0" + other_kind},
+        {image_data("image/webp"), "image 0 (image/webp)" + other_kind},
+        {image_data(""), "image 0" + other_kind},
         {R"("/images/0": {"bufferView": 0, "mimeType": "image/webp"})",
          "image 0 (image/webp)" + other_kind}};
     const fs::path folder = fresh_folder("gltf_kinds");

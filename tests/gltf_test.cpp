@@ -305,8 +305,9 @@ TEST(Gltf, FiguresStandInTheirBindPose) {
     for (int i = 0; i < 400; ++i) {
         SCOPED_TRACE("seed 2, case " + std::to_string(i));
         const int joint_type = i % 2 ? gl_unsigned_byte : gl_unsigned_short;
-        const int weight_type = std::array{gl_float, gl_unsigned_byte, gl_unsigned_short}[i % 3];
-        const double whole = std::array{1, 255, 65535}[i % 3];
+        const int weight_type = std::array{gl_float, gl_unsigned_byte,
+                                           gl_unsigned_short}[static_cast<std::size_t>(i % 3)];
+        const double whole = std::array{1, 255, 65535}[static_cast<std::size_t>(i % 3)];
         const bool has_inverse_binds = i % 5 != 0;
         constexpr std::size_t count = 5;
         // Node 0 has the mesh, and a place that must not matter; then a chain of joints.

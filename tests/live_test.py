@@ -264,7 +264,7 @@ def check_quality(page: LivePage, address: str, build: Path) -> list[str]:
     command = page.all(".live .commands code")[0].text.split()[2:]
     if command != "--size 480x270 --quality fast --filter trilinear".split():
         return [f"shows the options {' '.join(command)}"]
-    if page.pixels != native_bytes(build, "11_scenes", command):
+    if page.pixels != native_bytes(build, "12_effects", command):
         return ["--quality counts more than an option of its own"]
     return []
 
