@@ -75,7 +75,8 @@ FragmentColor<F> surface_color(const SurfaceInputs<G>& surface, const ColorInput
 template <typename F>
 F opacity_at(const TriangleSurface& surface, const VertexColors& colors, Vec3<F> at,
              const glm::vec<4, F>& in_texture) {
-    if (surface.material.alpha != AlphaMode::mask && !is_glass(surface.material)) return F(1.0f);
+    if (surface.material.alpha != AlphaMode::mask && !is_transparent(surface.material))
+        return F(1.0f);
     F opacity = F(surface.material.opacity) * in_texture.a;
     if (colors.are_there) opacity *= colors.at(at).a;
     return clamp(opacity, F(0.0f), F(1.0f));

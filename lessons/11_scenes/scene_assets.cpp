@@ -35,7 +35,7 @@ void leave_out_shadows(SceneLights& lit_by, const ShadowBounds& bounds, int shad
 /// What a material calls for beside what lesson 08 knows of. (Toon materials have no highlights.)
 void add_effects_of_scenes(EffectMask& effects, const Material& material) {
     effects.set(Effect::mask, material.alpha == AlphaMode::mask);
-    effects.set(Effect::blend, is_glass(material));
+    effects.set(Effect::blend, is_transparent(material));
     if (!material.toon) return;
     effects.set(Effect::toon);
     effects.set(Effect::light);
@@ -87,7 +87,7 @@ SceneAssets load_scene_assets(Scene from, const SceneOptions& options) {
         const Material& material = scene.materials[i];
         add_effects_of_scenes(made.effects[i], material);
         const bool two_sided = material.two_sided || options.shading.two_sided;
-        passes.push_back({is_glass(material), is_glass(material),
+        passes.push_back({is_transparent(material), is_transparent(material),
                           two_sided && i < first_outline ? Culling::none : Culling::back_faces});
         if (!material.opacity_map.file.empty())
             scene.warnings.push_back("material \"" + material.name +

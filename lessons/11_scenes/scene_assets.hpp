@@ -32,8 +32,8 @@ struct SceneLights {
 /// Triangles that are drawn together: all opaque, or all glass; all seen from both sides, or all
 /// from the front alone.
 struct Pass {
-    bool is_blended = false;  ///< They become transparent fragments.
-    bool is_glass = false;    ///< They would without --all-effects, too.
+    bool is_blended = false;      ///< They become transparent fragments.
+    bool is_transparent = false;  ///< They would without --all-effects, too.
     Culling culling = Culling::back_faces;
 
     bool operator==(const Pass&) const = default;
@@ -52,7 +52,7 @@ struct SceneAssets {
 };
 
 /// Whether a material is glass: what lies behind shines through.
-inline bool is_glass(const Material& material) {
+inline bool is_transparent(const Material& material) {
     return material.alpha != AlphaMode::mask &&
            (material.alpha == AlphaMode::blend || material.opacity < 1);
 }

@@ -85,8 +85,8 @@ inline MaterialPlan plan_material(const Material& material, const PlanInputs& in
              is_unlit ? "unlit" : "nothing casts one");
     plan.set(Effect::toon, is_toon, "not asked for");
     plan.set(Effect::outline, has_outline(material), "not asked for");
-    plan.set(Effect::mask, is_masked, is_glass(material) ? "no holes" : "opaque");
-    plan.set(Effect::blend, is_glass(material) || inputs.all_effects,
+    plan.set(Effect::mask, is_masked, is_transparent(material) ? "no holes" : "opaque");
+    plan.set(Effect::blend, is_transparent(material) || inputs.all_effects,
              is_masked ? "holes only" : "opaque");
     return plan;
 }

@@ -74,8 +74,8 @@ FragmentColor<F> surface_color(const SurfaceInputs<G>& surface, const ColorInput
 template <typename F>
 F opacity_at(const TriangleSurface& surface, const VertexColors& colors, Vec3<F> at,
              const glm::vec<4, F>& in_texture) {
-    // TODO, step 3: 1 for a material that has neither holes (AlphaMode::mask) nor is_glass(); else
-    // the product of Eq. 11.6, clamped. Vertices have an alpha only if colors.are_there.
+    // TODO, step 3: 1 for a material that has neither holes (AlphaMode::mask) nor is_transparent();
+    // else the product of Eq. 11.6, clamped. Vertices have an alpha only if colors.are_there.
     return F(1.0f);
 }
 
